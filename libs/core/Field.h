@@ -1,0 +1,43 @@
+/** How an option describes itself: once, for loading, checking, the default file and the manual (config/). */
+#pragma once
+#include <limits>
+#include <string>
+
+namespace scanloom
+{
+/** Closed interval, or open at the lower end. */
+struct Bounds
+{
+  double lowest = -std::numeric_limits<double>::infinity();
+  double highest = std::numeric_limits<double>::infinity();
+  bool lowest_excluded = false;
+};
+
+constexpr Bounds unbounded() { return {}; }
+constexpr Bounds above(double limit) { return {limit, std::numeric_limits<double>::infinity(), true}; }
+constexpr Bounds atLeast(double limit) { return {limit, std::numeric_limits<double>::infinity(), false}; }
+constexpr Bounds between(double lowest, double highest) { return {lowest, highest, false}; }
+
+/**
+ * The description of one option. An options struct names each field once, with its default at the member:
+ *
+ *   struct LocalMapOptions
+ *   {
+ *     double keyframe_distance = 4.0;
+ *     template <typename Self, typename Visitor>
+ *     static void fields(Self& o, Visitor&& visit)
+ *     {
+ *       visit(o.keyframe_distance, Field{"keyframe_distance", "m", "travel before a new keyframe", above(0)});
+ *     }
+ *   };
+ *
+ * Members are bool, int, double or std::string.
+ */
+struct Field
+{
+  std::string name;
+  std::string unit;     // "m", "s", "deg", "" for a pure number
+  std::string meaning;  // one phrase
+  Bounds bounds = unbounded();
+};
+}  // namespace scanloom

@@ -1,0 +1,42 @@
+#include "core/PointCloud.h"
+
+#include <stdexcept>
+
+namespace scanloom
+{
+void PointCloud::resize(std::size_t n)
+{
+  forEachField(*this, [n](auto& field) { field.resize(n); });
+}
+
+void PointCloud::reserve(std::size_t n)
+{
+  forEachField(*this, [n](auto& field) { field.reserve(n); });
+}
+
+void PointCloud::append(const PointCloud& other, std::size_t i)
+{
+  x.push_back(other.x[i]);
+  y.push_back(other.y[i]);
+  z.push_back(other.z[i]);
+  intensity.push_back(other.intensity[i]);
+  t.push_back(other.t[i]);
+  ring.push_back(other.ring[i]);
+  column.push_back(other.column[i]);
+  sensor_id.push_back(other.sensor_id[i]);
+  range.push_back(other.range[i]);
+  signal.push_back(other.signal[i]);
+  near_ir.push_back(other.near_ir[i]);
+}
+
+void PointCloud::keep(const std::vector<std::uint8_t>& keep)
+{
+  if (keep.size() != size()) throw std::invalid_argument("PointCloud::keep: one flag per point is needed");
+  forEachField(*this, [&keep](auto& field) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < field.size(); ++i)
+      if (keep[i]) field[kept++] = field[i];
+    field.resize(kept);
+  });
+}
+}  // namespace scanloom

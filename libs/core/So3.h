@@ -1,0 +1,20 @@
+/** The rotation group: exponential, logarithm and right Jacobian (Forster 2017, eq. (3) to (9)); radians. */
+#pragma once
+#include <Eigen/Geometry>
+
+namespace scanloom
+{
+Eigen::Matrix3d skew(const Eigen::Vector3d& v);
+
+/** Rotation by |v| rad about v; exact to rounding also at |v| -> 0. */
+Eigen::Quaterniond expSo3(const Eigen::Vector3d& v);
+
+/** The rotation vector of a unit quaternion, |result| <= pi; inverse of expSo3. */
+Eigen::Vector3d logSo3(const Eigen::Quaterniond& q);
+
+/** exp(v + dv) ~ exp(v) exp(Jr(v) dv), Forster 2017 eq. (8). */
+Eigen::Matrix3d rightJacobianSo3(const Eigen::Vector3d& v);
+
+/** Inverse of rightJacobianSo3; log(exp(v) exp(dv)) ~ v + Jr^-1(v) dv, eq. (9). Valid for |v| < 2 pi. */
+Eigen::Matrix3d rightJacobianInverseSo3(const Eigen::Vector3d& v);
+}  // namespace scanloom

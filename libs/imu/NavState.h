@@ -1,0 +1,24 @@
+#pragma once
+#include "core/Rigid.h"
+#include "core/Time.h"
+
+namespace scanloom
+{
+struct ImuBias
+{
+  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // rad/s
+  Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // m/s2
+};
+
+/** The IMU at one instant. The map frame's z axis is up: gravity is (0, 0, -kGravity) there. */
+struct NavState
+{
+  Timestamp stamp;
+  Rigid map_T_imu;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the IMU, in the map frame
+  ImuBias bias;
+};
+
+inline constexpr double kGravity = 9.80665;  // m/s2, standard gravity (BIPM, 3rd CGPM 1901)
+inline Eigen::Vector3d gravityInMap() { return {0, 0, -kGravity}; }
+}  // namespace scanloom

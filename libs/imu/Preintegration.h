@@ -1,0 +1,64 @@
+/**
+ * IMU readings between two instants as one relative motion with covariance and first-order bias correction.
+ * C. Forster, L. Carlone, F. Dellaert, D. Scaramuzza: On-Manifold Preintegration for Real-Time Visual-Inertial
+ * Odometry, IEEE Trans. Robotics 33 (2017); equation numbers below are its.
+ */
+#pragma once
+#include "core/Field.h"
+#include "core/ImuSample.h"
+#include "imu/NavState.h"
+
+#include <vector>
+
+namespace scanloom
+{
+/** White noise densities and bias random walks. */
+struct ImuNoise
+{
+  double gyro_noise_deg = 0.003;      // deg/s/sqrt(Hz)
+  double accel_noise = 2.5e-4;        // m/s2/sqrt(Hz)
+  double gyro_bias_walk_deg = 4e-4;   // deg/s/sqrt(s)
+  double accel_bias_walk = 1e-4;      // m/s2/sqrt(s)
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.gyro_noise_deg, Field{"gyro_noise_deg", "deg/s/sqrt(Hz)", "white noise density of the gyroscope", above(0)});
+    visit(o.accel_noise, Field{"accel_noise", "m/s2/sqrt(Hz)", "white noise density of the accelerometer", above(0)});
+    visit(o.gyro_bias_walk_deg, Field{"gyro_bias_walk_deg", "deg/s/sqrt(s)", "random walk of the gyroscope's bias", above(0)});
+    visit(o.accel_bias_walk, Field{"accel_bias_walk", "m/s2/sqrt(s)", "random walk of the accelerometer's bias", above(0)});
+  }
+};
+
+/** Tangent order of the 9-vectors: rotation, velocity, position (as in the paper). */
+using Vector9d = Eigen::Matrix<double, 9, 1>;
+using Matrix9d = Eigen::Matrix<double, 9, 9>;
+
+struct Preintegration
+{
+  Timestamp from, to;
+  ImuBias bias;                                                // linearisation point
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // Delta R_ij, eq. (35)
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          // Delta v_ij
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();          // Delta p_ij
+  Matrix9d covariance = Matrix9d::Zero();                      // eq. (63)
+  Eigen::Matrix3d rotation_by_gyro = Eigen::Matrix3d::Zero();  // the five bias Jacobians, eq. (44) and appendix B
+  Eigen::Matrix3d velocity_by_gyro = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d velocity_by_accel = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d position_by_gyro = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d position_by_accel = Eigen::Matrix3d::Zero();
+  std::vector<ImuSample> samples;  // to integrate again when the bias has moved too far
+
+  double duration() const { return seconds(to - from); }
+};
+
+/** From samples in time order whose first and last stamps are the interval's ends (ImuBuffer::between); at least two. */
+Preintegration preintegrate(std::vector<ImuSample> samples, const ImuBias&, const ImuNoise&);
+
+/** Where the IMU is at `motion.to` if it was at `from` at motion.from; bias deviations are corrected to first order. */
+NavState predict(const NavState& from, const Preintegration& motion);
+
+/** Poses at each of `stamps` (sorted, within the samples' span), integrating the samples from `from` with its bias. */
+std::vector<NavState> predictAt(const NavState& from, const std::vector<ImuSample>& samples,
+                                const std::vector<Timestamp>& stamps);
+}  // namespace scanloom
