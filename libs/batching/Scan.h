@@ -27,9 +27,9 @@ struct Scan
   Timestamp start;
   Duration period{0};
   std::vector<Column> columns;
-  PointCloud points;                   // t is ns after start
+  PointCloud points;                      // t is ns after start
   std::vector<std::uint32_t> columns_of;  // per sensor_id: how many columns it gave, 0 if it was silent
-  bool complete = true;                // false: closed without waiting for a silent lidar, or cut by the end of input
+  bool complete = true;  // false: closed without waiting for a silent lidar, or cut by the end of input
 
   Timestamp end() const { return start + period; }
 };

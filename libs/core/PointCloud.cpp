@@ -32,11 +32,13 @@ void PointCloud::append(const PointCloud& other, std::size_t i)
 void PointCloud::keep(const std::vector<std::uint8_t>& keep)
 {
   if (keep.size() != size()) throw std::invalid_argument("PointCloud::keep: one flag per point is needed");
-  forEachField(*this, [&keep](auto& field) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < field.size(); ++i)
-      if (keep[i]) field[kept++] = field[i];
-    field.resize(kept);
-  });
+  forEachField(*this,
+               [&keep](auto& field)
+               {
+                 std::size_t kept = 0;
+                 for (std::size_t i = 0; i < field.size(); ++i)
+                   if (keep[i]) field[kept++] = field[i];
+                 field.resize(kept);
+               });
 }
 }  // namespace scanloom

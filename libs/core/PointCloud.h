@@ -11,15 +11,15 @@ namespace scanloom
 /** Valid returns only, as a structure of arrays: every vector has the same length. */
 struct PointCloud
 {
-  std::vector<float> x, y, z;              // m, in the frame that the owner names
-  std::vector<float> intensity;            // reflectivity as the sensor scales it (Ouster: 0 to 255, calibrated)
-  std::vector<std::int32_t> t;             // ns after the owner's stamp
-  std::vector<std::uint16_t> ring;         // channel, 0 is the topmost beam
-  std::vector<std::uint16_t> column;       // measurement id of the block
-  std::vector<std::uint8_t> sensor_id;     // index of the lidar in the configuration
-  std::vector<std::uint32_t> range;        // mm, from the sensor
-  std::vector<std::uint16_t> signal;       // photons; 0 where the packet profile has none
-  std::vector<std::uint16_t> near_ir;      // photons; 0 where the packet profile has none
+  std::vector<float> x, y, z;           // m, in the frame that the owner names
+  std::vector<float> intensity;         // reflectivity as the sensor scales it (Ouster: 0 to 255, calibrated)
+  std::vector<std::int32_t> t;          // ns after the owner's stamp
+  std::vector<std::uint16_t> ring;      // channel, 0 is the topmost beam
+  std::vector<std::uint16_t> column;    // measurement id of the block
+  std::vector<std::uint8_t> sensor_id;  // index of the lidar among those that are batched
+  std::vector<std::uint32_t> range;     // mm, from the sensor
+  std::vector<std::uint16_t> signal;    // photons; 0 where the packet profile has none
+  std::vector<std::uint16_t> near_ir;   // photons; 0 where the packet profile has none
 
   std::size_t size() const { return x.size(); }
   bool empty() const { return x.empty(); }

@@ -36,7 +36,8 @@ Eigen::Matrix4d Rigid::matrix() const
 Eigen::Vector3d Rigid::yawPitchRoll() const
 {
   const Eigen::Matrix3d r = rotation.toRotationMatrix();
-  return {std::atan2(r(1, 0), r(0, 0)), std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))), std::atan2(r(2, 1), r(2, 2))};
+  return {std::atan2(r(1, 0), r(0, 0)), std::atan2(-r(2, 0), std::hypot(r(2, 1), r(2, 2))),
+          std::atan2(r(2, 1), r(2, 2))};
 }
 
 Rigid Rigid::inverse() const
@@ -50,10 +51,7 @@ Rigid Rigid::operator*(const Rigid& other) const
   return {(rotation * other.rotation).normalized(), rotation * other.translation + translation};
 }
 
-Rigid boxPlus(const Rigid& pose, const Vector6d& step)
-{
-  return pose * Rigid{expSo3(step.tail<3>()), step.head<3>()};
-}
+Rigid boxPlus(const Rigid& pose, const Vector6d& step) { return pose * Rigid{expSo3(step.tail<3>()), step.head<3>()}; }
 
 Vector6d boxMinus(const Rigid& to, const Rigid& from)
 {

@@ -13,7 +13,8 @@ struct Rigid
 
   static Rigid identity() { return {}; }
 
-  /** From a 4x4 whose upper left block is a rotation to 1e-3 (rounded calibration files); throws std::invalid_argument. */
+  /** From a 4x4 whose upper left block is a rotation to 1e-3 (rounded calibration files); throws std::invalid_argument.
+   */
   static Rigid fromMatrix(const Eigen::Matrix4d&);
 
   /** Metres and radians, R = Rz(yaw) Ry(pitch) Rx(roll): MRPT's order. */
@@ -31,7 +32,8 @@ struct Rigid
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/** pose "plus" a step in its own frame: translation + R * step[0..2], R * exp(step[3..5]). The tangent order everywhere is (translation, rotation). */
+/** pose "plus" a step in its own frame: translation + R * step[0..2], R * exp(step[3..5]). The tangent order everywhere
+ * is (translation, rotation). */
 Rigid boxPlus(const Rigid& pose, const Vector6d& step);
 
 /** The step with boxPlus(from, step) = to. */

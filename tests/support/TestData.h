@@ -20,7 +20,7 @@ inline std::optional<std::filesystem::path> testData(const std::string& relative
 }  // namespace scanloom
 
 /** Declares `const std::filesystem::path name`, or skips the test. */
-#define SCANLOOM_NEEDS_DATA(name, relative)                                                                       \
-  const auto name##_found = scanloom::testData(relative);                                                         \
+#define SCANLOOM_NEEDS_DATA(name, relative)                                                                         \
+  const auto name##_found = scanloom::testData(relative);                                                           \
   if (!name##_found) GTEST_SKIP() << "no test data '" << (relative) << "': set SCANLOOM_DATA to the data's folder"; \
   const std::filesystem::path name = *name##_found

@@ -24,13 +24,15 @@ inline Eigen::MatrixXd numericJacobian(const std::function<Eigen::VectorXd(const
 }
 
 /** Fails unless `analytic` equals the central differences of f to `tolerance`, relative to its largest element. */
-inline void checkJacobian(const Eigen::MatrixXd& analytic, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& f,
-                          double tolerance = 1e-6, double h = 1e-6)
+inline void checkJacobian(const Eigen::MatrixXd& analytic,
+                          const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& f, double tolerance = 1e-6,
+                          double h = 1e-6)
 {
   const Eigen::MatrixXd numeric = numericJacobian(f, analytic.cols(), h);
   ASSERT_EQ(analytic.rows(), numeric.rows());
   const double scale = std::max(1e-12, analytic.cwiseAbs().maxCoeff());
-  EXPECT_LT((analytic - numeric).cwiseAbs().maxCoeff() / scale, tolerance)
-      << "analytic:\n" << analytic << "\ncentral differences:\n" << numeric;
+  EXPECT_LT((analytic - numeric).cwiseAbs().maxCoeff() / scale, tolerance) << "analytic:\n"
+                                                                           << analytic << "\ncentral differences:\n"
+                                                                           << numeric;
 }
 }  // namespace scanloom

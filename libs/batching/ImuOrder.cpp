@@ -1,0 +1,33 @@
+#include "batching/ImuOrder.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace scanloom
+{
+namespace
+{
+bool before(const SensorImu& a, const SensorImu& b)
+{
+  return std::tie(a.sample.stamp, a.sensor) < std::tie(b.sample.stamp, b.sensor);
+}
+}  // namespace
+
+void ImuOrder::add(const SensorImu& imu)
+{
+  if (imu.sample.stamp < released_until_)
+    ++late_;
+  else
+    waiting_.insert(std::upper_bound(waiting_.begin(), waiting_.end(), imu, before), imu);
+}
+
+std::vector<SensorImu> ImuOrder::release(Timestamp horizon)
+{
+  released_until_ = std::max(released_until_, horizon);
+  const auto end = std::partition_point(waiting_.begin(), waiting_.end(),
+                                        [horizon](const SensorImu& imu) { return imu.sample.stamp < horizon; });
+  std::vector<SensorImu> released(waiting_.begin(), end);
+  waiting_.erase(waiting_.begin(), end);
+  return released;
+}
+}  // namespace scanloom

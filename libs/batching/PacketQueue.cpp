@@ -1,0 +1,42 @@
+#include "batching/PacketQueue.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+std::size_t PacketQueue::push(Bytes packet, const std::vector<MeasurementBlock>& blocks)
+{
+  std::size_t dropped = 0;
+  if (packets_.size() >= capacity_)
+  {
+    dropped = packets_.front().blocks.size() - packets_.front().next;
+    spare_.push_back(std::move(packets_.front()));
+    packets_.pop_front();
+  }
+
+  Waiting waiting;
+  if (!spare_.empty())
+  {
+    waiting = std::move(spare_.back());
+    spare_.pop_back();
+  }
+  waiting.bytes.assign(packet.begin(), packet.end());
+  waiting.blocks = blocks;
+  waiting.next = 0;
+
+  // Nearly always the end; a reordered packet goes where its first block belongs.
+  const auto place =
+      std::upper_bound(packets_.begin(), packets_.end(), blocks.front().stamp,
+                       [](Timestamp stamp, const Waiting& other) { return stamp < other.blocks[other.next].stamp; });
+  packets_.insert(place, std::move(waiting));
+  return dropped;
+}
+
+void PacketQueue::pop()
+{
+  Waiting& front = packets_.front();
+  if (++front.next < front.blocks.size()) return;
+  spare_.push_back(std::move(front));
+  packets_.pop_front();
+}
+}  // namespace scanloom

@@ -1,0 +1,102 @@
+#include "batching/Sequencer.h"
+
+#include <gtest/gtest.h>
+
+using namespace scanloom;
+
+namespace
+{
+LidarDescription lidar(int first_column = 0, int last_column = 63)
+{
+  LidarDescription d;
+  d.columns_per_frame = 64;
+  d.columns_per_packet = 16;
+  d.first_column = first_column;
+  d.last_column = last_column;
+  d.frame_rate = 10;
+  d.frame_id_modulus = 65536;
+  return d;
+}
+
+MeasurementBlock block(std::uint32_t frame, std::uint16_t column, Timestamp stamp)
+{
+  MeasurementBlock b;
+  b.frame_id = frame;
+  b.measurement_id = column;
+  b.stamp = stamp;
+  b.valid = true;
+  return b;
+}
+}  // namespace
+
+TEST(PacketNumbering, countsOnlyThePacketsThatAWindowLetsOut)
+{
+  const PacketNumbering numbering(lidar(20, 40));  // packets 1 and 2 of 0 to 3
+  EXPECT_EQ(numbering.sentBefore(4) - numbering.sentBefore(0), 2);
+  EXPECT_EQ(numbering.sentBefore(5) - numbering.sentBefore(3), 0);
+  EXPECT_EQ(numbering.sentBefore(-1), -2 + 2);
+}
+
+TEST(PacketNumbering, aWindowMayWrapAroundZero)
+{
+  const PacketNumbering numbering(lidar(50, 10));  // packets 0 and 3
+  EXPECT_EQ(numbering.sentBefore(3) - numbering.sentBefore(1), 0);
+  EXPECT_EQ(numbering.blocksToNext(10), 40);
+  EXPECT_EQ(numbering.blocksToNext(63), 1);
+}
+
+TEST(Sequencer, theWatermarkWaitsAtAGapUntilTheMissingPacketComes)
+{
+  Sequencer sequencer(lidar(), 5ms);
+  sequencer.accept({}, block(7, 15, Timestamp{25ms}), Timestamp{25ms});
+  sequencer.accept({}, block(7, 47, Timestamp{75ms}), Timestamp{75ms});
+  EXPECT_LT(*sequencer.watermark(), Timestamp{27ms});
+  EXPECT_EQ(sequencer.accept({}, block(7, 31, Timestamp{50ms}), Timestamp{76ms}), Sequencer::Verdict::New);
+  EXPECT_GT(*sequencer.watermark(), Timestamp{75ms});
+}
+
+TEST(Sequencer, aGapIsGivenUpAfterTheDeadlineAndWhatComesLaterIsRecovered)
+{
+  Sequencer sequencer(lidar(), 5ms);
+  sequencer.accept({}, block(7, 15, Timestamp{25ms}), Timestamp{25ms});
+  sequencer.accept({}, block(7, 63, Timestamp{100ms}), Timestamp{100ms});
+  EXPECT_EQ(sequencer.giveUpGaps(Timestamp{104ms}), 0u);
+  EXPECT_EQ(sequencer.giveUpGaps(Timestamp{105ms}), 2u);
+  EXPECT_GT(*sequencer.watermark(), Timestamp{100ms});
+  EXPECT_EQ(sequencer.accept({}, block(7, 31, Timestamp{50ms}), Timestamp{106ms}), Sequencer::Verdict::Recovered);
+}
+
+TEST(Sequencer, afterTheWindowTheWatermarkJumpsToTheNextTurn)
+{
+  Sequencer sequencer(lidar(0, 15), 5ms);
+  sequencer.accept({}, block(7, 15, Timestamp{25ms}), Timestamp{25ms});
+  EXPECT_GT(*sequencer.watermark(), Timestamp{100ms});
+  EXPECT_LT(*sequencer.watermark(), Timestamp{25ms + 49 * 1562500ns});  // the next turn's first block
+}
+
+TEST(Sequencer, frameIdsAreUnwrapped)
+{
+  Sequencer sequencer(lidar(), 5ms);
+  sequencer.accept({}, block(65535, 63, Timestamp{25ms}), Timestamp{25ms});
+  sequencer.accept({}, block(0, 15, Timestamp{50ms}), Timestamp{50ms});
+  EXPECT_GT(*sequencer.watermark(), Timestamp{50ms});
+  EXPECT_EQ(sequencer.finish(), 0u);
+}
+
+TEST(Sequencer, anotherInitIdIsARestart)
+{
+  Sequencer sequencer(lidar(), 5ms);
+  PacketHeader first, second;
+  first.init_id = 1;
+  second.init_id = 2;
+  EXPECT_EQ(sequencer.accept(first, block(500, 15, Timestamp{25ms}), Timestamp{25ms}), Sequencer::Verdict::New);
+  EXPECT_EQ(sequencer.accept(second, block(0, 15, Timestamp{95ms}), Timestamp{95ms}), Sequencer::Verdict::Restarted);
+  EXPECT_EQ(sequencer.finish(), 0u);
+}
+
+TEST(Sequencer, aFrameIdFarAwayIsARestartWhereThereIsNoInitId)
+{
+  Sequencer sequencer(lidar(), 5ms);
+  sequencer.accept({}, block(5000, 15, Timestamp{25ms}), Timestamp{25ms});
+  EXPECT_EQ(sequencer.accept({}, block(0, 15, Timestamp{95ms}), Timestamp{95ms}), Sequencer::Verdict::Restarted);
+}
