@@ -1,0 +1,23 @@
+/** What a person got wrong on the command line or in a configuration file; the program answers with status 2. */
+#pragma once
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** The message names what was given, what is wrong and how to mend it. */
+struct UsageError : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/** Everything wrong that was found, one line each: `harvester.ini:12: [ndt] cell_size = -1 m: must be > 0 (...)`. */
+struct ConfigError : UsageError
+{
+  explicit ConfigError(std::vector<std::string> all_problems);
+  explicit ConfigError(const std::string& problem) : ConfigError(std::vector<std::string>{problem}) {}
+
+  std::vector<std::string> problems;
+};
+}  // namespace scanloom

@@ -1,0 +1,185 @@
+#include "config/Configuration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace scanloom
+{
+namespace
+{
+constexpr const char* kCommandLine = "--set";
+
+/** rawlog-grabber's own section, which every file that the stock grabber reads may have. */
+constexpr std::string_view kGrabberSection = "global";
+
+std::string contentsOf(const std::filesystem::path& file)
+{
+  if (std::filesystem::is_directory(file)) throw ConfigError(fmt::format("{}: is a folder, not a file", file.string()));
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw ConfigError(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::vector<std::string> namesOf(const std::vector<FieldDescription>& fields)
+{
+  std::vector<std::string> names;
+  for (const auto& described : fields) names.push_back(described.field.name);
+  return names;
+}
+
+bool same(std::string_view a, std::string_view b)
+{
+  const CaseInsensitiveLess less;
+  return !less(a, b) && !less(b, a);
+}
+
+std::string unknown(const std::string& what, const std::string& name, const std::vector<std::string>& candidates)
+{
+  const std::string hint = suggestion(name, candidates);
+  return fmt::format("{}{}{}", what, hint.empty() ? "" : ": ", hint);
+}
+}  // namespace
+
+Configuration Configuration::fromFiles(const std::vector<std::filesystem::path>& files)
+{
+  Configuration configuration;
+  std::vector<std::string> problems;
+  for (const auto& file : files)
+  {
+    try
+    {
+      configuration.add(parseIni(contentsOf(file), file.string()), problems);
+    }
+    catch (const ConfigError& e)
+    {
+      problems.insert(problems.end(), e.problems.begin(), e.problems.end());
+    }
+  }
+  if (!problems.empty()) throw ConfigError(problems);
+  return configuration;
+}
+
+Configuration Configuration::fromText(std::string_view text, const std::string& name)
+{
+  Configuration configuration;
+  std::vector<std::string> problems;
+  configuration.add(parseIni(text, name), problems);
+  if (!problems.empty()) throw ConfigError(problems);
+  return configuration;
+}
+
+void Configuration::add(const std::vector<IniEntry>& entries, std::vector<std::string>& problems)
+{
+  for (const IniEntry& entry : entries)
+  {
+    Keys& keys = sections_.try_emplace(entry.section, Keys{entry.section, {}}).first->second;
+    const auto [first, is_new] = keys.entries.try_emplace(entry.key, entry);
+    if (!is_new)
+      problems.push_back(fmt::format("{}: [{}] {}: is already set at {}", toString(entry.place), entry.section,
+                                     entry.key, toString(first->second.place)));
+  }
+}
+
+void Configuration::set(const std::string& assignment)
+{
+  const auto equals = assignment.find('=');
+  const std::string name(trimmed(assignment.substr(0, equals)));
+  const auto dot = name.rfind('.');  // a section's name may have dots, a key's may not
+  if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == name.size())
+    throw ConfigError(fmt::format("{} {}: must be section.key=value", kCommandLine, assignment));
+
+  const IniEntry entry{name.substr(0, dot), name.substr(dot + 1), std::string(trimmed(assignment.substr(equals + 1))),
+                       Place{kCommandLine}};
+  Keys& keys = sections_.try_emplace(entry.section, Keys{entry.section, {}}).first->second;
+  const auto [existing, is_new] = keys.entries.try_emplace(entry.key, entry);
+  if (!is_new && existing->second.place.file == kCommandLine)
+    throw ConfigError(fmt::format("{} {}: is given twice on the command line", kCommandLine, name));
+  existing->second = entry;
+}
+
+std::vector<std::string> Configuration::sections() const
+{
+  std::vector<std::string> names;
+  for (const auto& [section, keys] : sections_) names.push_back(keys.name);
+  return names;
+}
+
+std::vector<std::string> Configuration::keys(std::string_view section) const
+{
+  std::vector<std::string> names;
+  if (const auto found = sections_.find(section); found != sections_.end())
+    for (const auto& [key, entry] : found->second.entries) names.push_back(entry.key);
+  return names;
+}
+
+const IniEntry* Configuration::find(std::string_view section, std::string_view key) const
+{
+  const auto found = sections_.find(section);
+  if (found == sections_.end()) return nullptr;
+  const auto entry = found->second.entries.find(key);
+  return entry == found->second.entries.end() ? nullptr : &entry->second;
+}
+
+const IniEntry& Configuration::at(const std::string& section, const std::string& key) const
+{
+  if (const IniEntry* entry = find(section, key)) return *entry;
+  throw ConfigError(unknown(fmt::format("[{}] {}: is not set", section, key), key, keys(section)));
+}
+
+std::string Configuration::text(const std::string& section, const std::string& key) const
+{
+  return at(section, key).value;
+}
+
+Place Configuration::place(const std::string& section, const std::string& key) const { return at(section, key).place; }
+
+ConfigError Configuration::complaint(const std::string& section, const std::string& key,
+                                     const std::string& constraint) const
+{
+  const IniEntry* entry = find(section, key);
+  if (!entry) return ConfigError(fmt::format("[{}] {} is not set: {}", section, key, constraint));
+  return ConfigError(complaintAbout(*entry, Field{key, "", ""}, constraint));
+}
+
+void Configuration::refuseUnknown(const Schema& known) const
+{
+  std::vector<std::string> problems;
+  for (const auto& [name, keys] : sections_)
+  {
+    if (isSensor(name) || same(name, kGrabberSection)) continue;
+    std::vector<std::string> sections_known;
+    const SectionDescription* described = nullptr;
+    for (const SectionDescription& candidate : known)
+    {
+      sections_known.push_back(candidate.section.name);
+      if (same(candidate.section.name, name)) described = &candidate;
+    }
+
+    for (const auto& [key, entry] : keys.entries)
+    {
+      const std::string where = fmt::format("{}: [{}]", toString(entry.place), entry.section);
+      if (!described)
+      {
+        problems.push_back(unknown(where + " is an unknown section", name, sections_known));
+        break;
+      }
+      const auto names = namesOf(described->fields);
+      const bool is_known = std::any_of(names.begin(), names.end(), [&, &k = key](auto& n) { return same(n, k); });
+      if (!is_known) problems.push_back(unknown(fmt::format("{} {} is an unknown key", where, key), key, names));
+    }
+  }
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
+std::string complaintAbout(const IniEntry& entry, const Field& field, const std::string& constraint)
+{
+  return fmt::format("{}: [{}] {} = {}{}{}: {}{}", toString(entry.place), entry.section, entry.key,
+                     entry.value.empty() ? "(nothing)" : entry.value, field.unit.empty() ? "" : " ", field.unit,
+                     constraint, field.meaning.empty() ? "" : fmt::format(" ({})", field.meaning));
+}
+}  // namespace scanloom

@@ -1,0 +1,25 @@
+/** Names as MRPT compares them, without regard to case, and the one that was probably meant. */
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace scanloom
+{
+std::string_view trimmed(std::string_view);
+
+struct CaseInsensitiveLess
+{
+  using is_transparent = void;
+  bool operator()(std::string_view, std::string_view) const;
+};
+
+/** Levenshtein: insertions, deletions and replacements of one character each, without regard to case. */
+std::size_t editDistance(std::string_view, std::string_view);
+
+/**
+ * `did you mean 'cell_size'?` if a candidate is a few typing errors away from `name`, otherwise
+ * `known are 'a', 'b' and 'c'`, or nothing if there are no candidates.
+ */
+std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
+}  // namespace scanloom

@@ -1,0 +1,96 @@
+#include "config/Schema.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+bool same(const FieldDescription& a, const FieldDescription& b)
+{
+  return a.type == b.type && a.value == b.value && a.field.unit == b.field.unit && a.field.meaning == b.field.meaning &&
+         toString(a.field.bounds) == toString(b.field.bounds);
+}
+
+std::string allowed(const FieldDescription& described)
+{
+  const std::string bounds = toString(described.field.bounds);
+  if (described.type == "bool") return "true or false";
+  if (described.type == "int") return "whole number" + (bounds.empty() ? "" : ", " + bounds);
+  return bounds;
+}
+
+/** `edge of a cell [m], > 0` */
+std::string commentOn(const FieldDescription& described)
+{
+  const std::string& unit = described.field.unit;
+  const std::string bounds = allowed(described);
+  return fmt::format("{}{}{}{}", described.field.meaning, unit.empty() ? "" : fmt::format(" [{}]", unit),
+                     bounds.empty() ? "" : ", ", bounds);
+}
+
+std::string inTableCell(std::string text)
+{
+  for (auto bar = text.find('|'); bar != std::string::npos; bar = text.find('|', bar + 2)) text.insert(bar, "\\");
+  return text;
+}
+}  // namespace
+
+void merge(Schema& into, const SectionDescription& added)
+{
+  const auto existing = std::find_if(
+      into.begin(), into.end(), [&](const auto& described) { return described.section.name == added.section.name; });
+  if (existing == into.end())
+  {
+    into.push_back(added);
+    return;
+  }
+  for (const FieldDescription& field : added.fields)
+  {
+    const auto twin = std::find_if(existing->fields.begin(), existing->fields.end(),
+                                   [&](const auto& other) { return other.field.name == field.field.name; });
+    if (twin == existing->fields.end())
+      existing->fields.push_back(field);
+    else if (!same(*twin, field))
+      throw std::logic_error(
+          fmt::format("[{}] {} is declared twice, and not alike", added.section.name, field.field.name));
+  }
+}
+
+void merge(Schema& into, const Schema& added)
+{
+  for (const SectionDescription& described : added) merge(into, described);
+}
+
+std::string toIni(const Schema& schema)
+{
+  std::string text;
+  for (const SectionDescription& described : schema)
+  {
+    text += fmt::format("{}# {}\n[{}]\n", text.empty() ? "" : "\n", described.section.meaning, described.section.name);
+    for (const FieldDescription& field : described.fields)
+    {
+      const std::string line = fmt::format("{} = {}", field.field.name, field.value);
+      text += fmt::format("# {}\n{}\n", commentOn(field), line.substr(0, line.find_last_not_of(' ') + 1));
+    }
+  }
+  return text;
+}
+
+std::string toMarkdown(const Schema& schema)
+{
+  std::string text;
+  for (const SectionDescription& described : schema)
+  {
+    text += fmt::format("{}## [{}]\n{}\n\n| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n",
+                        text.empty() ? "" : "\n", described.section.name, described.section.meaning);
+    for (const FieldDescription& field : described.fields)
+      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", field.field.name, inTableCell(field.value),
+                          field.field.unit, allowed(field), inTableCell(field.field.meaning));
+  }
+  return text;
+}
+}  // namespace scanloom

@@ -1,0 +1,81 @@
+/** What can be configured, as data: made once from the options structs, it serves checking, default files and manual.
+ */
+#pragma once
+#include "config/Values.h"
+#include "core/Field.h"
+
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/**
+ * The description of one options struct of a verb. The settings of a verb name each once:
+ *
+ *   struct SlamSettings
+ *   {
+ *     LocalMapOptions local_map;
+ *     std::array<LidarOptions, 2> lidars;
+ *
+ *     template <typename Self, typename Visitor>
+ *     static void sections(Self& s, Visitor&& visit)
+ *     {
+ *       visit(s.local_map, Section{"local_map", "the keyframes that a scan is aligned to"});
+ *       visit(s.lidars[0], Section{"lidars", "where the lidars sit", "lidar1_"});
+ *       visit(s.lidars[1], Section{"lidars", "where the lidars sit", "lidar2_"});
+ *     }
+ *   };
+ */
+struct Section
+{
+  std::string name;
+  std::string meaning;      // one phrase
+  std::string prefix = "";  // of each of its keys
+};
+
+struct FieldDescription
+{
+  Field field;  // the name with its prefix
+  std::string type;
+  std::string value;  // the default, or what is in effect
+};
+
+struct SectionDescription
+{
+  Section section;
+  std::vector<FieldDescription> fields;
+};
+using Schema = std::vector<SectionDescription>;
+
+template <typename Options>
+SectionDescription describe(const Section& section, const Options& options = {})
+{
+  SectionDescription described{section, {}};
+  Options::fields(options,
+                  [&](const auto& member, Field field)
+                  {
+                    field.name = section.prefix + field.name;
+                    described.fields.push_back({field, typeName(member), toText(member)});
+                  });
+  return described;
+}
+
+/** Two verbs, or two prefixes, may share a section. @throws std::logic_error if they describe a key differently. */
+void merge(Schema& into, const SectionDescription&);
+void merge(Schema& into, const Schema&);
+
+template <typename Settings>
+Schema schemaOf(const Settings& settings = {})
+{
+  Schema schema;
+  Settings::sections(settings,
+                     [&](const auto& options, const Section& section) { merge(schema, describe(section, options)); });
+  return schema;
+}
+
+/** An INI file with every value, each with its meaning, unit and bounds as a comment. */
+std::string toIni(const Schema&);
+
+/** The rows of doc/parameters.md: a heading and a table for each section. */
+std::string toMarkdown(const Schema&);
+}  // namespace scanloom
