@@ -1,0 +1,263 @@
+#include "mrpt_bridge/CGenericPointsMap.h"
+
+#if !__has_include(<mrpt/maps/CGenericPointsMap.h>)
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/aligned_serialization.h>
+#include <mrpt/serialization/stl_serialization.h>
+
+#include <algorithm>
+
+IMPLEMENTS_SERIALIZABLE(CGenericPointsMap, CPointsMap, mrpt::maps)
+
+namespace mrpt::maps
+{
+using mrpt::serialization::CArchive;
+
+namespace
+{
+/** Which types a version of the wire format holds: float and uint16 always. */
+bool holds(const CGenericPointsMap::Fields<float>&, std::uint8_t) { return true; }
+bool holds(const CGenericPointsMap::Fields<double>&, std::uint8_t version) { return version >= 1; }
+bool holds(const CGenericPointsMap::Fields<std::uint16_t>&, std::uint8_t) { return true; }
+bool holds(const CGenericPointsMap::Fields<std::uint8_t>&, std::uint8_t version) { return version >= 2; }
+bool holds(const CGenericPointsMap::Fields<std::uint32_t>&, std::uint8_t version) { return version >= 4; }
+
+template <typename T>
+void writeValues(CArchive& out, const mrpt::aligned_std_vector<T>& values)
+{
+  if (!values.empty()) out.WriteBufferFixEndianness(values.data(), values.size());
+}
+
+/** A damaged length must end in an exception at the end of the data, not in 50 GB: memory grows with what arrives. */
+template <typename T>
+void readValues(CArchive& in, std::size_t count, mrpt::aligned_std_vector<T>& values)
+{
+  constexpr std::size_t kChunk = 1 << 20;
+  values.clear();
+  while (values.size() < count)
+  {
+    const std::size_t done = values.size();
+    const std::size_t chunk = std::min(kChunk, count - done);
+    values.resize(done + chunk);
+    in.ReadBufferFixEndianness(values.data() + done, chunk);
+  }
+}
+
+template <typename T>
+void readField(CArchive& in, std::uint8_t version, mrpt::aligned_std_vector<T>& values)
+{
+  // Up to version 2 the values went through MRPT's operators for containers, which put names of types before some.
+  if (version < 3)
+    in >> values;
+  else
+    readValues(in, in.ReadAs<std::uint32_t>(), values);
+}
+}  // namespace
+
+std::uint8_t CGenericPointsMap::serializeGetVersion() const { return uint32_fields_.empty() ? 3 : 4; }
+
+void CGenericPointsMap::serializeTo(CArchive& out) const
+{
+  out.WriteAs<std::uint32_t>(m_x.size());
+  writeValues(out, m_x);
+  writeValues(out, m_y);
+  writeValues(out, m_z);
+  forEachType(*this,
+              [&](const auto& fields)
+              {
+                if (!holds(fields, serializeGetVersion())) return;
+                out.WriteAs<std::uint32_t>(fields.size());
+                for (const auto& [name, values] : fields)
+                {
+                  out << name;
+                  out.WriteAs<std::uint32_t>(values.size());
+                  writeValues(out, values);
+                }
+              });
+  insertionOptions.writeToStream(out);
+  likelihoodOptions.writeToStream(out);
+}
+
+void CGenericPointsMap::serializeFrom(CArchive& in, std::uint8_t version)
+{
+  if (version > 4) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+
+  internal_clear();
+  const auto points = in.ReadAs<std::uint32_t>();
+  readValues(in, points, m_x);
+  readValues(in, points, m_y);
+  readValues(in, points, m_z);
+  forEachType(*this,
+              [&](auto& fields)
+              {
+                if (!holds(fields, version)) return;
+                const auto count = in.ReadAs<std::uint32_t>();
+                for (std::uint32_t i = 0; i < count; i++)
+                {
+                  std::string name;
+                  in >> name;
+                  readField(in, version, fields[name]);
+                  ASSERT_EQUAL_(fields[name].size(), m_x.size());
+                }
+              });
+  insertionOptions.readFromStream(in);
+  likelihoodOptions.readFromStream(in);
+}
+
+bool CGenericPointsMap::hasPointField(const std::string& name) const
+{
+  bool found = false;
+  forEachType(*this, [&](const auto& fields) { found = found || fields.count(name) != 0; });
+  return found;
+}
+
+template <typename T>
+bool CGenericPointsMap::registerIn(Fields<T>& fields, const std::string& name)
+{
+  if (hasPointField(name)) THROW_EXCEPTION_FMT("Field '%s' already exists.", name.c_str());
+  fields[name].resize(m_x.size());
+  return true;
+}
+template bool CGenericPointsMap::registerIn(Fields<float>&, const std::string&);
+template bool CGenericPointsMap::registerIn(Fields<double>&, const std::string&);
+template bool CGenericPointsMap::registerIn(Fields<std::uint16_t>&, const std::string&);
+template bool CGenericPointsMap::registerIn(Fields<std::uint8_t>&, const std::string&);
+template bool CGenericPointsMap::registerIn(Fields<std::uint32_t>&, const std::string&);
+
+void CGenericPointsMap::reserve(std::size_t length)
+{
+  m_x.reserve(length);
+  m_y.reserve(length);
+  m_z.reserve(length);
+  forEachType(*this,
+              [&](auto& fields)
+              {
+                for (auto& [name, values] : fields) values.reserve(length);
+              });
+}
+
+void CGenericPointsMap::resize(std::size_t length)
+{
+  m_x.resize(length);
+  m_y.resize(length);
+  m_z.resize(length);
+  forEachType(*this,
+              [&](auto& fields)
+              {
+                for (auto& [name, values] : fields) values.resize(length);
+              });
+  mark_as_modified();
+}
+
+void CGenericPointsMap::setSize(std::size_t length)
+{
+  resize(0);
+  resize(length);
+}
+
+void CGenericPointsMap::insertPointFast(float x, float y, float z)
+{
+  m_x.push_back(x);
+  m_y.push_back(y);
+  m_z.push_back(z);
+  forEachType(*this,
+              [&](auto& fields)
+              {
+                for (auto& [name, values] : fields) values.push_back(0);
+              });
+}
+
+void CGenericPointsMap::getPointAllFieldsFast(std::size_t index, std::vector<float>& values) const
+{
+  values = {m_x[index], m_y[index], m_z[index]};
+  forEachType(*this,
+              [&](const auto& fields)
+              {
+                for (const auto& [name, field] : fields) values.push_back(static_cast<float>(field[index]));
+              });
+}
+
+void CGenericPointsMap::setPointAllFieldsFast(std::size_t index, const std::vector<float>& values)
+{
+  setPointFast(index, values.at(0), values.at(1), values.at(2));
+  std::size_t next = 3;
+  forEachType(*this,
+              [&](auto& fields)
+              {
+                for (auto& [name, field] : fields)
+                  field[index] = static_cast<std::decay_t<decltype(field[index])>>(values.at(next++));
+              });
+}
+
+void CGenericPointsMap::impl_copyFrom(const CPointsMap& other)
+{
+  if (this == &other) return;
+  const auto* generic = dynamic_cast<const CGenericPointsMap*>(&other);
+  if (generic)
+  {
+    float_fields_ = generic->float_fields_;
+    double_fields_ = generic->double_fields_;
+    uint16_fields_ = generic->uint16_fields_;
+    uint8_fields_ = generic->uint8_fields_;
+    uint32_fields_ = generic->uint32_fields_;
+  }
+  base_copyFrom(other);
+}
+
+void CGenericPointsMap::addFrom_classSpecific(const CPointsMap& other, std::size_t previous_points,
+                                              bool filter_out_points_at_zero)
+{
+  const auto* generic = dynamic_cast<const CGenericPointsMap*>(&other);
+  if (!generic) return;
+
+  std::vector<std::size_t> kept;
+  kept.reserve(generic->size());
+  for (std::size_t i = 0; i < generic->size(); i++)
+    if (!filter_out_points_at_zero || generic->m_x[i] != 0 || generic->m_y[i] != 0 || generic->m_z[i] != 0)
+      kept.push_back(i);
+
+  const auto copyCommon = [&](const auto& from, auto& to)
+  {
+    for (auto& [name, values] : to)
+      if (const auto* source = find(from, name))
+        for (std::size_t k = 0; k < kept.size(); k++) values[previous_points + k] = (*source)[kept[k]];
+  };
+  copyCommon(generic->float_fields_, float_fields_);
+  copyCommon(generic->double_fields_, double_fields_);
+  copyCommon(generic->uint16_fields_, uint16_fields_);
+  copyCommon(generic->uint8_fields_, uint8_fields_);
+  copyCommon(generic->uint32_fields_, uint32_fields_);
+}
+
+void CGenericPointsMap::internal_clear()
+{
+  resize(0);
+  forEachType(*this, [](auto& fields) { fields.clear(); });
+}
+
+template <typename RangeScan>
+void CGenericPointsMap::appendRangeScan(const RangeScan& scan, const std::optional<const mrpt::poses::CPose3D>& pose)
+{
+  CSimplePointsMap points;
+  points.insertionOptions = insertionOptions;
+  points.loadFromRangeScan(scan, pose);
+  if (!insertionOptions.addToExistingPointsMap) resize(0);
+  insertAnotherMap(&points, mrpt::poses::CPose3D::Identity());
+}
+
+void CGenericPointsMap::loadFromRangeScan(const mrpt::obs::CObservation2DRangeScan& scan,
+                                          const std::optional<const mrpt::poses::CPose3D>& pose)
+{
+  appendRangeScan(scan, pose);
+}
+
+void CGenericPointsMap::loadFromRangeScan(const mrpt::obs::CObservation3DRangeScan& scan,
+                                          const std::optional<const mrpt::poses::CPose3D>& pose)
+{
+  appendRangeScan(scan, pose);
+}
+}  // namespace mrpt::maps
+#endif

@@ -1,0 +1,34 @@
+#include "mrpt_bridge/Conversions.h"
+
+namespace scanloom
+{
+namespace
+{
+// 1601-01-01 to 1970-01-01: 134774 days.
+constexpr std::int64_t kTicksAtUnixEpoch = 134774LL * 86400 * 10'000'000;
+constexpr std::int64_t kNanosecondsPerTick = 100;
+
+constexpr std::int64_t floorDivide(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
+}  // namespace
+
+mrpt::Clock::time_point toMrpt(Timestamp stamp)
+{
+  const auto ticks = floorDivide(nanoseconds(stamp), kNanosecondsPerTick);
+  return mrpt::Clock::time_point(mrpt::Clock::duration(kTicksAtUnixEpoch + ticks));
+}
+
+Timestamp fromMrpt(mrpt::Clock::time_point time)
+{
+  return fromNanoseconds((time.time_since_epoch().count() - kTicksAtUnixEpoch) * kNanosecondsPerTick);
+}
+
+mrpt::poses::CPose3D toMrpt(const Rigid& pose)
+{
+  return mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(pose.matrix()));
+}
+
+Rigid fromMrpt(const mrpt::poses::CPose3D& pose)
+{
+  return Rigid::fromMatrix(pose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>().asEigen());
+}
+}  // namespace scanloom

@@ -1,0 +1,55 @@
+#include "mrpt_bridge/ObservationReader.h"
+
+#include "mrpt_bridge/registerClasses.h"
+
+#include <fmt/format.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+namespace scanloom
+{
+namespace
+{
+/** MRPT puts source file, line and a call stack around its messages: the first line of the innermost is the message. */
+std::string messageOf(const std::exception& e)
+{
+  const std::string what = e.what();
+  const auto message = what.find("Message: ");
+  const auto start = message == std::string::npos ? 0 : what.find_first_not_of(' ', message + 9);
+  return what.substr(start, what.find('\n', start) - start);
+}
+}  // namespace
+
+ObservationReader::ObservationReader(const std::filesystem::path& path) : archive_(GzipArchive::reading(path))
+{
+  registerClasses();
+}
+
+mrpt::obs::CObservation::Ptr ObservationReader::next()
+{
+  while (waiting_.empty() && !ended_) readObject();
+  if (waiting_.empty()) return nullptr;
+  auto observation = waiting_.front();
+  waiting_.pop_front();
+  return observation;
+}
+
+void ObservationReader::readObject()
+{
+  try
+  {
+    ended_ = archive_.atEnd();
+    if (ended_) return;
+    const auto object = archive_.ReadObject();
+    objects_++;
+    if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
+      waiting_.push_back(observation);
+    else if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
+      waiting_.insert(waiting_.end(), frame->begin(), frame->end());
+  }
+  catch (const std::exception& e)
+  {
+    ended_ = true;
+    damage_ = fmt::format("after {} objects: {}", objects_, messageOf(e));
+  }
+}
+}  // namespace scanloom

@@ -1,0 +1,38 @@
+#pragma once
+#include "mrpt_bridge/GzipArchive.h"
+
+#include <mrpt/obs/CObservation.h>
+
+#include <deque>
+#include <filesystem>
+#include <string>
+
+namespace scanloom
+{
+/**
+ * The observations of any rawlog in the file's order: of the observation format, and those within the frames of the
+ * action/frame format (actions are passed over). Where the file is damaged, cut, or holds an unknown class, it ends,
+ * and damage() says why.
+ */
+class ObservationReader
+{
+ public:
+  /** Throws std::runtime_error with the file's name if it can't be opened. */
+  explicit ObservationReader(const std::filesystem::path&);
+
+  /** Null at the end. */
+  mrpt::obs::CObservation::Ptr next();
+
+  /** Empty if all is well so far. */
+  const std::string& damage() const { return damage_; }
+
+ private:
+  void readObject();
+
+  GzipArchive archive_;
+  std::deque<mrpt::obs::CObservation::Ptr> waiting_;
+  std::size_t objects_ = 0;
+  bool ended_ = false;
+  std::string damage_;
+};
+}  // namespace scanloom

@@ -1,0 +1,227 @@
+#include "mrpt_bridge/Observations.h"
+
+#include "mrpt_bridge/CGenericPointsMap.h"
+#include "mrpt_bridge/Conversions.h"
+
+#if __has_include(<mrpt/maps/CPointsMapXYZI.h>)
+#include <mrpt/maps/CPointsMapXYZI.h>
+#define SCANLOOM_HAS_XYZI 1
+#endif
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+using mrpt::maps::CGenericPointsMap;
+using mrpt::maps::CPointsMap;
+
+void setPositions(const PointCloud& points, CPointsMap& map)
+{
+  map.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); i++) map.setPointFast(i, points.x[i], points.y[i], points.z[i]);
+  map.mark_as_modified();
+}
+
+template <typename Values, typename Field>
+void setField(const Values& values, Field* field)
+{
+  field->assign(values.begin(), values.end());
+}
+
+CPointsMap::Ptr genericCloud(const PointCloud& points, Duration start_after_stamp)
+{
+  auto map = CGenericPointsMap::Create();
+  map->registerField_float("intensity");
+  map->registerField_float("t");
+  map->registerField_uint16("ring");
+  map->registerField_uint16("column");
+  map->registerField_uint8("sensor_id");
+  setPositions(points, *map);
+  setField(points.intensity, map->getPointsBufferRef_float_field("intensity"));
+  setField(points.ring, map->getPointsBufferRef_uint16_field("ring"));
+  setField(points.column, map->getPointsBufferRef_uint16_field("column"));
+  setField(points.sensor_id, map->getPointsBufferRef_uint8_field("sensor_id"));
+  auto& t = *map->getPointsBufferRef_float_field("t");
+  for (std::size_t i = 0; i < points.size(); i++)
+    t[i] = static_cast<float>(seconds(Duration{points.t[i]} + start_after_stamp));
+  return map;
+}
+
+/** MRPT's class wants intensities in [0, 1]; reflectivity is calibrated to 0 to 255. */
+constexpr float kFullIntensity = 255.f;
+
+CPointsMap::Ptr xyziCloud([[maybe_unused]] const PointCloud& points)
+{
+#if SCANLOOM_HAS_XYZI
+  auto map = mrpt::maps::CPointsMapXYZI::Create();
+  setPositions(points, *map);
+  for (std::size_t i = 0; i < points.size(); i++) map->setPointIntensity(i, points.intensity[i] / kFullIntensity);
+  return map;
+#else
+  throw std::invalid_argument("cloud_class = CPointsMapXYZI: this MRPT has it no more, use CGenericPointsMap");
+#endif
+}
+
+template <typename Values, typename Field>
+void takeField(const Field* field, Values& values)
+{
+  if (field) values.assign(field->begin(), field->end());
+}
+
+void takeFields(const CGenericPointsMap& map, PointCloud& points)
+{
+  takeField(map.getPointsBufferRef_float_field("intensity"), points.intensity);
+  takeField(map.getPointsBufferRef_uint16_field("ring"), points.ring);
+  takeField(map.getPointsBufferRef_uint16_field("column"), points.column);
+  takeField(map.getPointsBufferRef_uint8_field("sensor_id"), points.sensor_id);
+  if (const auto* t = map.getPointsBufferRef_float_field("t"))
+    for (std::size_t i = 0; i < points.size(); i++)
+      points.t[i] = static_cast<std::int32_t>(std::lround(1e9 * static_cast<double>((*t)[i])));
+}
+
+void takeIntensity([[maybe_unused]] const CPointsMap& map, [[maybe_unused]] PointCloud& points)
+{
+#if SCANLOOM_HAS_XYZI
+  const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&map);
+  if (!xyzi) return;
+  for (std::size_t i = 0; i < points.size(); i++)
+    points.intensity[i] = xyzi->getPointIntensity_fast(i) * kFullIntensity;
+#endif
+}
+
+void takePositions(const CPointsMap& map, const Rigid& body_T_sensor, PointCloud& points)
+{
+  const Eigen::Isometry3f body_T_cloud(body_T_sensor.matrix().cast<float>());
+  const bool in_body_frame = body_T_cloud.matrix().isIdentity(0);
+  points.resize(map.size());
+  for (std::size_t i = 0; i < map.size(); i++)
+  {
+    Eigen::Vector3f p;
+    map.getPointFast(i, p.x(), p.y(), p.z());
+    if (!in_body_frame) p = body_T_cloud * p;
+    points.x[i] = p.x();
+    points.y[i] = p.y();
+    points.z[i] = p.z();
+  }
+}
+
+/** Longer than any measurement block, shorter than any turn: two blocks with one id are told apart. */
+constexpr std::int32_t kLongestBlock = 1'000'000;  // ns
+
+std::vector<Column> columnsOf(const PointCloud& points, Timestamp start)
+{
+  std::vector<Column> columns;
+  std::int32_t column_t = 0;
+  for (std::size_t i = 0; i < points.size(); i++)
+  {
+    const bool same = !columns.empty() && columns.back().sensor_id == points.sensor_id[i] &&
+                      columns.back().measurement_id == points.column[i] &&
+                      std::abs(points.t[i] - column_t) < kLongestBlock && columns.back().count < 65535;
+    if (!same)
+    {
+      column_t = points.t[i];
+      Column column;
+      column.stamp = start + Duration{column_t};
+      column.first_point = static_cast<std::uint32_t>(i);
+      column.measurement_id = points.column[i];
+      column.sensor_id = points.sensor_id[i];
+      columns.push_back(column);
+    }
+    columns.back().count++;
+  }
+  return columns;
+}
+
+Duration untilAfterTheLast(const std::vector<std::int32_t>& t)
+{
+  return t.empty() ? Duration{0} : Duration{*std::max_element(t.begin(), t.end()) + 1};
+}
+}  // namespace
+
+CloudClass cloudClassFromName(const std::string& name)
+{
+  if (name == "CGenericPointsMap") return CloudClass::CGenericPointsMap;
+  if (name == "CPointsMapXYZI") return CloudClass::CPointsMapXYZI;
+  throw std::invalid_argument(fmt::format("cloud_class = {}: must be CGenericPointsMap or CPointsMapXYZI", name));
+}
+
+mrpt::obs::CObservationPointCloud::Ptr toObservation(const Scan& scan, CloudClass cloud, const std::string& label)
+{
+  auto observation = mrpt::obs::CObservationPointCloud::Create();
+  observation->sensorLabel = label;
+  observation->timestamp = toMrpt(scan.start);
+  observation->pointcloud = cloud == CloudClass::CPointsMapXYZI
+                                ? xyziCloud(scan.points)
+                                : genericCloud(scan.points, scan.start - fromMrpt(observation->timestamp));
+  return observation;
+}
+
+Scan fromObservation(const mrpt::obs::CObservationPointCloud& observation, const std::optional<RecordingHeader>& header)
+{
+  Scan scan;
+  scan.start = fromMrpt(observation.timestamp);
+  observation.load();
+  if (const CPointsMap* map = observation.pointcloud.get())
+  {
+    takePositions(*map, fromMrpt(observation.sensorPose), scan.points);
+    if (const auto* generic = dynamic_cast<const CGenericPointsMap*>(map))
+      takeFields(*generic, scan.points);
+    else
+      takeIntensity(*map, scan.points);
+  }
+  scan.columns = columnsOf(scan.points, scan.start);
+  scan.period = header ? header->period() : untilAfterTheLast(scan.points.t);
+  if (header) scan.columns_of.resize(header->lidars.size());
+  for (const Column& column : scan.columns)
+  {
+    if (column.sensor_id >= scan.columns_of.size()) scan.columns_of.resize(column.sensor_id + 1u);
+    scan.columns_of[column.sensor_id]++;
+  }
+  return scan;
+}
+
+mrpt::obs::CObservationIMU::Ptr toObservation(const ImuSample& sample, const Rigid& body_T_imu,
+                                              const std::string& label)
+{
+  auto observation = mrpt::obs::CObservationIMU::Create();
+  observation->sensorLabel = label;
+  observation->timestamp = toMrpt(sample.stamp);
+  observation->sensorPose = toMrpt(body_T_imu);
+  observation->set(mrpt::obs::IMU_X_ACC, sample.accel.x());
+  observation->set(mrpt::obs::IMU_Y_ACC, sample.accel.y());
+  observation->set(mrpt::obs::IMU_Z_ACC, sample.accel.z());
+  observation->set(mrpt::obs::IMU_WX, sample.gyro.x());
+  observation->set(mrpt::obs::IMU_WY, sample.gyro.y());
+  observation->set(mrpt::obs::IMU_WZ, sample.gyro.z());
+  return observation;
+}
+
+std::optional<RecordedImu> fromObservation(const mrpt::obs::CObservationIMU& observation)
+{
+  using namespace mrpt::obs;
+  for (const auto axis : {IMU_X_ACC, IMU_Y_ACC, IMU_Z_ACC, IMU_WX, IMU_WY, IMU_WZ})
+    if (!observation.has(axis)) return std::nullopt;
+
+  RecordedImu imu;
+  imu.sample.stamp = fromMrpt(observation.timestamp);
+  imu.sample.accel = {observation.get(IMU_X_ACC), observation.get(IMU_Y_ACC), observation.get(IMU_Z_ACC)};
+  imu.sample.gyro = {observation.get(IMU_WX), observation.get(IMU_WY), observation.get(IMU_WZ)};
+  imu.body_T_imu = fromMrpt(observation.sensorPose);
+  imu.label = observation.sensorLabel;
+  return imu;
+}
+
+mrpt::obs::CObservationComment::Ptr toObservation(const RecordingHeader& header, Timestamp stamp)
+{
+  auto comment = mrpt::obs::CObservationComment::Create();
+  comment->sensorLabel = kHeaderLabel;
+  comment->timestamp = toMrpt(stamp);
+  comment->text = toJson(header);
+  return comment;
+}
+}  // namespace scanloom

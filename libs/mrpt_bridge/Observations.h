@@ -1,0 +1,66 @@
+/** Scans and IMU samples as MRPT's observations, and back. */
+#pragma once
+#include "batching/Scan.h"
+#include "core/ImuSample.h"
+#include "mrpt_bridge/RecordingHeader.h"
+
+#include <mrpt/maps/CPointsMap.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include <optional>
+#include <string>
+
+namespace scanloom
+{
+/** MOLA's default labels, so that its pipelines find our sensors unchanged. */
+inline constexpr const char* kLidarLabel = "lidar";
+inline constexpr const char* kImuLabel = "imu";
+inline constexpr const char* kHeaderLabel = "scanloom";
+
+enum class CloudClass
+{
+  CGenericPointsMap,  // all fields
+  CPointsMapXYZI,     // x, y, z and intensity / 255 only: for stock tools of MRPT 2.x without the plugin
+};
+
+/** Throws std::invalid_argument, naming the choices, for any other text. */
+CloudClass cloudClassFromName(const std::string& name);
+
+/**
+ * The points in the body frame with identity sensorPose; the stamp is the scan's start, rounded down to MRPT's 100 ns.
+ * Fields: `intensity` and `t` (float; t in s after the observation's stamp), `ring` and `column` (uint16; column is the
+ * measurement id), `sensor_id` (uint8).
+ */
+mrpt::obs::CObservationPointCloud::Ptr toObservation(const Scan&, CloudClass = CloudClass::CGenericPointsMap,
+                                                     const std::string& label = kLidarLabel);
+
+/**
+ * The scan of a cloud that was written by us, or any other cloud as far as it has our fields (the rest are zeros);
+ * points come in the body frame, whatever the sensorPose. Columns are rebuilt from runs of equal (sensor_id, column).
+ *
+ * What a rawlog can't hold: columns without a valid return (so columns_of counts the others only), frame ids, range,
+ * signal and near infrared (all 0), and whether the scan was complete (true). Stamps are within 104 ns of the
+ * original's in absolute terms and 4 ns of each other (t is a float). Without a header, the period ends with the last
+ * point. Throws std::invalid_argument if the cloud is stored in a file that is not there.
+ */
+Scan fromObservation(const mrpt::obs::CObservationPointCloud&, const std::optional<RecordingHeader>&);
+
+struct RecordedImu
+{
+  ImuSample sample;
+  Rigid body_T_imu;
+  std::string label;
+};
+
+/** m/s2 and rad/s, sensorPose is body_T_imu. */
+mrpt::obs::CObservationIMU::Ptr toObservation(const ImuSample&, const Rigid& body_T_imu,
+                                              const std::string& label = kImuLabel);
+
+/** Nothing if it lacks an axis of the accelerometer or of the gyroscope. */
+std::optional<RecordedImu> fromObservation(const mrpt::obs::CObservationIMU&);
+
+/** The comment that opens a rawlog. */
+mrpt::obs::CObservationComment::Ptr toObservation(const RecordingHeader&, Timestamp);
+}  // namespace scanloom

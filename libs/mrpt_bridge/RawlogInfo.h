@@ -1,0 +1,41 @@
+/** What a rawlog holds, without converting any of it. */
+#pragma once
+#include "core/Time.h"
+#include "mrpt_bridge/RecordingHeader.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** The observations of one label and class. */
+struct RawlogSensor
+{
+  std::string label;
+  std::string observation_class;  // "mrpt::obs::CObservationPointCloud"
+  std::string cloud_class;        // "mrpt::maps::CGenericPointsMap"; empty for what is no cloud
+  std::size_t count = 0;
+  std::uint64_t points = 0;
+  Timestamp first;  // earliest and latest stamp
+  Timestamp last;
+};
+
+struct RawlogInfo
+{
+  std::optional<RecordingHeader> header;
+  std::vector<RawlogSensor> sensors;  // in order of label, then class; the header is not among them
+  std::uintmax_t file_size = 0;       // bytes on disk
+  std::string damage;                 // empty if the file is whole
+
+  std::size_t observations() const;
+  std::uint64_t points() const;
+  /** Earliest stamp to latest; 0 if there is nothing. */
+  Duration span() const;
+};
+
+/** Throws std::runtime_error if the file can't be opened, std::invalid_argument if its header is ours but damaged. */
+RawlogInfo rawlogInfo(const std::filesystem::path&);
+}  // namespace scanloom

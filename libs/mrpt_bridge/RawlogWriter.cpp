@@ -1,0 +1,49 @@
+#include "mrpt_bridge/RawlogWriter.h"
+
+#include "mrpt_bridge/Conversions.h"
+#include "mrpt_bridge/GzipArchive.h"
+
+namespace scanloom
+{
+RawlogWriter::RawlogWriter(const std::filesystem::path& path, RecordingHeader header, const RawlogOptions& options)
+  : path_(path),
+    part_(path.string() + ".part"),
+    options_(options),
+    header_(std::move(header)),
+    archive_(std::make_unique<GzipArchive>(GzipArchive::writing(part_, options.compression_level)))
+{
+}
+
+RawlogWriter::~RawlogWriter() = default;
+
+void RawlogWriter::write(const Scan& scan, const std::string& label)
+{
+  write(*toObservation(scan, options_.cloud_class, label));
+}
+
+void RawlogWriter::write(const ImuSample& sample, const Rigid& body_T_imu, const std::string& label)
+{
+  write(*toObservation(sample, body_T_imu, label));
+}
+
+void RawlogWriter::write(const mrpt::obs::CObservation& observation)
+{
+  writeHeaderOnce(fromMrpt(observation.timestamp));
+  *archive_ << observation;
+}
+
+void RawlogWriter::close()
+{
+  writeHeaderOnce(fromNanoseconds(0));
+  archive_->close();
+  archive_.reset();
+  std::filesystem::rename(part_, path_);
+}
+
+void RawlogWriter::writeHeaderOnce(Timestamp stamp)
+{
+  if (!header_) return;
+  *archive_ << *toObservation(*header_, stamp);
+  header_.reset();
+}
+}  // namespace scanloom
