@@ -1,0 +1,140 @@
+#include "source/CaptureReader.h"
+
+#include "source/LinkLayer.h"
+#include "source/describeFile.h"
+
+#include <fmt/format.h>
+#include <pcap/pcap.h>
+
+#include <array>
+#include <cstdio>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+/** libpcap has no code for it: every one of its messages about a missing end begins so. */
+bool saysTruncated(const std::string& message) { return message.rfind("truncated", 0) == 0; }
+
+pcap* open(const std::filesystem::path& path)
+{
+  std::array<char, PCAP_ERRBUF_SIZE> error{};
+  pcap* capture = pcap_open_offline_with_tstamp_precision(path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data());
+  if (capture) return capture;
+  throw std::runtime_error(fmt::format("{}: {}; a pcap or pcapng capture of UDP packets is needed ({})", path.string(),
+                                       describeFile(path), error.data()));
+}
+}  // namespace
+
+CaptureCounters operator+(const CaptureCounters& a, const CaptureCounters& b)
+{
+  return {a.records + b.records,
+          a.datagrams + b.datagrams,
+          a.fragments_joined + b.fragments_joined,
+          a.fragments_expired + b.fragments_expired,
+          a.not_udp + b.not_udp,
+          a.cut_short + b.cut_short,
+          a.malformed + b.malformed,
+          a.truncated || b.truncated};
+}
+
+void CaptureReader::Close::operator()(pcap* capture) const { pcap_close(capture); }
+
+CaptureReader::CaptureReader(const std::filesystem::path& path)
+  : path_(path), capture_(open(path)), link_type_(pcap_datalink(capture_.get()))
+{
+  if (!isKnownLinkType(link_type_))
+  {
+    const char* name = pcap_datalink_val_to_name(link_type_);
+    throw std::runtime_error(fmt::format(
+        "{}: a capture of link type {} ({}); readable are Ethernet, Linux cooked (SLL, SLL2), raw IP and loopback",
+        path.string(), name ? name : "unknown", link_type_));
+  }
+  std::error_code not_a_file;  // a pipe has no size: its progress stays 0
+  const auto size = std::filesystem::file_size(path, not_a_file);
+  if (!not_a_file) file_size_ = static_cast<double>(size);
+}
+
+bool CaptureReader::next(Datagram& datagram)
+{
+  while (nextRecord())
+  {
+    ++counters_.records;
+    try
+    {
+      if (record_->caplen < record_->len)
+        ++counters_.cut_short;
+      else if (readDatagram({frame_, record_->caplen}, datagram))
+        return true;
+    }
+    catch (const std::out_of_range&)
+    {
+      ++counters_.malformed;
+    }
+  }
+  joiner_.finish();
+  return false;
+}
+
+CaptureCounters CaptureReader::counters() const
+{
+  CaptureCounters counters = counters_;
+  counters.fragments_joined = joiner_.joined();
+  counters.fragments_expired = joiner_.lost();
+  return counters;
+}
+
+double CaptureReader::progress() const
+{
+  if (file_size_ == 0) return 0;
+  return static_cast<double>(std::ftell(pcap_file(capture_.get()))) / file_size_;
+}
+
+bool CaptureReader::nextRecord()
+{
+  if (counters_.truncated) return false;
+  pcap_pkthdr* record = nullptr;
+  const int outcome = pcap_next_ex(capture_.get(), &record, &frame_);
+  record_ = record;
+  if (outcome == 1) return true;
+  if (outcome == PCAP_ERROR_BREAK) return false;
+
+  const std::string error = pcap_geterr(capture_.get());
+  if (!saysTruncated(error))
+    throw std::runtime_error(
+        fmt::format("{}: damaged after record {}: {}; 'editcap -r {} good.pcap 1-{}' keeps the part before",
+                    path_.string(), counters_.records, error, path_.string(), counters_.records));
+  counters_.truncated = true;
+  return false;
+}
+
+/** False if the record completes no datagram: something else than UDP, or a fragment that others must follow. */
+bool CaptureReader::readDatagram(Bytes frame, Datagram& datagram)
+{
+  const std::optional<Bytes> packet = ipPacketOf(link_type_, frame);
+  if (!packet) return ++counters_.not_udp, false;
+
+  // libpcap gives nanoseconds in the microseconds' place when opened for nanoseconds.
+  const Timestamp received{std::chrono::seconds{record_->ts.tv_sec} + Duration{record_->ts.tv_usec}};
+  IpContent content = ipContentOf(*packet);
+  const bool may_be_udp = content.protocol == kUdp || (content.isFragment() && isExtension(content.protocol));
+  if (!may_be_udp) return ++counters_.not_udp, false;
+  if (content.isFragment())
+  {
+    if (!joiner_.add(received, content, joined_)) return false;
+    content.payload = joined_;
+    skipExtensions(content.protocol, content.payload);
+    if (content.protocol != kUdp) return ++counters_.not_udp, false;
+  }
+
+  const UdpContent udp = udpContentOf(content.payload);
+  datagram.received = received;
+  datagram.source = content.source;
+  datagram.source_port = udp.source_port;
+  datagram.destination_port = udp.destination_port;
+  datagram.payload.assign(udp.payload.begin(), udp.payload.end());
+  ++counters_.datagrams;
+  return true;
+}
+}  // namespace scanloom

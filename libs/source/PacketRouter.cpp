@@ -1,0 +1,120 @@
+#include "source/PacketRouter.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+/** The better a decoder understands a packet, the smaller. */
+int strangeness(PacketKind kind)
+{
+  switch (kind)
+  {
+    case PacketKind::Lidar:
+    case PacketKind::Imu:
+    case PacketKind::Other:
+      return 0;
+    case PacketKind::BadCrc:
+      return 1;
+    case PacketKind::Malformed:
+      return 2;
+    case PacketKind::Foreign:
+      return 3;
+  }
+  return 3;
+}
+
+bool listensTo(const LidarAddress& address, const Datagram& datagram)
+{
+  if (address.source && *address.source != datagram.source) return false;
+  const std::uint16_t port = datagram.destination_port;
+  return port != 0 && (port == address.lidar_port || port == address.imu_port);
+}
+
+/** Those that understand the packet best; none if it is foreign to all. */
+std::vector<Routed> bestOf(std::vector<Routed> candidates)
+{
+  int best = strangeness(PacketKind::Foreign);
+  for (const Routed& candidate : candidates) best = std::min(best, strangeness(candidate.kind));
+  const auto worse = [best](const Routed& candidate)
+  { return strangeness(candidate.kind) > best || candidate.kind == PacketKind::Foreign; };
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), worse), candidates.end());
+  return candidates;
+}
+}  // namespace
+
+PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars) : lidars_(std::move(lidars))
+{
+  for (const RoutedLidar& lidar : lidars_)
+    if (lidar.address.lidar_port == 0)
+      throw std::invalid_argument(
+          fmt::format("[{}] no lidar port: set lidar_port, or give metadata that names it", lidar.label));
+}
+
+std::optional<Routed> PacketRouter::route(const Datagram& datagram)
+{
+  const std::optional<Routed> routed = decide(datagram);
+  if (!routed) ++unmatched_[{datagram.destination_port, datagram.source}];
+  return routed;
+}
+
+std::optional<Routed> PacketRouter::decide(const Datagram& datagram)
+{
+  std::vector<Routed> best = bestOf(candidates(datagram));
+  if (best.size() == 1)
+  {
+    if (best.front().kind == PacketKind::Lidar) lidars_at_[datagram.source].insert(best.front().lidar);
+    return best.front();
+  }
+  if (best.empty()) return std::nullopt;
+
+  best = fromKnownSource(best, datagram.source);
+  if (best.size() == 1) return best.front();
+  if (std::any_of(best.begin(), best.end(), [](const Routed& r) { return r.kind == PacketKind::Lidar; }))
+    throw ambiguous(datagram, best);
+  return std::nullopt;
+}
+
+std::vector<Routed> PacketRouter::candidates(const Datagram& datagram) const
+{
+  // Who names this very source does not share it with those who take any.
+  const bool named =
+      std::any_of(lidars_.begin(), lidars_.end(),
+                  [&](const RoutedLidar& lidar) { return lidar.address.source && listensTo(lidar.address, datagram); });
+  std::vector<Routed> candidates;
+  for (std::size_t i = 0; i < lidars_.size(); ++i)
+  {
+    const LidarAddress& address = lidars_[i].address;
+    if (listensTo(address, datagram) && address.source.has_value() == named)
+      candidates.push_back({i, lidars_[i].decoder->kind(datagram.payload)});
+  }
+  return candidates;
+}
+
+/** All of them if the source says nothing. */
+std::vector<Routed> PacketRouter::fromKnownSource(const std::vector<Routed>& candidates, const IpAddress& source) const
+{
+  const auto known = lidars_at_.find(source);
+  if (known == lidars_at_.end()) return candidates;
+  std::vector<Routed> from_there;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(from_there),
+               [&](const Routed& r) { return known->second.count(r.lidar) > 0; });
+  return from_there.empty() ? candidates : from_there;
+}
+
+std::runtime_error PacketRouter::ambiguous(const Datagram& datagram, const std::vector<Routed>& candidates) const
+{
+  std::vector<std::string> labels;
+  for (const Routed& candidate : candidates) labels.push_back(lidars_[candidate.lidar].label);
+  return std::runtime_error(
+      fmt::format("lidar packet from {} at port {} may be of [{}]: it holds no serial number; set source_address in "
+                  "these sections to "
+                  "the sensors' own addresses, or give each its own lidar_port",
+                  datagram.source.text(), datagram.destination_port, fmt::join(labels, "] or [")));
+}
+}  // namespace scanloom
