@@ -1,6 +1,7 @@
 /**
  * What a rawlog's clouds can't say of the lidars behind them: the first object of each of our rawlogs is a
- * CObservationComment, label `scanloom`, whose text is this as JSON.
+ * CObservationComment whose text is this as JSON (label `scanloom`, but MRPT before 2.15 does not store a comment's
+ * label).
  */
 #pragma once
 #include "core/Rigid.h"

@@ -1,0 +1,66 @@
+/** MRPT's own programs, run as a user runs them. Their exit status says little: tests look at what comes out. */
+#pragma once
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+
+namespace scanloom
+{
+inline bool isInstalled(const std::string& program)
+{
+  std::istringstream folders(std::getenv("PATH") ? std::getenv("PATH") : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((folder + "/" + program).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+/** What the command printed, on both streams. */
+inline std::string outputOf(const std::string& command)
+{
+  std::string output;
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) return output;
+  char chunk[4096];
+  while (const std::size_t got = fread(chunk, 1, sizeof chunk, pipe)) output.append(chunk, got);
+  pclose(pipe);
+  return output;
+}
+
+/** A folder of the test's own, gone with it. */
+class Workplace
+{
+ public:
+  Workplace() { std::filesystem::create_directories(path_); }
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+  ~Workplace() { std::filesystem::remove_all(path_); }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_ = std::filesystem::temp_directory_path() / ("scanloom_stock_" + std::to_string(getpid()));
+};
+
+/** Of `rawlog-edit --info`: how often a label occurs; -1 if it is not there. */
+inline int occurrences(const std::string& info, const std::string& label)
+{
+  std::smatch found;
+  const std::regex line("Occurs/Rate/Durat[.]\\) : +" + label + " */ *([0-9]+) ");
+  return std::regex_search(info, found, line) ? std::stoi(found[1]) : -1;
+}
+
+inline std::string rawlogEdit(const std::string& arguments)
+{
+  return outputOf("rawlog-edit -p " SCANLOOM_PLUGIN " " + arguments);
+}
+}  // namespace scanloom
+
+#define SCANLOOM_NEEDS_PROGRAM(name) \
+  if (!scanloom::isInstalled(name)) GTEST_SKIP() << name << " is not installed (package mrpt-apps)"
