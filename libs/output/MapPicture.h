@@ -1,0 +1,47 @@
+/** The map at a glance: what stands at breast height, seen from above, with the path of the machine. */
+#pragma once
+#include "core/Field.h"
+#include "output/Keyframe.h"
+#include "output/Trajectory.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+namespace scanloom
+{
+struct MapPictureOptions
+{
+  double margin = 20.0;
+  int longest_side = 1600;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.margin, Field{"margin", "m", "shown around the trajectory", above(0)});
+    visit(o.longest_side, Field{"longest_side", "px", "width or height of the picture", between(400, 10000)});
+  }
+};
+
+/**
+ * Gathers the points of the keyframes as voxels of 0.1 m, so that memory grows with the map and not with time, and
+ * draws them as a PNG with north (the map's y) up: ground shaded by elevation, vegetation pale, what stands 1.0 to
+ * 1.6 m above the ground dark, the trajectory on top, with a scale bar and a legend.
+ */
+class MapPicture
+{
+ public:
+  explicit MapPicture(const MapPictureOptions& options) : options_(options) {}
+
+  void add(const Keyframe&);
+
+  /** Throws std::invalid_argument on an empty trajectory, std::runtime_error if the file cannot be written. */
+  void write(const std::filesystem::path&, const Trajectory&, const std::string& title) const;
+
+ private:
+  MapPictureOptions options_;
+  std::unordered_set<std::uint64_t> voxels_;
+};
+}  // namespace scanloom

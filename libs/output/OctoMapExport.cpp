@@ -1,0 +1,100 @@
+#include "output/OctoMapExport.h"
+
+#include "output/OutputFile.h"
+
+#include <fmt/format.h>
+#include <octomap/octomap.h>
+
+#include <array>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+struct Preset
+{
+  const char* name;
+  OctoMapOptions options;
+};
+
+constexpr std::array kPresets{
+    Preset{"preview", {0.2, 30.0}},
+    Preset{"inventory", {0.1, 20.0}},
+    Preset{"fine", {0.05, 15.0}},
+};
+
+octomap::point3d toOctomap(const Eigen::Vector3d& p)
+{
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+}
+
+/** The points by the lidar that measured them, in the map frame. */
+std::vector<octomap::Pointcloud> splitByLidar(const Keyframe& keyframe, std::size_t lidars)
+{
+  std::vector<octomap::Pointcloud> clouds(lidars);
+  for (std::size_t i = 0; i < keyframe.points.size(); ++i)
+  {
+    const std::uint8_t lidar = keyframe.points.sensor_id[i];
+    if (lidar >= lidars)
+      throw std::invalid_argument(
+          fmt::format("OctoMap: a point has sensor_id = {}, but only {} lidars have a pose", lidar, lidars));
+    clouds[lidar].push_back(toOctomap(keyframe.map_T_body * keyframe.points.position(i).cast<double>().eval()));
+  }
+  return clouds;
+}
+
+void requireWritten(bool written, const std::filesystem::path& path)
+{
+  if (!written) throw std::runtime_error(fmt::format("cannot write the OctoMap '{}'", path.string()));
+}
+}  // namespace
+
+OctoMapOptions octoMapPreset(const std::string& name)
+{
+  for (const Preset& preset : kPresets)
+    if (name == preset.name) return preset.options;
+  throw std::invalid_argument(fmt::format("OctoMap preset '{}' is unknown: preview, inventory or fine", name));
+}
+
+OctoMapBuilder::OctoMapBuilder(const OctoMapOptions& options, std::vector<Rigid> body_T_sensor)
+  : options_(options),
+    body_T_sensor_(std::move(body_T_sensor)),
+    tree_(std::make_unique<octomap::OcTree>(options.resolution))
+{
+}
+
+OctoMapBuilder::~OctoMapBuilder() = default;
+
+void OctoMapBuilder::add(const Keyframe& keyframe)
+{
+  constexpr bool kUpdateInnerNodesLater = true;
+  constexpr bool kOneRayPerOccupiedVoxel = true;  // many points share a voxel near the lidar: tens of times faster
+
+  const std::vector<octomap::Pointcloud> clouds = splitByLidar(keyframe, body_T_sensor_.size());
+  for (std::size_t lidar = 0; lidar < clouds.size(); ++lidar)
+  {
+    const Rigid map_T_sensor = keyframe.map_T_body * body_T_sensor_[lidar];
+    tree_->insertPointCloud(clouds[lidar], toOctomap(map_T_sensor.translation), options_.max_range,
+                            kUpdateInnerNodesLater, kOneRayPerOccupiedVoxel);
+  }
+  tree_->updateInnerOccupancy();
+}
+
+void OctoMapBuilder::writeBinary(const std::filesystem::path& path) const
+{
+  OutputFile file(path);
+  octomap::OcTree most_likely(*tree_);
+  most_likely.toMaxLikelihood();
+  most_likely.prune();
+  requireWritten(most_likely.writeBinaryConst(file.stream()), path);
+  file.commit();
+}
+
+void OctoMapBuilder::writeFull(const std::filesystem::path& path) const
+{
+  OutputFile file(path);
+  requireWritten(tree_->write(file.stream()), path);
+  file.commit();
+}
+}  // namespace scanloom

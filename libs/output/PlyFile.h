@@ -1,0 +1,50 @@
+/** PLY: the one cloud format that every viewer opens. */
+#pragma once
+#include "core/PointCloud.h"
+#include "core/Rigid.h"
+#include "core/Time.h"
+#include "output/OutputFile.h"
+
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/**
+ * Binary little-endian vertices: float x y z, float intensity, double time, ushort ring, uchar sensor_id. `time` is
+ * seconds after the header's "comment time_origin_ns N" (the stamp of the first cloud), exact to the nanosecond.
+ * Streams: memory does not grow with the map.
+ */
+class PlyWriter
+{
+ public:
+  explicit PlyWriter(const std::filesystem::path&);
+
+  /** Appends the points, moved by frame_T_points; their t counts from `stamp`. */
+  void add(const PointCloud&, Timestamp stamp, const Rigid& frame_T_points);
+
+  /** Writes the number of points into the header and finishes the file. */
+  void close();
+
+  std::size_t size() const { return size_; }
+
+ private:
+  void writeHeader();
+
+  OutputFile file_;
+  std::optional<Timestamp> origin_;
+  std::size_t size_ = 0;
+};
+
+struct PlyContent
+{
+  PointCloud points;              // t is 0: see stamps. What the file does not have is 0.
+  std::vector<Timestamp> stamps;  // one a point; empty if the file has no property `time`
+};
+
+/**
+ * Any PLY, binary little-endian or ascii, whose first element is `vertex` with scalar properties, x, y and z among
+ * them; foreign properties are skipped. Throws std::invalid_argument with the file and what is wrong.
+ */
+PlyContent readPly(const std::filesystem::path&);
+}  // namespace scanloom

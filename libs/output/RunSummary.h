@@ -1,0 +1,47 @@
+/** summary.json: what a run did, how long it took and how it ended. */
+#pragma once
+#include "output/OutputFile.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace scanloom
+{
+/** Wall-clock time spent in one stage of the line. */
+struct StageTime
+{
+  std::uint64_t calls = 0;
+  double total = 0;    // s
+  double longest = 0;  // s, of one call
+
+  void add(double duration);
+};
+
+struct RunSummary
+{
+  std::string command;                          // the line that repeats the run
+  std::string outcome;                          // "OK", "LOST", "DEGENERATE", "INTERRUPTED"
+  std::map<std::string, std::string> versions;  // program or library -> version
+  std::uint64_t seed = 0;                       // 0: nothing was drawn
+  std::map<std::string, std::uint64_t> counts;  // "scans", "keyframes", "packets.left", ...
+  std::map<std::string, StageTime> stages;
+  double recorded = 0;            // s of recording that were worked on
+  double elapsed = 0;             // s of wall-clock time
+  double path_length = 0;         // m
+  std::uint64_t peak_memory = 0;  // bytes
+
+  /** Above 1 is faster than real time; 0 if nothing was measured. */
+  double realTimeFactor() const { return elapsed > 0 ? recorded / elapsed : 0; }
+};
+
+/** The program's largest resident set so far, in bytes. */
+std::uint64_t peakMemory();
+
+void to_json(nlohmann::json&, const StageTime&);
+void to_json(nlohmann::json&, const RunSummary&);
+
+void writeSummary(const std::filesystem::path&, const RunSummary&);
+}  // namespace scanloom

@@ -1,0 +1,49 @@
+/** Poses over time and the three text formats that evo, rpg_trajectory_evaluation and KITTI's tools read. */
+#pragma once
+#include "core/Rigid.h"
+#include "core/Time.h"
+#include "output/OutputFile.h"
+
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/** The body was at map_T_body at the instant `stamp`. */
+struct StampedPose
+{
+  Timestamp stamp;
+  Rigid map_T_body;
+};
+
+/** Stamps rise strictly. */
+using Trajectory = std::vector<StampedPose>;
+
+/** Interpolated at `stamp` between its neighbours; nothing before the first and after the last pose. */
+std::optional<Rigid> poseAt(const Trajectory&, Timestamp stamp);
+
+/** "t x y z qx qy qz qw": one pose a line, seconds and metres with 9 decimals, qw >= 0. */
+class TumWriter
+{
+ public:
+  explicit TumWriter(const std::filesystem::path& path) : file_(path) {}
+
+  void add(const StampedPose&);
+  void close() { file_.commit(); }
+
+ private:
+  OutputFile file_;
+};
+
+void writeTum(const std::filesystem::path&, const Trajectory&);
+
+/** Comments (#) and empty lines are skipped; anything else that is no pose throws std::invalid_argument with file and
+ * line. */
+Trajectory readTum(const std::filesystem::path&);
+
+/** KITTI odometry: the upper 3x4 of each pose in row-major order; stamps in s, one a line, go to `times`. */
+void writeKitti(const std::filesystem::path& poses, const std::filesystem::path& times, const Trajectory&);
+
+/** EuRoC (ASL) csv with a header line: integer ns, position, quaternion with w first. */
+void writeEuroc(const std::filesystem::path&, const Trajectory&);
+}  // namespace scanloom
