@@ -6,6 +6,7 @@
 #pragma once
 #include "core/Field.h"
 #include "core/ImuSample.h"
+#include "imu/ImuStep.h"
 #include "imu/NavState.h"
 
 #include <vector>
@@ -15,18 +16,21 @@ namespace scanloom
 /** White noise densities and bias random walks. */
 struct ImuNoise
 {
-  double gyro_noise_deg = 0.003;      // deg/s/sqrt(Hz)
-  double accel_noise = 2.5e-4;        // m/s2/sqrt(Hz)
-  double gyro_bias_walk_deg = 4e-4;   // deg/s/sqrt(s)
-  double accel_bias_walk = 1e-4;      // m/s2/sqrt(s)
+  double gyro_noise_deg = 0.003;     // deg/s/sqrt(Hz)
+  double accel_noise = 2.5e-4;       // m/s2/sqrt(Hz)
+  double gyro_bias_walk_deg = 4e-4;  // deg/s/sqrt(s)
+  double accel_bias_walk = 1e-4;     // m/s2/sqrt(s)
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.gyro_noise_deg, Field{"gyro_noise_deg", "deg/s/sqrt(Hz)", "white noise density of the gyroscope", above(0)});
+    visit(o.gyro_noise_deg,
+          Field{"gyro_noise_deg", "deg/s/sqrt(Hz)", "white noise density of the gyroscope", above(0)});
     visit(o.accel_noise, Field{"accel_noise", "m/s2/sqrt(Hz)", "white noise density of the accelerometer", above(0)});
-    visit(o.gyro_bias_walk_deg, Field{"gyro_bias_walk_deg", "deg/s/sqrt(s)", "random walk of the gyroscope's bias", above(0)});
-    visit(o.accel_bias_walk, Field{"accel_bias_walk", "m/s2/sqrt(s)", "random walk of the accelerometer's bias", above(0)});
+    visit(o.gyro_bias_walk_deg,
+          Field{"gyro_bias_walk_deg", "deg/s/sqrt(s)", "random walk of the gyroscope's bias", above(0)});
+    visit(o.accel_bias_walk,
+          Field{"accel_bias_walk", "m/s2/sqrt(s)", "random walk of the accelerometer's bias", above(0)});
   }
 };
 
@@ -37,12 +41,12 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 struct Preintegration
 {
   Timestamp from, to;
-  ImuBias bias;                                                // linearisation point
+  ImuBias bias;                                                  // linearisation point
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // Delta R_ij, eq. (35)
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          // Delta v_ij
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();          // Delta p_ij
-  Matrix9d covariance = Matrix9d::Zero();                      // eq. (63)
-  Eigen::Matrix3d rotation_by_gyro = Eigen::Matrix3d::Zero();  // the five bias Jacobians, eq. (44) and appendix B
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            // Delta v_ij
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();            // Delta p_ij
+  Matrix9d covariance = Matrix9d::Zero();                        // eq. (63); of rank 6 where there is one step only
+  Eigen::Matrix3d rotation_by_gyro = Eigen::Matrix3d::Zero();    // the five bias Jacobians, eq. (44) and appendix B
   Eigen::Matrix3d velocity_by_gyro = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d velocity_by_accel = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d position_by_gyro = Eigen::Matrix3d::Zero();
@@ -52,13 +56,32 @@ struct Preintegration
   double duration() const { return seconds(to - from); }
 };
 
-/** From samples in time order whose first and last stamps are the interval's ends (ImuBuffer::between); at least two. */
+/**
+ * From samples in time order whose first and last stamps are the interval's ends (ImuBuffer::between).
+ * Throws std::invalid_argument if there are fewer than two, or if a stamp is not after the one before it.
+ */
 Preintegration preintegrate(std::vector<ImuSample> samples, const ImuBias&, const ImuNoise&);
 
-/** Where the IMU is at `motion.to` if it was at `from` at motion.from; bias deviations are corrected to first order. */
+/** Farther than this from its linearisation point first order is not enough: the samples are integrated again. */
+inline constexpr double kGyroBiasReach = 0.01;  // rad/s
+inline constexpr double kAccelBiasReach = 0.1;  // m/s2
+
+/** `motion` itself while `bias` is within reach of its linearisation point, else integrated again at `bias`. */
+Preintegration corrected(const Preintegration& motion, const ImuBias& bias, const ImuNoise&);
+
+/** What the motion would be at `bias`, to first order: eq. (44). */
+ImuDelta deltaAt(const Preintegration& motion, const ImuBias& bias);
+
+/**
+ * Where the IMU is at motion.to if it was at `from` at motion.from; bias deviations are corrected to first order.
+ * Throws std::invalid_argument if from.stamp is not motion.from.
+ */
 NavState predict(const NavState& from, const Preintegration& motion);
 
-/** Poses at each of `stamps` (sorted, within the samples' span), integrating the samples from `from` with its bias. */
+/**
+ * The state at each of `stamps`, integrating the samples from `from` with its bias. Throws std::invalid_argument
+ * unless from.stamp is the first sample's, and the stamps are sorted and within the samples' span.
+ */
 std::vector<NavState> predictAt(const NavState& from, const std::vector<ImuSample>& samples,
                                 const std::vector<Timestamp>& stamps);
 }  // namespace scanloom
