@@ -19,18 +19,18 @@ struct LidarDescription
   std::string model;   // as the maker writes it: "OS-0-128"
   std::string serial;  // as the maker writes it; empty if the metadata has none
   int channels = 0;
-  int columns_per_frame = 0;   // measurement blocks of a full turn
+  int columns_per_frame = 0;  // measurement blocks of a full turn
   int columns_per_packet = 0;
-  int first_column = 0;        // azimuth window, inclusive; wraps around 0 if first_column > last_column
+  int first_column = 0;  // azimuth window, inclusive; wraps around 0 if first_column > last_column
   int last_column = 0;
-  int returns = 1;             // points per channel and block at most
-  double frame_rate = 0;       // Hz, nominal
+  int returns = 1;                     // points per channel and block at most
+  double frame_rate = 0;               // Hz, nominal
   std::uint64_t frame_id_modulus = 0;  // frame ids count modulo this: 65536 or 2^32
-  std::uint16_t lidar_port = 0;  // 0 if the metadata has none
+  std::uint16_t lidar_port = 0;        // 0 if the metadata has none
   std::uint16_t imu_port = 0;
-  Rigid sensor_T_imu;          // the pose of the built-in IMU
-  Rigid body_T_sensor;         // the extrinsics folded into the conversion
-  std::string clock;           // the sensor's own name for its time source: "TIME_FROM_PTP_1588"; empty if unknown
+  Rigid sensor_T_imu;   // the pose of the built-in IMU
+  Rigid body_T_sensor;  // the extrinsics folded into the conversion
+  std::string clock;    // the sensor's own name for its time source: "TIME_FROM_PTP_1588"; empty if unknown
 
   Duration blockPeriod() const { return fromSeconds(1.0 / (frame_rate * columns_per_frame)); }
 };
@@ -42,7 +42,7 @@ enum class PacketKind
   Other,      // this lidar's, but of no use here (zone state)
   Malformed,  // this lidar's port, but the size or the type fits nothing it sends
   BadCrc,
-  Foreign,    // another sensor's: serial or init id of somebody else
+  Foreign,  // another sensor's: serial or init id of somebody else
 };
 
 /** What a packet says about the whole sensor. */

@@ -1,0 +1,46 @@
+#include "lidar/LidarModels.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "lidar/MetadataKeys.h"
+#include "lidar/OusterDecoder.h"
+
+namespace scanloom
+{
+namespace
+{
+std::unique_ptr<PacketDecoder> makeOuster(const std::string& text, const std::string& name, const Rigid& body_T_sensor)
+{
+  return std::make_unique<OusterDecoder>(parseOusterMetadata(text, name), body_T_sensor);
+}
+
+/** Any JSON object: what it lacks is said by the parser, key by key. */
+bool looksLikeOuster(const std::string& text)
+{
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && text[first] == '{';
+}
+}  // namespace
+
+const std::vector<LidarFamily>& lidarFamilies()
+{
+  static const std::vector<LidarFamily> families{
+      {"ouster", "the JSON text of an Ouster sensor's metadata", &looksLikeOuster, &makeOuster},
+  };
+  return families;
+}
+
+std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_file, const Rigid& body_T_sensor)
+{
+  const std::string text = readMetadataText(metadata_file);
+  std::string expected;
+  for (const LidarFamily& family : lidarFamilies())
+  {
+    if (family.recognises(text)) return family.make(text, metadata_file, body_T_sensor);
+    expected += fmt::format("{}{}", expected.empty() ? "" : ", or ", family.described);
+  }
+  throw std::invalid_argument(fmt::format("{}: belongs to no known lidar; expected {}", metadata_file, expected));
+}
+}  // namespace scanloom

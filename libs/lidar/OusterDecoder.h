@@ -1,0 +1,63 @@
+/** Ouster's packets: every profile of OusterProfiles.h, both header types, both IMU formats. */
+#pragma once
+#include "lidar/BeamTable.h"
+#include "lidar/OusterMetadata.h"
+#include "lidar/OusterPoints.h"
+#include "lidar/PacketDecoder.h"
+
+#include <vector>
+
+namespace scanloom
+{
+/**
+ * Points: x, y, z by BeamTable; intensity is REFLECTIVITY; a range of 0 is no return; of two returns the second is left
+ * out where its range is 0 or that of the first. A block is invalid if the sensor says so, and also if its measurement
+ * id lies outside the turn or its stamp outside of 62 bits of ns: no points come from it.
+ *
+ * kind(): a packet whose header bears another serial number is Foreign, whatever its size. Another init id is not: the
+ * sensor has started again (header()). BadCrc: the last 8 bytes of a packet with a STANDARD header are neither its
+ * CRC-64 nor one of the two fillings of firmware that computes none (0 in 2.2, 0xDEADBEEF0000C0DE in 2.3).
+ *
+ * LEGACY IMU packets bear three stamps; the sample gets the gyroscope's. The accelerometer is read 0.2 ms before it (in
+ * every recording at hand) and the first stamp is of the sensor's own clock since boot, whatever the timestamp mode.
+ */
+class OusterDecoder : public PacketDecoder
+{
+ public:
+  /** Throws std::invalid_argument as parseOusterMetadata does where `metadata` was filled by hand. */
+  OusterDecoder(OusterMetadata metadata, const Rigid& body_T_sensor);
+
+  const LidarDescription& description() const override { return description_; }
+  PacketKind kind(Bytes packet) const override;
+  PacketHeader header(Bytes packet) const override;
+  void readBlocks(Bytes packet, std::vector<MeasurementBlock>& blocks) const override;
+  void appendPoints(Bytes packet, std::size_t block_index, std::int32_t t, std::uint8_t sensor_id,
+                    PointCloud& points) const override;
+  std::vector<ImuSample> imuSamples(Bytes packet) const override;
+
+  const OusterMetadata& metadata() const { return metadata_; }
+  const OusterLayout& layout() const { return layout_; }
+
+  /** The status word of a column, 32 bits in LEGACY packets and 16 in others; its lowest bit says valid. */
+  std::uint32_t columnStatus(Bytes packet, std::size_t index) const;
+
+ private:
+  MeasurementBlock readBlock(Bytes packet, std::size_t index, std::uint32_t packet_frame_id) const;
+  bool isForeign(Bytes packet) const;
+  PacketKind kindIfIntact(Bytes packet, OusterHeader, PacketKind) const;
+
+  OusterMetadata metadata_;
+  OusterLayout layout_;
+  LidarDescription description_;
+  std::optional<std::uint64_t> serial_;
+  BeamTable beams_;
+  ColumnAngles angles_;
+  AppendOusterColumn append_;
+};
+
+/** The beams of a sensor in its lidar frame: documented formula of the maker's SDK (destaggering is not involved). */
+std::vector<Beam> beamsOf(const OusterMetadata&);
+
+/** Translations from mm to m. */
+Rigid rigidFromMillimetres(Eigen::Matrix4d);
+}  // namespace scanloom
