@@ -1,7 +1,7 @@
 /** The map at a glance: what stands at breast height, seen from above, with the path of the machine. */
 #pragma once
 #include "core/Field.h"
-#include "output/Keyframe.h"
+#include "core/Keyframe.h"
 #include "output/Trajectory.h"
 
 #include <cstdint>

@@ -4,7 +4,7 @@
  */
 #pragma once
 #include "core/Field.h"
-#include "output/Keyframe.h"
+#include "core/Keyframe.h"
 
 #include <filesystem>
 #include <memory>

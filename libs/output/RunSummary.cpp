@@ -7,13 +7,6 @@
 
 namespace scanloom
 {
-void StageTime::add(double duration)
-{
-  ++calls;
-  total += duration;
-  longest = std::max(longest, duration);
-}
-
 std::uint64_t peakMemory()
 {
   rusage usage{};
@@ -23,11 +16,11 @@ std::uint64_t peakMemory()
 
 void to_json(nlohmann::json& json, const StageTime& stage)
 {
-  const double calls = static_cast<double>(std::max<std::uint64_t>(stage.calls, 1));
-  json = {{"calls", stage.calls},
-          {"total_ms", 1e3 * stage.total},
-          {"mean_ms", 1e3 * stage.total / calls},
-          {"max_ms", 1e3 * stage.longest}};
+  const double runs = static_cast<double>(std::max<std::uint64_t>(stage.runs, 1));
+  json = {{"runs", stage.runs},
+          {"total_ms", stage.total_ms},
+          {"mean_ms", stage.total_ms / runs},
+          {"max_ms", stage.longest_ms}};
 }
 
 void to_json(nlohmann::json& json, const RunSummary& run)

@@ -1,5 +1,6 @@
 /** summary.json: what a run did, how long it took and how it ended. */
 #pragma once
+#include "core/StageTimes.h"
 #include "output/OutputFile.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,16 +11,6 @@
 
 namespace scanloom
 {
-/** Wall-clock time spent in one stage of the line. */
-struct StageTime
-{
-  std::uint64_t calls = 0;
-  double total = 0;    // s
-  double longest = 0;  // s, of one call
-
-  void add(double duration);
-};
-
 struct RunSummary
 {
   std::string command;                          // the line that repeats the run

@@ -1,7 +1,6 @@
 /** Poses over time and the three text formats that evo, rpg_trajectory_evaluation and KITTI's tools read. */
 #pragma once
-#include "core/Rigid.h"
-#include "core/Time.h"
+#include "core/StampedPose.h"
 #include "output/OutputFile.h"
 
 #include <optional>
@@ -9,16 +8,6 @@
 
 namespace scanloom
 {
-/** The body was at map_T_body at the instant `stamp`. */
-struct StampedPose
-{
-  Timestamp stamp;
-  Rigid map_T_body;
-};
-
-/** Stamps rise strictly. */
-using Trajectory = std::vector<StampedPose>;
-
 /** Interpolated at `stamp` between its neighbours; nothing before the first and after the last pose. */
 std::optional<Rigid> poseAt(const Trajectory&, Timestamp stamp);
 

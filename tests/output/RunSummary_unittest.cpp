@@ -16,8 +16,7 @@ TEST(RunSummary, isJsonWithUnitsInItsNames)
   run.counts["scans"] = 300;
   run.recorded = 30;
   run.elapsed = 10;
-  run.stages["registration"].add(0.010);
-  run.stages["registration"].add(0.030);
+  run.stages["registration"] = {2, 40.0, 30.0};
   const TemporaryFolder folder;
   writeSummary(folder / "summary.json", run);
 

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include "preprocessing/Crop.h"
+#include "preprocessing/Deskew.h"
+#include "preprocessing/Thin.h"
+
+using namespace scanloom;
+
+namespace
+{
+/** One point per column, at these places. */
+Scan scanOf(const std::vector<Eigen::Vector3f>& positions)
+{
+  Scan scan;
+  scan.period = 100ms;
+  scan.points.resize(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+  {
+    scan.points.x[i] = positions[i].x();
+    scan.points.y[i] = positions[i].y();
+    scan.points.z[i] = positions[i].z();
+    scan.points.range[i] = static_cast<std::uint32_t>(1000 * positions[i].norm());
+    Column column;
+    column.stamp = Timestamp{Duration{static_cast<std::int64_t>(i)} * 1000000};
+    column.first_point = static_cast<std::uint32_t>(i);
+    column.count = 1;
+    scan.columns.push_back(column);
+  }
+  return scan;
+}
+}  // namespace
+
+TEST(Crop, removesTheMachineAndLeavesItsColumnsInPlace)
+{
+  CropOptions box;
+  box.min_x = box.min_y = box.min_z = -1;
+  box.max_x = box.max_y = box.max_z = 1;
+  const Scan cropped = cropOut(scanOf({{5, 0, 0}, {0.9f, 0.9f, -0.9f}, {0, 1.1f, 0}}), box);
+  ASSERT_EQ(cropped.points.size(), 2u);
+  EXPECT_EQ(cropped.points.y[1], 1.1f);
+  ASSERT_EQ(cropped.columns.size(), 3u);
+  EXPECT_EQ(cropped.columns[1].count, 0);
+  EXPECT_EQ(cropped.columns[2].first_point, 1u);
+}
+
+TEST(Crop, removesWhatIsTooFarOrNotFinite)
+{
+  CropOptions options;
+  options.max_range = 50;
+  EXPECT_EQ(cropOut(scanOf({{60, 0, 0}, {40, 0, 0}, {NAN, 0, 10}}), options).points.size(), 1u);
+}
+
+TEST(Deskew, aWallSeenWhileDrivingTowardsItBecomesFlat)
+{
+  // 1 m/s along x, a wall at x = 10 of the scan's end: at t before the end it is seen 1 m/s * t farther away.
+  std::vector<Eigen::Vector3f> seen;
+  std::vector<Rigid> end_T_column;
+  for (int i = 0; i < 100; ++i)
+  {
+    const double before_end = 0.1 - 0.001 * i;
+    seen.emplace_back(static_cast<float>(10 + before_end), static_cast<float>(i), 0.f);
+    end_T_column.push_back({Eigen::Quaterniond::Identity(), {-before_end, 0, 0}});
+  }
+  const PointCloud points = deskew(scanOf(seen), end_T_column);
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_NEAR(points.x[i], 10, 2e-6);
+}
+
+TEST(Deskew, wantsOnePosePerColumn) { EXPECT_THROW(deskew(scanOf({{1, 0, 0}}), {}), std::invalid_argument); }
+
+TEST(Thin, keepsTheFirstPointOfEachCube)
+{
+  const PointCloud points = thin(scanOf({{0.01f, 0, 0}, {0.09f, 0, 0}, {-0.01f, 0, 0}, {0.11f, 0, 0}}).points, 0.1);
+  ASSERT_EQ(points.size(), 3u);
+  EXPECT_EQ(points.x, (std::vector<float>{0.01f, -0.01f, 0.11f}));
+}
