@@ -4,7 +4,7 @@
  * with the lidar's name, in the lidar's frame with its sensorPose, as if the whole scan had been measured at once.
  */
 #pragma once
-#include "output/Keyframe.h"
+#include "core/Keyframe.h"
 
 #include <filesystem>
 #include <memory>
