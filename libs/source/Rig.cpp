@@ -1,0 +1,164 @@
+#include "source/Rig.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "lidar/LidarModels.h"
+#include "source/Extrinsics.h"
+
+namespace scanloom
+{
+namespace
+{
+using Poses = std::map<std::string, Rigid>;
+
+Rigid poseOf(const std::string& key, const std::string& pose, const std::string& sensor, const RigOptions& rig,
+             const Poses& poses)
+{
+  if (!pose.empty()) try
+    {
+      return parsePose(pose);
+    }
+    catch (const std::invalid_argument& problem)
+    {
+      throw ConfigError(fmt::format("{} = {}: {}", key, pose, problem.what()));
+    }
+  const auto found = poses.find("T_body_" + sensor);
+  if (found != poses.end()) return found->second;
+  throw ConfigError(
+      rig.extrinsics.empty()
+          ? fmt::format("{} is missing: give [x y z yaw pitch roll] (m, deg), or 'extrinsics = FILE'", key)
+          : fmt::format("{} has no T_body_{} (give it there, or as {})", rig.extrinsics, sensor, key));
+}
+
+LidarAddress addressOf(const LidarOptions& options, const LidarDescription& lidar)
+{
+  LidarAddress address;
+  address.lidar_port = options.port ? static_cast<std::uint16_t>(options.port) : lidar.lidar_port;
+  address.imu_port = options.imu_port ? static_cast<std::uint16_t>(options.imu_port) : lidar.imu_port;
+  if (!options.address.empty()) address.source = IpAddress::parse(options.address);
+  if (address.lidar_port == 0)
+    throw ConfigError(
+        fmt::format("lidar '{}': {} names no UDP port: give its key 'port'", options.name, options.metadata));
+  return address;
+}
+
+bool wanted(const std::string& name, const std::vector<std::string>& only)
+{
+  return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
+}
+
+void refuseUnknownLidars(const std::vector<std::string>& only, const std::vector<LidarOptions>& lidars)
+{
+  std::vector<std::string> names;
+  for (const LidarOptions& lidar : lidars) names.push_back(lidar.name);
+  for (const std::string& name : only)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw ConfigError(fmt::format("no lidar is called '{}': {}", name, suggestion(name, names)));
+}
+
+std::vector<std::filesystem::path> splitByComma(const std::string& list)
+{
+  std::vector<std::filesystem::path> paths;
+  for (std::size_t at = 0; at < list.size();)
+  {
+    const std::size_t comma = std::min(list.find(',', at), list.size());
+    const std::string_view path = trimmed(std::string_view(list).substr(at, comma - at));
+    if (!path.empty()) paths.emplace_back(path);
+    at = comma + 1;
+  }
+  return paths;
+}
+
+std::vector<RoutedLidar> routesOf(const Rig& rig)
+{
+  std::vector<RoutedLidar> routes;
+  for (std::size_t i = 0; i < rig.lidars.size(); ++i)
+    routes.push_back({rig.lidars[i].name, rig.addresses[i], rig.lidars[i].decoder.get()});
+  return routes;
+}
+}  // namespace
+
+Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
+{
+  refuseUnknownLidars(only, settings.lidars);
+  const Poses poses = settings.rig.extrinsics.empty() ? Poses{} : readExtrinsics(settings.rig.extrinsics);
+
+  Rig rig;
+  rig.batcher = settings.batcher;
+  rig.captures = splitByComma(settings.rig.pcap_input);
+  for (std::size_t i = 0; i < settings.lidars.size(); ++i)
+  {
+    const LidarOptions& options = settings.lidars[i];
+    if (!wanted(options.name, only)) continue;
+    const Rigid body_T_sensor =
+        poseOf(fmt::format("lidar{}_pose", i + 1), options.pose, options.name, settings.rig, poses);
+    std::shared_ptr<const PacketDecoder> decoder = makeDecoder(options.metadata, body_T_sensor);
+    rig.addresses.push_back(addressOf(options, decoder->description()));
+    rig.lidars.push_back({options.name, std::move(decoder), fromSeconds(options.time_offset)});
+  }
+  if (!settings.rig.imu_csv.empty())
+  {
+    rig.body_T_imu = poseOf("imu_pose", settings.rig.imu_pose, "imu", settings.rig, poses);
+    rig.body_imu = readEurocImu(settings.rig.imu_csv);
+  }
+  return rig;
+}
+
+RigReplay::RigReplay(const Rig& rig)
+  : lidars_(rig.lidars),
+    body_imu_(rig.body_imu),
+    captures_(rig.captures),
+    router_(routesOf(rig)),
+    batcher_(rig.lidars, rig.batcher)
+{
+}
+
+std::optional<SensorEvent> RigReplay::next()
+{
+  while (waiting_.empty() && !ended_)
+  {
+    if (captures_.next(datagram_))
+      take(datagram_);
+    else
+    {
+      release(batcher_.finish(), Timestamp::max());
+      ended_ = true;
+    }
+  }
+  if (waiting_.empty()) return std::nullopt;
+  SensorEvent event = std::move(waiting_.front());
+  waiting_.pop_front();
+  return event;
+}
+
+void RigReplay::take(const Datagram& datagram)
+{
+  const std::optional<Routed> routed = router_.route(datagram);
+  std::vector<Scan> scans;
+  if (routed && routed->kind == PacketKind::Imu)
+  {
+    const BatchedLidar& lidar = lidars_[routed->lidar];
+    for (ImuSample sample : lidar.decoder->imuSamples(datagram.payload))
+    {
+      sample.stamp += lidar.time_offset;
+      imu_order_.add({static_cast<int>(routed->lidar), sample});
+    }
+    scans = batcher_.advance(datagram.received);
+  }
+  else if (routed)
+    scans = batcher_.push(routed->lidar, datagram.payload, datagram.received);
+
+  if (const auto horizon = batcher_.horizon()) release(std::move(scans), *horizon);
+}
+
+void RigReplay::release(std::vector<Scan> scans, Timestamp horizon)
+{
+  for (; next_body_imu_ < body_imu_.size() && body_imu_[next_body_imu_].stamp < horizon; ++next_body_imu_)
+    imu_order_.add({SensorImu::kBody, body_imu_[next_body_imu_]});
+  for (SensorImu& imu : imu_order_.release(horizon)) waiting_.emplace_back(std::move(imu));
+  for (Scan& scan : scans) waiting_.emplace_back(std::move(scan));
+}
+}  // namespace scanloom

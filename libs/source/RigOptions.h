@@ -1,0 +1,99 @@
+/** The INI section of a sensor rig: the same keys for `scanloom` and for the plugin in MRPT's stock applications. */
+#pragma once
+#include "batching/TimeBatcher.h"
+#include "config/Configuration.h"
+#include "core/Field.h"
+
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** One lidar; the keys bear the prefix lidar1_, lidar2_, ... */
+struct LidarOptions
+{
+  std::string name;
+  std::string metadata;
+  std::string pose;
+  std::string address;
+  int port = 0;
+  int imu_port = 0;
+  double time_offset = 0;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.name, Field{"name", "", "what the lidar is called in the output; 'lidar1' if empty"});
+    visit(o.metadata, Field{"metadata", "", "the sensor's metadata JSON file; a lidar exists where this is given"});
+    visit(o.pose,
+          Field{"pose", "m, deg", "sensor frame in the body frame: [x y z yaw pitch roll]; empty: from extrinsics"});
+    visit(o.address, Field{"address", "", "the sensor's IP address; needed only where ports and serials do not tell"});
+    visit(o.port, Field{"port", "", "UDP port of its lidar packets; 0: from the metadata", between(0, 65535)});
+    visit(o.imu_port, Field{"imu_port", "", "UDP port of its IMU packets; 0: from the metadata", between(0, 65535)});
+    visit(o.time_offset, Field{"time_offset", "s", "added to its stamps", between(-1e6, 1e6)});
+  }
+};
+
+struct RigOptions
+{
+  std::string pcap_input;
+  std::string extrinsics;
+  std::string imu_csv;
+  std::string imu_pose;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.pcap_input, Field{"pcap_input", "", "captures to read, separated by commas, merged by record time"});
+    visit(o.extrinsics, Field{"extrinsics", "", "file of lines 'T_body_<name> x y z yaw pitch roll' (m, deg)"});
+    visit(o.imu_csv, Field{"imu_csv", "", "the body's own IMU, as EuRoC csv; empty: none"});
+    visit(o.imu_pose, Field{"imu_pose", "m, deg",
+                            "IMU frame in the body frame: [x y z yaw pitch roll]; empty: T_body_imu of extrinsics"});
+  }
+};
+
+/** What MRPT's applications want of every sensor section; process_rate is mandatory there. */
+struct DriverOptions
+{
+  std::string driver = "CMultiLidarSensor";
+  std::string sensorLabel = "lidar";
+  std::string imu_label = "imu";
+  std::string cloud_class = "CGenericPointsMap";
+  double process_rate = 100;
+  int max_queue_len = 200;
+  int grab_decimation = 0;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.driver, Field{"driver", "", "the sensor's class, by which MRPT finds it"});
+    visit(o.sensorLabel, Field{"sensorLabel", "", "label of the clouds"});
+    visit(o.imu_label, Field{"imu_label", "", "label of the body's IMU; a lidar's own IMU is <imu_label>_<name>"});
+    visit(o.cloud_class,
+          Field{"cloud_class", "",
+                "CGenericPointsMap (all fields) or CPointsMapXYZI (stock 2.x tools without the plugin)"});
+    visit(o.process_rate, Field{"process_rate", "Hz", "how often rawlog-grabber asks", above(0)});
+    visit(o.max_queue_len,
+          Field{"max_queue_len", "", "observations that wait at most in the plugin; the oldest is dropped and counted",
+                atLeast(1)});
+    visit(o.grab_decimation, Field{"grab_decimation", "", "rawlog-grabber keeps one of so many; 0: all", atLeast(0)});
+  }
+};
+
+struct RigSettings
+{
+  DriverOptions driver;
+  RigOptions rig;
+  BatcherOptions batcher;
+  std::vector<LidarOptions> lidars;  // lidar1_, lidar2_, ... as far as metadata is given
+};
+
+/** Every key of such a section, with lidar1_ for all lidars: for manuals and default files. */
+Schema rigSchema(const std::string& section);
+
+/** The one section with driver = CMultiLidarSensor. Throws ConfigError if there is none or more than one. */
+std::string rigSection(const Configuration&);
+
+/** Throws ConfigError with all problems, unknown keys among them. */
+RigSettings readRigSettings(const Configuration&, const std::string& section);
+}  // namespace scanloom
