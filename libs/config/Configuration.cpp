@@ -176,6 +176,31 @@ void Configuration::refuseUnknown(const Schema& known) const
   if (!problems.empty()) throw ConfigError(problems);
 }
 
+std::string toIni(const Schema& in_effect, const Configuration& configuration)
+{
+  std::string text;
+  for (const auto& [section, fields] : in_effect)
+  {
+    text += fmt::format("[{}]\n", section.name);
+    for (const FieldDescription& described : fields)
+    {
+      const std::string& key = described.field.name;
+      const bool given = configuration.has(section.name, key);
+      const std::string origin = given ? toString(configuration.place(section.name, key)) : "default";
+      text += fmt::format("# {}\n{} = {}\n", origin, key, described.value);
+    }
+  }
+  for (const std::string& sensor : configuration.sections())
+  {
+    if (!configuration.isSensor(sensor)) continue;
+    text += fmt::format("[{}]\n", sensor);
+    for (const std::string& key : configuration.keys(sensor))
+      text += fmt::format("# {}\n{} = {}\n", toString(configuration.place(sensor, key)), key,
+                          configuration.text(sensor, key));
+  }
+  return text;
+}
+
 std::string complaintAbout(const IniEntry& entry, const Field& field, const std::string& constraint)
 {
   return fmt::format("{}: [{}] {} = {}{}{}: {}{}", toString(entry.place), entry.section, entry.key,

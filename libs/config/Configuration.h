@@ -67,6 +67,13 @@ class Configuration
   std::map<std::string, Keys, CaseInsensitiveLess> sections_;
 };
 
+/**
+ * What a run uses, as an INI file that repeats it: every value in effect with the place it comes from, then the
+ * sensors.
+ * @param in_effect schemaOf() the settings that were read.
+ */
+std::string toIni(const Schema& in_effect, const Configuration&);
+
 /** `harvester.ini:12: [ndt] cell_size = -1 m: must be > 0 (edge of a cell)` */
 std::string complaintAbout(const IniEntry&, const Field&, const std::string& constraint);
 

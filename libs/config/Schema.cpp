@@ -39,6 +39,11 @@ std::string inTableCell(std::string text)
 }
 }  // namespace
 
+void refuseDefault(const Section& section, const Field& field, const std::string& constraint)
+{
+  throw std::logic_error(fmt::format("[{}] {}: its own value {}", section.name, field.name, constraint));
+}
+
 void merge(Schema& into, const SectionDescription& added)
 {
   const auto existing = std::find_if(

@@ -47,16 +47,21 @@ struct SectionDescription
 };
 using Schema = std::vector<SectionDescription>;
 
+[[noreturn]] void refuseDefault(const Section&, const Field&, const std::string& constraint);
+
+/** @throws std::logic_error if a value is not within its own bounds: the default file could not be read back. */
 template <typename Options>
 SectionDescription describe(const Section& section, const Options& options = {})
 {
   SectionDescription described{section, {}};
-  Options::fields(options,
-                  [&](const auto& member, Field field)
-                  {
-                    field.name = section.prefix + field.name;
-                    described.fields.push_back({field, typeName(member), toText(member)});
-                  });
+  const auto add = [&](const auto& member, Field field)
+  {
+    field.name = section.prefix + field.name;
+    auto copy = member;
+    if (const auto constraint = assign(copy, toText(member), field)) refuseDefault(section, field, *constraint);
+    described.fields.push_back({field, typeName(member), toText(member)});
+  };
+  Options::fields(options, add);
   return described;
 }
 

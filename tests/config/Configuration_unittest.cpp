@@ -265,6 +265,29 @@ TEST(Configuration, namesTheNearestKeyWhenASingleOneIsMissing)
               ElementsAre("[sensor] pcap_input: is not set: did you mean 'pcap_inputs'?"));
 }
 
+TEST(Configuration, writesWhatIsInEffectSoThatItCanBeRunAgain)
+{
+  Configuration configuration = from("[lidars]\nlidar1_min_range = 3\n[left]\ndriver = CMultiLidarSensor\n");
+  configuration.set("ndt.overlap=0.5");
+  const auto settings = readSettings<TestSettings>(configuration, schemaOf<TestSettings>());
+
+  const std::string written = toIni(schemaOf(settings), configuration);
+
+  EXPECT_EQ(written,
+            "[ndt]\n"
+            "# default\ncell_size = 1\n"
+            "# --set\noverlap = 0.5\n"
+            "# default\nneighbours = 27\n"
+            "# default\nfine = true\n"
+            "# default\nmethod = d2d\n"
+            "[lidars]\n"
+            "# harvester.ini:2\nlidar1_min_range = 3\n"
+            "# default\nlidar2_min_range = 0.5\n"
+            "[left]\n"
+            "# harvester.ini:4\ndriver = CMultiLidarSensor\n");
+  EXPECT_EQ(readSettings<TestSettings>(from(written), schemaOf<TestSettings>()).ndt.overlap, 0.5);
+}
+
 TEST(Configuration, lendsItsWordsToTheChecksOfAVerb)
 {
   const Configuration configuration = from("[ndt]\ncell_size = 3\n");

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <stdexcept>
+
 namespace scanloom
 {
 namespace
@@ -80,6 +83,15 @@ TEST(Schema, writesATableForEachSection)
             "| `neighbours` | 7 |  | whole number, > 0 and <= 27 | 1 \\| 7 \\| 27 |\n"
             "| `fine` | false |  | true or false | align twice |\n"
             "| `label` |  |  |  | name in the report |\n");
+}
+
+TEST(Schema, refusesADefaultOutOfItsOwnBounds)
+{
+  CellSettings wrong;
+  wrong.cells.cell_size = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(schemaOf(wrong), std::logic_error);
+  wrong.cells.cell_size = 0;
+  EXPECT_THROW(schemaOf(wrong), std::logic_error);
 }
 
 TEST(Schema, holdsASectionOnceForSeveralVerbs)

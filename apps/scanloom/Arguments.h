@@ -1,0 +1,44 @@
+/** Options that several verbs share, each with one name, one meaning and one help text. */
+#pragma once
+#include "config/Configuration.h"
+
+#include <mrpt/system/COutputLogger.h>
+#include <CLI/CLI.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+struct ConfigurationArguments
+{
+  std::vector<std::filesystem::path> files;
+  std::vector<std::string> assignments;
+  bool dry_run = false;
+};
+/** -c/--config, --set, --dry-run. @return the option -c, for a verb that requires it. */
+CLI::Option* addConfiguration(CLI::App&, ConfigurationArguments&);
+
+struct OutputFolderArguments
+{
+  std::filesystem::path folder;
+  bool overwrite = false;
+};
+/** --out-dir, -w/--overwrite. @return the option --out-dir. */
+CLI::Option* addOutputFolder(CLI::App&, OutputFolderArguments&);
+
+/**
+ * The folder may exist and hold other files.
+ * @param names of all files that will be written there. @throws UsageError naming those that exist, without -w.
+ */
+void refuseExisting(const OutputFolderArguments&, const std::vector<std::string>& names);
+
+CLI::Option* addOverwrite(CLI::App&, bool&);      // -w/--overwrite
+CLI::Option* addJson(CLI::App&, bool&);           // --json: results as JSON on stdout
+CLI::Option* addSeed(CLI::App&, std::uint64_t&);  // --seed
+CLI::Option* addJobs(CLI::App&, int&);            // --jobs; 0: as many as there are cores
+/** -v/--verbosity LEVEL (debug, info, warn, error), -q/--quiet. */
+CLI::Option* addVerbosity(CLI::App&, mrpt::system::VerbosityLevel&);
+}  // namespace scanloom

@@ -1,0 +1,131 @@
+#include "Program.h"
+
+#include "Verb.h"
+#include "config/ConfigError.h"
+#include "config/Names.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <sstream>
+
+namespace scanloom
+{
+namespace
+{
+/** Where a standard stream is closed, the next file we open would get its number, and our messages. */
+void keepStandardStreamsOpen()
+{
+  for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
+    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", O_RDWR);
+}
+
+/** The first line that says something: MRPT's exceptions frame their message and append a call stack. */
+std::string oneLine(const char* what)
+{
+  std::istringstream lines(what);
+  for (std::string line; std::getline(lines, line);)
+  {
+    constexpr std::string_view kLabel = "Message:";
+    std::string_view text = trimmed(line);
+    if (text.substr(0, kLabel.size()) == kLabel) text = trimmed(text.substr(kLabel.size()));
+    if (!text.empty() && text.substr(0, 2) != "==") return std::string(text);
+  }
+  return "failed without a message";
+}
+
+std::vector<std::string> namesKnownTo(const CLI::App& app)
+{
+  std::vector<std::string> names;
+  for (const CLI::App* verb : app.get_subcommands(nullptr))
+    if (!verb->get_name().empty()) names.push_back(verb->get_name());
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+int complain(const CLI::App& app, const CLI::ParseError& error)
+{
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);  // --help, --version
+
+  const auto chosen = app.get_subcommands();
+  const CLI::App& where = chosen.empty() ? app : *chosen.front();
+  const std::string name = chosen.empty() ? "scanloom" : "scanloom " + where.get_name();
+  const auto unexpected = app.remaining(true);
+  if (!unexpected.empty())
+    std::cerr << fmt::format("{}: {} is unknown: {}\n", name, unexpected.front(),
+                             suggestion(unexpected.front(), namesKnownTo(where)));
+  else
+    std::cerr << fmt::format("{}: {}\n", name, error.what());
+  std::cerr << fmt::format("'{} --help' lists what there is\n", name);
+  return kWrongUsage;
+}
+
+int guarded(const std::string& name, const std::function<int()>& run)
+try
+{
+  const int status = run();
+  if (!std::cout.flush()) throw std::runtime_error("stdout cannot be written");
+  return status;
+}
+catch (const ConfigError& e)
+{
+  std::cerr << e.what() << '\n';  // each line begins with its file
+  return kWrongUsage;
+}
+catch (const UsageError& e)
+{
+  std::cerr << fmt::format("scanloom {}: {}\n", name, e.what());
+  return kWrongUsage;
+}
+catch (const std::exception& e)
+{
+  std::cerr << fmt::format("scanloom {}: {}\n", name, oneLine(e.what()));
+  return kFailed;
+}
+}  // namespace
+
+Schema knownToAnyVerb()
+{
+  Schema known;
+  for (const Verb& verb : verbs()) merge(known, verb.schema);
+  return known;
+}
+
+int runProgram(int argc, const char* const* argv)
+{
+  keepStandardStreamsOpen();
+
+  CLI::App app("Weaves the packets of several spinning lidars into one scan that is true in time.", "scanloom");
+  app.set_version_flag("--version", "scanloom " SCANLOOM_VERSION);
+  app.require_subcommand(1);
+
+  std::string name;
+  std::function<int()> run;
+  for (const Verb& verb : verbs())
+  {
+    CLI::App* subcommand = app.add_subcommand(verb.name, verb.purpose);
+    subcommand->callback(
+        [&, chosen = verb.add(*subcommand), &verb = verb]
+        {
+          name = verb.name;
+          run = chosen;
+        });
+  }
+
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return complain(app, error);
+  }
+  return guarded(name, run);
+}
+}  // namespace scanloom

@@ -1,0 +1,48 @@
+/** How far a verb is, for the person who waits: a bar on a terminal, a line per 10 % anywhere else. */
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <iostream>
+#include <string>
+
+namespace scanloom
+{
+bool standardErrorIsTerminal();
+
+class Progress
+{
+ public:
+  /**
+   * @param what is done, e.g. "slam".
+   * @param total of what update() counts; 0 if it is not known (a live sensor): then there is no bar, no time left.
+   * @param unit of the count, e.g. "scans".
+   */
+  Progress(std::string what, std::uint64_t total, std::string unit, std::ostream& out = std::cerr,
+           bool terminal = standardErrorIsTerminal());
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress();
+
+  void update(std::uint64_t done);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool isTimeToShow() const;
+  std::string line() const;
+  void show();
+
+  std::string what_;
+  std::uint64_t total_;
+  std::string unit_;
+  std::ostream& out_;
+  bool terminal_;
+  std::uint64_t done_ = 0;
+  std::uint64_t shown_ = 0;  // the count of the latest line
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point shown_at_ = start_;
+};
+
+/** `59 s`, `4:07 min`, `2:05 h` */
+std::string timeText(double seconds);
+}  // namespace scanloom

@@ -1,0 +1,229 @@
+/** The frame around every verb, tried with a verb of its own. */
+#include "Program.h"
+
+#include "Interruption.h"
+#include "Settings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+struct WeavingOptions
+{
+  double cell_size = 1.0;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.cell_size, Field{"cell_size", "m", "edge of a cell", above(0)});
+  }
+};
+
+template <int kSection>
+struct WeavingSettings
+{
+  WeavingOptions weaving;
+
+  template <typename Self, typename Visitor>
+  static void sections(Self& s, Visitor&& visit)
+  {
+    visit(s.weaving, Section{kSection == 0 ? "weaving" : "knitting", "of scans"});
+  }
+};
+
+struct WeaveArguments
+{
+  ConfigurationArguments configuration;
+  OutputFolderArguments output;
+  mrpt::system::VerbosityLevel verbosity = mrpt::system::LVL_INFO;
+  std::uint64_t seed = 1;
+  int jobs = 0;
+  bool json = false;
+  std::string failure;
+};
+
+WeaveArguments g_parsed;  // what the latest run was given
+
+int weave(const WeaveArguments& arguments)
+{
+  g_parsed = arguments;
+  const auto loaded = load<WeavingSettings<0>>(arguments.configuration);
+  refuseExisting(arguments.output, {"scan.txt"});
+  if (arguments.configuration.dry_run)
+  {
+    std::cout << toIni(loaded);
+    return kDone;
+  }
+  if (!arguments.failure.empty()) throw std::runtime_error(arguments.failure);
+  return kQualityGate;
+}
+
+std::function<int()> addWeave(CLI::App& app)
+{
+  auto arguments = std::make_shared<WeaveArguments>();
+  addConfiguration(app, arguments->configuration);
+  addOutputFolder(app, arguments->output);
+  addVerbosity(app, arguments->verbosity);
+  addSeed(app, arguments->seed);
+  addJobs(app, arguments->jobs);
+  addJson(app, arguments->json);
+  app.add_option("--fail", arguments->failure);
+  return [arguments] { return weave(*arguments); };
+}
+
+struct Ended
+{
+  int status;
+  std::string results;
+  std::string messages;
+};
+
+Ended run(std::vector<const char*> arguments)
+{
+  arguments.insert(arguments.begin(), "scanloom");
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int status = runProgram(static_cast<int>(arguments.size()), arguments.data());
+  return {status, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+}
+
+struct Program : testing::Test
+{
+  std::filesystem::path folder = testing::TempDir() + "scanloom_program_" + std::to_string(::getpid());
+
+  void SetUp() override { std::filesystem::create_directory(folder); }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  std::string write(const std::string& name, const std::string& text) const
+  {
+    std::ofstream(folder / name) << text;
+    return (folder / name).string();
+  }
+};
+
+TEST_F(Program, passesOnTheStatusOfTheVerb) { EXPECT_EQ(run({"weave"}).status, kQualityGate); }
+
+TEST_F(Program, givesTheSharedOptionsToTheVerb)
+{
+  const std::string a = write("a.ini", "[weaving]\ncell_size = 2\n");
+  const std::string b = write("b.ini", "[knitting]\ncell_size = 3\n");
+  run({"weave", "-c", a.c_str(), "--config", b.c_str(), "-v", "DEBUG", "--seed", "7", "--jobs", "2", "--json", "-w",
+       "--out-dir", "x"});
+
+  EXPECT_THAT(g_parsed.configuration.files, testing::ElementsAre(a, b));
+  EXPECT_EQ(g_parsed.verbosity, mrpt::system::LVL_DEBUG);
+  EXPECT_EQ(g_parsed.seed, 7U);
+  EXPECT_EQ(g_parsed.jobs, 2);
+  EXPECT_TRUE(g_parsed.json);
+  EXPECT_TRUE(g_parsed.output.overwrite);
+  EXPECT_EQ(g_parsed.output.folder, "x");
+
+  run({"weave", "-q"});
+  EXPECT_EQ(g_parsed.verbosity, mrpt::system::LVL_ERROR);
+}
+
+TEST_F(Program, printsWhatWouldRun)
+{
+  const Ended ended = run({"weave", "--dry-run", "--set", "weaving.cell_size=2.5"});
+
+  EXPECT_EQ(ended.status, kDone);
+  EXPECT_EQ(ended.results, "[weaving]\n# --set\ncell_size = 2.5\n");
+}
+
+TEST_F(Program, acceptsTheSectionsOfOtherVerbsButNoOthers)
+{
+  const std::string file = write("a.ini", "[knitting]\ncell_size = 2\n[weving]\ncell_size = 3\n");
+  const Ended ended = run({"weave", "-c", file.c_str()});
+
+  EXPECT_EQ(ended.status, kWrongUsage);
+  EXPECT_EQ(ended.messages, file + ":4: [weving] is an unknown section: did you mean 'weaving'?\n");
+}
+
+TEST_F(Program, endsWithTwoIfAnOutputExists)
+{
+  const std::string existing = write("scan.txt", "");
+  const Ended ended = run({"weave", "--out-dir", folder.c_str()});
+
+  EXPECT_EQ(ended.status, kWrongUsage);
+  EXPECT_EQ(ended.messages, "scanloom weave: " + existing + " exists already: give -w to overwrite\n");
+  EXPECT_EQ(run({"weave", "--out-dir", folder.c_str(), "-w"}).status, kQualityGate);
+  EXPECT_EQ(run({"weave", "--out-dir", existing.c_str()}).messages,
+            "scanloom weave: --out-dir " + existing + ": is not a folder\n");
+}
+
+TEST_F(Program, saysInOneLineWhatFailed)
+{
+  const Ended ended =
+      run({"weave", "--fail", "\n==== MRPT exception ====\nMessage:  no packets\nCall stack:\n[0] 0x1\n"});
+
+  EXPECT_EQ(ended.status, kFailed);
+  EXPECT_EQ(ended.messages, "scanloom weave: no packets\n");
+}
+
+TEST_F(Program, suggestsTheNearestOptionOfTheVerb)
+{
+  const Ended ended = run({"weave", "--confg", "a.ini"});
+
+  EXPECT_EQ(ended.status, kWrongUsage);
+  EXPECT_EQ(ended.messages,
+            "scanloom weave: --confg is unknown: did you mean '--config'?\n"
+            "'scanloom weave --help' lists what there is\n");
+}
+
+TEST_F(Program, saysWhichValuesAnOptionTakes)
+{
+  const Ended ended = run({"weave", "-v", "loud"});
+
+  EXPECT_EQ(ended.status, kWrongUsage);
+  EXPECT_THAT(ended.messages, testing::StartsWith("scanloom weave: --verbosity: "));
+  EXPECT_THAT(ended.messages, testing::HasSubstr("loud"));
+}
+
+TEST_F(Program, writesTheDefaultsOfAVerb)
+{
+  EXPECT_EQ(run({"config", "--default", "weave"}).results,
+            "# of scans\n[weaving]\n# edge of a cell [m], > 0\ncell_size = 1\n");
+  EXPECT_EQ(run({"config", "--default", "weeve"}).messages,
+            "scanloom config: --default weeve: no verb with parameters; did you mean 'weave'?\n");
+}
+
+TEST_F(Program, writesThePageOfAllParameters)
+{
+  const std::string page = run({"config", "--parameters"}).results;
+
+  EXPECT_THAT(page, testing::HasSubstr("| `weave` | [weaving] |\n| `knit` | [knitting] |\n"));
+  EXPECT_THAT(page, testing::HasSubstr("## [weaving]\n"));
+  EXPECT_THAT(page, testing::HasSubstr("| `cell_size` | 1 | m | > 0 | edge of a cell |\n"));
+}
+
+TEST(Interruption, isSeenAndDoesNotEndTheProgramTheFirstTime)
+{
+  catchInterruption();
+  EXPECT_FALSE(interrupted());
+  std::raise(SIGINT);
+  EXPECT_TRUE(interrupted());
+  EXPECT_EXIT(std::raise(SIGINT), testing::KilledBySignal(SIGINT), "");
+}
+}  // namespace
+
+Verb configVerb();
+
+const std::vector<Verb>& verbs()
+{
+  static const std::vector<Verb> table{
+      {"weave", "a test's verb", schemaOf<WeavingSettings<0>>(), &addWeave},
+      {"knit", "another one", schemaOf<WeavingSettings<1>>(), &addWeave},
+      configVerb(),
+  };
+  return table;
+}
+}  // namespace scanloom

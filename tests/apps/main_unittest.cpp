@@ -1,0 +1,99 @@
+/** The program as a person or a script meets it. */
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace scanloom
+{
+namespace
+{
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct Ended
+{
+  int status;
+  std::string output;  // of the streams that the redirection leaves open
+};
+
+Ended scanloom(const std::string& arguments, const std::string& redirection = "2>&1")
+{
+  const std::string command = SCANLOOM_BIN_DIR "/scanloom " + arguments + " " + redirection;
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  std::string output;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
+  return {WEXITSTATUS(::pclose(pipe)), output};
+}
+
+TEST(Executable, tellsItsVersionAndItsVerbs)
+{
+  EXPECT_EQ(scanloom("--version").status, 0);
+  EXPECT_THAT(scanloom("--version").output, StartsWith("scanloom "));
+  EXPECT_EQ(scanloom("--help").status, 0);
+  EXPECT_THAT(scanloom("--help").output, HasSubstr("config"));
+  EXPECT_EQ(scanloom("config --help").status, 0);
+  EXPECT_THAT(scanloom("config --help").output, HasSubstr("--default VERB"));
+}
+
+TEST(Executable, endsWithTwoAndTheNearestNameOnWrongUsage)
+{
+  const Ended wrong_verb = scanloom("confg --parameters");
+  EXPECT_EQ(wrong_verb.status, 2);
+  EXPECT_EQ(wrong_verb.output,
+            "scanloom: confg is unknown: did you mean 'config'?\n'scanloom --help' lists what there is\n");
+
+  const Ended wrong_option = scanloom("config --paramters");
+  EXPECT_EQ(wrong_option.status, 2);
+  EXPECT_EQ(wrong_option.output,
+            "scanloom config: --paramters is unknown: did you mean '--parameters'?\n"
+            "'scanloom config --help' lists what there is\n");
+
+  EXPECT_EQ(scanloom("").status, 2);
+  EXPECT_EQ(scanloom("config").status, 2);
+  EXPECT_EQ(scanloom("config --default").status, 2);
+}
+
+TEST(Executable, namesTheVerbsThatHaveParameters)
+{
+  const Ended ended = scanloom("config --default nonsense");
+
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.output, StartsWith("scanloom config: --default nonsense: no verb with parameters"));
+}
+
+TEST(Executable, keepsResultsOnStdoutAndMessagesOnStderr)
+{
+  EXPECT_THAT(scanloom("config --parameters", "2>/dev/null").output, StartsWith("# Parameters\n"));
+  EXPECT_EQ(scanloom("config --parameters", "2>&1 >/dev/null").output, "");
+  EXPECT_EQ(scanloom("config --default nonsense", "2>/dev/null").output, "");
+}
+
+TEST(Executable, wroteThePageOfParametersInTheManual)
+{
+  std::ifstream page(SCANLOOM_SOURCE_DIR "/doc/parameters.md");
+
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(page), {}), scanloom("config --parameters").output)
+      << "mend it by: scanloom config --parameters > doc/parameters.md";
+}
+
+TEST(Executable, mindsNoClosedStandardStream)
+{
+  EXPECT_EQ(scanloom("config --parameters", "<&-").status, 0);
+  EXPECT_EQ(scanloom("config --parameters", ">&-").status, 0);
+  EXPECT_EQ(scanloom("config --parameters", "2>&-").status, 0);
+}
+
+TEST(Executable, saysThatStdoutIsFull)
+{
+  const Ended ended = scanloom("config --parameters", "2>&1 >/dev/full");
+
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_EQ(ended.output, "scanloom config: stdout cannot be written\n");
+}
+}  // namespace
+}  // namespace scanloom
