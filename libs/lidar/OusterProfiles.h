@@ -6,11 +6,13 @@
 #pragma once
 #include "core/Bytes.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <string_view>
+#include <vector>
 
 namespace scanloom
 {
@@ -200,5 +202,16 @@ inline std::uint32_t readField(Bytes channel, BitField f)
 {
   const auto word = static_cast<std::uint32_t>(loadUnsigned(channel, f.firstByte(), f.byteCount()));
   return ((word >> (f.first % 8)) & f.mask()) << f.shift;
+}
+
+/** The reverse: rounds `value` to the field's steps and stops at its largest. Throws std::out_of_range as readField. */
+inline void writeField(std::vector<std::uint8_t>& packet, std::size_t channel_offset, BitField f, std::uint32_t value)
+{
+  const std::size_t first = channel_offset + f.firstByte();
+  const std::uint64_t steps = (std::uint64_t{value} + ((1u << f.shift) >> 1)) >> f.shift;
+  std::uint64_t word = loadUnsigned(packet, first, f.byteCount());
+  word &= ~(std::uint64_t{f.mask()} << (f.first % 8));
+  word |= std::min<std::uint64_t>(steps, f.mask()) << (f.first % 8);
+  std::memcpy(packet.data() + first, &word, f.byteCount());  // loadUnsigned has checked the bounds
 }
 }  // namespace scanloom
