@@ -1,0 +1,31 @@
+#pragma once
+#include "graph/PoseManifold.h"
+
+#include <ceres/sized_cost_function.h>
+
+namespace scanloom
+{
+/**
+ * A measured pose of the body in the map, where the state holds the IMU's: six whitened residuals
+ * boxMinus(map_T_imu * imu_T_body, measured). Block: the state's pose.
+ *
+ * A pose relative to a keyframe that does not move is this factor too: boxMinus does not see the frame in which both
+ * of its arguments stand, so map_T_keyframe * keyframe_T_body may be given with the same information.
+ */
+class PosePriorFactor final : public ceres::SizedCostFunction<6, 7>
+{
+ public:
+  /** The information's tangent is that of boxPlus at map_T_body; it may be singular. */
+  PosePriorFactor(const Rigid& map_T_body, const Matrix6d& information, const Rigid& body_T_imu);
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
+
+ private:
+  Rigid map_T_body_;
+  Rigid imu_T_body_;
+  Matrix6d root_;  // of the information
+};
+
+/** The body's step that a step of the IMU causes, to first order, both in their own frames. */
+Matrix6d bodyStepByImuStep(const Rigid& imu_T_body);
+}  // namespace scanloom

@@ -1,0 +1,25 @@
+#pragma once
+#include "graph/PoseManifold.h"
+
+#include <ceres/sized_cost_function.h>
+
+namespace scanloom
+{
+/**
+ * The body's pose at one state as measured from the body at another, both free: six whitened residuals
+ * boxMinus(reference_T_body of the states, measured). Blocks: pose of the reference state, pose of the state.
+ */
+class RelativePoseFactor final : public ceres::SizedCostFunction<6, 7, 7>
+{
+ public:
+  /** The information's tangent is that of boxPlus at reference_T_body; it may be singular. */
+  RelativePoseFactor(const Rigid& reference_T_body, const Matrix6d& information, const Rigid& body_T_imu);
+
+  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
+
+ private:
+  Rigid reference_T_body_;
+  Rigid imu_T_body_;
+  Matrix6d root_;  // of the information
+};
+}  // namespace scanloom

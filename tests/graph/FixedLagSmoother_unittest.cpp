@@ -1,0 +1,318 @@
+#include "graph/FixedLagSmoother.h"
+
+#include "graph/SimulatedDrive.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+
+using namespace scanloom;
+
+namespace
+{
+const AnalyticDrive kDrive;
+
+SmootherOptions withoutHuber(int window, int iterations = 6) { return {window, iterations, 0}; }
+
+/** A machine that only shifts: its attitude never changes, so that the problem is linear but for attitude errors. */
+AnalyticDrive straightDrive()
+{
+  AnalyticDrive drive;
+  drive.yaw = drive.pitch = drive.roll = Sine{};
+  return drive;
+}
+
+FixedLagSmoother run(const SimulatedDrive& drive, const DriveNoise& noise, const SmootherOptions& options)
+{
+  FixedLagSmoother smoother = smootherFor(drive, noise, options);
+  for (std::size_t k = 1; k < drive.truth.size(); ++k)
+  {
+    feed(smoother, drive, k);
+    smoother.optimise();
+  }
+  return smoother;
+}
+
+/** All states at once, nothing forgotten. */
+NavState batch(const SimulatedDrive& drive, const DriveNoise& noise, int iterations = 30)
+{
+  FixedLagSmoother smoother = smootherFor(drive, noise, withoutHuber(static_cast<int>(drive.truth.size()), iterations));
+  for (std::size_t k = 1; k < drive.truth.size(); ++k) feed(smoother, drive, k);
+  return smoother.optimise();
+}
+
+bool isFiniteAndSymmetric(const Matrix15d& c)
+{
+  return c.allFinite() && (c - c.transpose()).norm() <= 1e-12 * c.norm();
+}
+}  // namespace
+
+TEST(FixedLagSmoother, equalsTheBatchWhereTheProblemIsLinear)
+{
+  // Errors a millionth of their usual size: what is not linear is below 1e-12 of the states.
+  DriveNoise noise;
+  noise.share = 1e-6;
+  const SimulatedDrive drive = simulate(straightDrive(), 20, 200ms, noise, 1);
+  const FixedLagSmoother smoother = run(drive, noise, withoutHuber(4));
+  const Vector15d difference = boxMinus(smoother.newest(), batch(drive, noise));
+  EXPECT_LT(difference.norm(), 1e-9);
+
+  // And not because nothing happens: relative to the errors at play, too.
+  const Matrix15d covariance = smoother.newestCovariance();
+  EXPECT_LT(std::sqrt(difference.dot(covariance.ldlt().solve(difference))) / noise.share, 1e-3);
+}
+
+TEST(FixedLagSmoother, staysWithinACentimetreOfTheBatchOnADrive)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 40, 200ms, noise, 2);
+  const NavState windowed = run(drive, noise, withoutHuber(5)).newest();
+  const NavState all = batch(drive, noise);
+  EXPECT_LT((windowed.map_T_imu.translation - all.map_T_imu.translation).norm(), 0.01);
+  EXPECT_LT(boxMinus(windowed, all).norm(), 0.01);
+  EXPECT_LT(boxMinus(windowed, drive.truth.back()).head<3>().norm(), 0.05);
+}
+
+TEST(FixedLagSmoother, isBetterThanItsMeasurements)
+{
+  const DriveNoise noise;
+  double estimated = 0, measured = 0;
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    const SimulatedDrive drive = simulate(kDrive, 20, 200ms, noise, seed);
+    const NavState& truth = drive.truth.back();
+    estimated += boxMinus(run(drive, noise, {}).newest(), truth).head<3>().squaredNorm();
+    measured += boxMinus(drive.map_T_body.back() * kBodyFromImu, truth.map_T_imu).head<3>().squaredNorm();
+  }
+  EXPECT_LT(estimated, 0.7 * measured);
+}
+
+TEST(FixedLagSmoother, errorsAreAsLargeAsItsCovarianceSays)
+{
+  const DriveNoise noise;
+  double nees = 0, pose_nees = 0;
+  constexpr int kRuns = 100;
+  for (unsigned seed = 100; seed < 100 + kRuns; ++seed)
+  {
+    const SimulatedDrive drive = simulate(kDrive, 25, 200ms, noise, seed);
+    const FixedLagSmoother smoother = run(drive, noise, withoutHuber(8));
+    const Vector15d error = boxMinus(drive.truth.back(), smoother.newest());
+    const Matrix15d covariance = smoother.newestCovariance();
+    const Matrix6d pose_covariance = covariance.topLeftCorner<6, 6>();
+    nees += error.dot(covariance.ldlt().solve(error)) / kRuns;
+    pose_nees += error.head<6>().dot(pose_covariance.ldlt().solve(error.head<6>())) / kRuns;
+  }
+  // Chi-square over 100 runs: three standard deviations of the mean are 1.65 of 15 and 1.04 of 6.
+  EXPECT_NEAR(nees, 15, 1.65) << "seeds from 100";
+  EXPECT_NEAR(pose_nees, 6, 1.04) << "seeds from 100";
+}
+
+TEST(FixedLagSmoother, findsBiasesFarFromTheFirstGuess)
+{
+  // Beyond the reach of first order: the motions are integrated again on the way.
+  DriveNoise noise;
+  SimulatedDrive drive = simulate(kDrive, 50, 200ms, noise, 3);
+  drive.first_guess.bias.gyro += Eigen::Vector3d(0.03, -0.02, 0.04);
+  drive.first_guess.bias.accel += Eigen::Vector3d(0.2, 0.1, -0.3);
+  drive.first_covariance.diagonal().segment<3>(9).setConstant(0.05 * 0.05);
+  drive.first_covariance.diagonal().tail<3>().setConstant(0.3 * 0.3);
+  for (Preintegration& m : drive.motions) m = preintegrate(m.samples, drive.first_guess.bias, noise.imu);
+
+  const NavState end = run(drive, noise, {}).newest();
+  EXPECT_LT((end.bias.gyro - drive.truth.back().bias.gyro).norm(), 2e-3);
+  EXPECT_LT((end.bias.accel - drive.truth.back().bias.accel).norm(), 0.05);
+}
+
+TEST(FixedLagSmoother, givesTheSameBitsTwice)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 20, 100ms, noise, 4);
+  const FixedLagSmoother a = run(drive, noise, {}), b = run(drive, noise, {});
+  for (std::size_t k = 0; k < a.states().size(); ++k)
+  {
+    EXPECT_EQ(blocksOf(a.states()[k]).pose, blocksOf(b.states()[k]).pose);
+    EXPECT_EQ(blocksOf(a.states()[k]).motion, blocksOf(b.states()[k]).motion);
+  }
+  EXPECT_EQ(a.newestCovariance(), b.newestCovariance());
+}
+
+TEST(FixedLagSmoother, keepsAsManyStatesAsItsWindow)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 20, 100ms, noise, 5);
+  const FixedLagSmoother smoother = run(drive, noise, withoutHuber(6));
+  EXPECT_EQ(smoother.states().size(), 6u);
+  EXPECT_EQ(smoother.newest().stamp, drive.truth.back().stamp);
+  EXPECT_EQ(smoother.states().front().stamp, drive.truth[14].stamp);
+}
+
+TEST(FixedLagSmoother, predictsWhatNoLidarPoseFollows)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 20, 100ms, noise, 6);
+  FixedLagSmoother smoother = run(drive, noise, {});
+  const double before = smoother.newestCovariance().diagonal().head<3>().sum();
+  const Timestamp end = smoother.newest().stamp;
+  const auto samples = kDrive.samples(end, end + 1s, 5ms, smoother.newest().bias);
+  const Preintegration motion = preintegrate(samples, smoother.newest().bias, noise.imu);
+  const NavState predicted = predict(smoother.newest(), motion);
+  smoother.addState(motion);
+  EXPECT_LT(boxMinus(smoother.optimise(), predicted).norm(), 1e-6);
+  EXPECT_GT(smoother.newestCovariance().diagonal().head<3>().sum(), before);
+}
+
+TEST(FixedLagSmoother, letsTheImuCarryDirectionsWithoutInformation)
+{
+  // A corridor along the map's x: the lidar knows nothing of the way along it.
+  const DriveNoise noise;
+  SimulatedDrive drive = simulate(straightDrive(), 15, 100ms, noise, 7);
+  FixedLagSmoother smoother = smootherFor(drive, noise, {});
+  for (std::size_t k = 1; k < drive.truth.size(); ++k)
+  {
+    const Eigen::Vector3d along = drive.map_T_body[k].rotation.conjugate() * Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d wrong = Eigen::Vector3d::UnitX() * 20;
+    Matrix6d information = drive.information;
+    information.topLeftCorner<3, 3>() = 2500 * (Eigen::Matrix3d::Identity() - along * along.transpose());
+    smoother.addState(drive.motions[k - 1]);
+    smoother.addPosePrior({drive.map_T_body[k].rotation, drive.map_T_body[k].translation + wrong}, information);
+    smoother.optimise();
+  }
+  const Eigen::Vector3d error = smoother.newest().map_T_imu.translation - drive.truth.back().map_T_imu.translation;
+  EXPECT_LT(error.tail<2>().norm(), 0.05);
+  EXPECT_LT(std::abs(error.x()), 0.5);  // the first state's 0.05 m and 0.1 m/s over 1.4 s
+  const Matrix15d covariance = smoother.newestCovariance();
+  const Eigen::Matrix3d in_map = smoother.newest().map_T_imu.rotation *
+                                 Eigen::Matrix3d(covariance.topLeftCorner<3, 3>()) *
+                                 smoother.newest().map_T_imu.rotation.conjugate().toRotationMatrix();
+  EXPECT_GT(in_map(0, 0), 10 * in_map(1, 1));
+}
+
+TEST(FixedLagSmoother, tiesAStateToAnOlderOneInTheWindow)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 12, 200ms, noise, 8);
+  FixedLagSmoother smoother = smootherFor(drive, noise, withoutHuber(5));
+  Matrix6d sharp = 1e8 * Matrix6d::Identity();
+  const auto bodyOf = [&](std::size_t k) { return drive.truth[k].map_T_imu * kBodyFromImu.inverse(); };
+  for (std::size_t k = 1; k < drive.truth.size(); ++k)
+  {
+    smoother.addState(drive.motions[k - 1]);
+    const std::size_t reference = k < 3 ? 0 : k - 3;  // each is forgotten two scans later, with what hangs on it
+    smoother.addRelativePose(drive.truth[reference].stamp, bodyOf(reference).inverse() * bodyOf(k), sharp);
+    smoother.optimise();
+    EXPECT_TRUE(smoother.report().usable);
+  }
+  // Relative poses of 0.1 mm keep the error of the first pose, and let it grow no further.
+  const Vector6d first = boxMinus(drive.first_guess.map_T_imu, drive.truth.front().map_T_imu);
+  const Rigid truth_T_estimate = drive.truth.back().map_T_imu.inverse() * smoother.newest().map_T_imu;
+  EXPECT_LT(truth_T_estimate.translation.norm(), 0.15 + 5 * first.tail<3>().norm());
+  const Rigid first_T_newest = smoother.states().front().map_T_imu.inverse() * smoother.newest().map_T_imu;
+  const Rigid expected = drive.truth[7].map_T_imu.inverse() * drive.truth[11].map_T_imu;
+  EXPECT_LT(boxMinus(first_T_newest, expected).norm(), 1e-3);
+}
+
+TEST(FixedLagSmoother, resistsAnOutlier)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 20, 100ms, noise, 9);
+  const auto errorWith = [&](double huber)
+  {
+    SmootherOptions options;
+    options.huber = huber;
+    FixedLagSmoother smoother = smootherFor(drive, noise, options);
+    for (std::size_t k = 1; k < drive.truth.size(); ++k)
+    {
+      smoother.addState(drive.motions[k - 1]);
+      Rigid pose = drive.map_T_body[k];
+      if (k == 15) pose.translation += Eigen::Vector3d(2, -1, 0.5);
+      smoother.addPosePrior(pose, drive.information);
+      smoother.optimise();
+    }
+    return boxMinus(smoother.newest(), drive.truth.back()).head<3>().norm();
+  };
+  EXPECT_LT(errorWith(4), 0.1);
+  EXPECT_GT(errorWith(0), 3 * errorWith(4));
+}
+
+TEST(FixedLagSmoother, survivesGarbageWithoutANaN)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 40, 100ms, noise, 10);
+  FixedLagSmoother smoother = smootherFor(drive, noise, {});
+  const Rigid far{Eigen::Quaterniond::Identity(), {1e8, -1e8, 1e8}};
+  const Rigid upside_down = Rigid::fromXyzYawPitchRoll(0, 0, 0, 0, 0, M_PI);
+  const Rigid broken{Eigen::Quaterniond(NAN, 0, 0, 0), {0, 0, 0}};
+  const Rigid not_a_rotation{Eigen::Quaterniond(0, 0, 0, 0), {0, 0, 0}};
+  Matrix6d nan = Matrix6d::Identity();
+  nan(1, 2) = NAN;
+  Matrix6d indefinite = Matrix6d::Identity();
+  indefinite(0, 0) = -1e6;
+  for (std::size_t k = 1; k < drive.truth.size(); ++k)
+  {
+    smoother.addState(drive.motions[k - 1]);
+    const Rigid& good = drive.map_T_body[k];
+    if (k % 10 == 1) smoother.addPosePrior(far, 1e15 * Matrix6d::Identity());
+    if (k % 10 == 2) smoother.addPosePrior(upside_down, 1e10 * Matrix6d::Identity());
+    if (k % 10 == 3) smoother.addPosePrior(broken, drive.information);
+    if (k % 10 == 4) smoother.addPosePrior(not_a_rotation, drive.information);
+    if (k % 10 == 5) smoother.addPosePrior(good, nan);
+    if (k % 10 == 6) smoother.addPosePrior(good, indefinite);
+    if (k % 10 == 7) smoother.addPosePrior(good, Matrix6d::Zero());
+    if (k % 10 == 8) smoother.addPosePrior(good, 1e300 * Matrix6d::Identity());
+    const NavState state = smoother.optimise();
+    EXPECT_TRUE(state.allFinite()) << k;
+    EXPECT_NEAR(state.map_T_imu.rotation.norm(), 1, 1e-9);
+    EXPECT_TRUE(isFiniteAndSymmetric(smoother.newestCovariance())) << k;
+  }
+  EXPECT_EQ(smoother.report().refused, 16);
+}
+
+TEST(FixedLagSmoother, refusesAMotionThatDoesNotFollowOrDoesNotLast)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 3, 100ms, noise, 11);
+  FixedLagSmoother smoother = smootherFor(drive, noise, {});
+  EXPECT_THROW(smoother.addState(drive.motions[1]), std::invalid_argument);
+
+  Preintegration empty;
+  empty.from = empty.to = drive.truth[0].stamp;
+  EXPECT_THROW(smoother.addState(empty), std::invalid_argument);
+
+  Preintegration broken = drive.motions[0];
+  broken.velocity.x() = NAN;
+  EXPECT_THROW(smoother.addState(broken), std::invalid_argument);
+
+  smoother.addState(drive.motions[0]);
+  EXPECT_THROW(smoother.addState(drive.motions[0]), std::invalid_argument);
+  EXPECT_THROW(smoother.addRelativePose(Timestamp{0s}, {}, Matrix6d::Identity()), std::invalid_argument);
+  EXPECT_THROW(smoother.addRelativePose(smoother.newest().stamp, {}, Matrix6d::Identity()), std::invalid_argument);
+  EXPECT_EQ(smoother.states().size(), 2u);
+}
+
+TEST(FixedLagSmoother, refusesAStartWithoutAProperCovariance)
+{
+  const NavState state = kDrive.stateAt(Timestamp{1s});
+  const auto start = [](const NavState& s, const Matrix15d& covariance, int window = 8)
+  { return FixedLagSmoother(s, covariance, kBodyFromImu, {}, withoutHuber(window)); };
+
+  EXPECT_NO_THROW(start(state, Matrix15d::Identity()));
+  EXPECT_THROW(start(state, Matrix15d::Zero()), std::invalid_argument);
+  EXPECT_THROW(start(state, -Matrix15d::Identity()), std::invalid_argument);
+  EXPECT_THROW(start(state, Matrix15d::Constant(NAN)), std::invalid_argument);
+  EXPECT_THROW(start(state, Matrix15d::Identity(), 1), std::invalid_argument);
+  NavState broken = state;
+  broken.velocity.x() = INFINITY;
+  EXPECT_THROW(start(broken, Matrix15d::Identity()), std::invalid_argument);
+}
+
+TEST(FixedLagSmoother, reportsWhatTheSolverDid)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 10, 100ms, noise, 12);
+  const SmootherReport report = run(drive, noise, {}).report();
+  EXPECT_TRUE(report.usable);
+  EXPECT_TRUE(report.converged);
+  EXPECT_GE(report.iterations, 1);
+  EXPECT_LE(report.final_cost, report.initial_cost);
+  EXPECT_EQ(report.brief().find("converged after"), 0u);
+}
