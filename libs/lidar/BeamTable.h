@@ -39,7 +39,9 @@ class BeamTable
   void project(float cos_th, float sin_th, const Eigen::Ref<const Ranges>& range_mm,
                Eigen::Ref<Coordinates> points) const
   {
-    points = (cos_th * a_ + sin_th * b_ + c_).colwise() * range_mm + (cos_th * d_ + sin_th * e_ + f_);
+    for (int k = 0; k < 3; ++k)  // one coordinate at a time: that is how Eigen vectorises it
+      points.col(k) = range_mm * (cos_th * a_.col(k) + sin_th * b_.col(k) + c_.col(k)) +
+                      (cos_th * d_.col(k) + sin_th * e_.col(k) + f_.col(k));
   }
 
  private:

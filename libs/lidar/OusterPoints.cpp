@@ -39,7 +39,39 @@ std::uint32_t rangeOf(const std::uint8_t* channel)
   return second == first ? 0 : second;
 }
 
-/** All channels are written, one behind the other; a channel without a return is overwritten by the next one. */
+template <typename T>
+using PerChannel = std::array<T, kMostOusterChannels>;
+
+/** The fields of a column's returns, one behind the other: on the stack, so that the loop over channels has no bounds.
+ */
+struct Returns
+{
+  alignas(32) PerChannel<float> x, y, z, intensity;
+  PerChannel<std::uint32_t> range;
+  PerChannel<std::uint16_t> ring, signal, near_ir;
+  std::size_t count = 0;
+};
+
+void append(const Returns& returns, const OusterColumnView& column, PointCloud& cloud)
+{
+  const auto copy = [n = returns.count](const auto& from, auto& to)
+  { to.insert(to.end(), from.data(), from.data() + n); };
+  const auto fill = [n = returns.count](auto value, auto& to) { to.insert(to.end(), n, value); };
+  copy(returns.x, cloud.x);
+  copy(returns.y, cloud.y);
+  copy(returns.z, cloud.z);
+  copy(returns.intensity, cloud.intensity);
+  fill(column.t, cloud.t);
+  copy(returns.ring, cloud.ring);
+  fill(column.measurement_id, cloud.column);
+  fill(column.sensor_id, cloud.sensor_id);
+  copy(returns.range, cloud.range);
+  copy(returns.signal, cloud.signal);
+  copy(returns.near_ir, cloud.near_ir);
+}
+
+/** Every channel is written; one without a return is overwritten by the next: no branch that the sky would mispredict.
+ */
 template <std::size_t kProfile, Return kReturn>
 void appendReturn(const OusterColumnView& column, const BeamTable& beams, PointCloud& cloud)
 {
@@ -48,38 +80,33 @@ void appendReturn(const OusterColumnView& column, const BeamTable& beams, PointC
   constexpr OusterField kReflectivity = kFirst ? OusterField::Reflectivity : OusterField::Reflectivity2;
   constexpr OusterField kSignal = kFirst ? OusterField::Signal : OusterField::Signal2;
 
-  const auto count = static_cast<std::size_t>(beams.size());
-  const std::uint8_t* const channels = column.channels.data();
-  alignas(32) std::array<std::uint32_t, kMostOusterChannels> ranges;
-  alignas(32) std::array<float, kMostOusterChannels> ranges_mm;
+  const auto channels = static_cast<std::size_t>(beams.size());
+  alignas(32) PerChannel<float> ranges_mm;
   alignas(32) std::array<float, 3 * kMostOusterChannels> positions;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    ranges[i] = rangeOf<kProfile, kReturn>(channels + i * kStride);
-    ranges_mm[i] = static_cast<float>(static_cast<std::int32_t>(ranges[i]));
-  }
+  for (std::size_t i = 0; i < channels; ++i)
+    ranges_mm[i] =
+        static_cast<float>(static_cast<std::int32_t>(rangeOf<kProfile, kReturn>(column.channels.data() + i * kStride)));
   beams.project(column.cos_th, column.sin_th, Eigen::Map<const BeamTable::Ranges>(ranges_mm.data(), beams.size()),
                 Eigen::Map<BeamTable::Coordinates>(positions.data(), beams.size(), 3));
 
-  std::size_t n = cloud.size();
-  cloud.resize(n + count);
-  for (std::size_t i = 0; i < count; ++i)
+  Returns returns;
+  std::size_t n = 0;
+  const std::uint8_t* channel = column.channels.data();
+  for (std::size_t i = 0; i < channels; ++i, channel += kStride)
   {
-    const std::uint8_t* const channel = channels + i * kStride;
-    cloud.x[n] = positions[i];
-    cloud.y[n] = positions[count + i];
-    cloud.z[n] = positions[2 * count + i];
-    cloud.intensity[n] = static_cast<float>(static_cast<std::int32_t>(field<kProfile, kReflectivity>(channel)));
-    cloud.t[n] = column.t;
-    cloud.ring[n] = static_cast<std::uint16_t>(i);
-    cloud.column[n] = column.measurement_id;
-    cloud.sensor_id[n] = column.sensor_id;
-    cloud.range[n] = ranges[i];
-    cloud.signal[n] = static_cast<std::uint16_t>(field<kProfile, kSignal>(channel));
-    cloud.near_ir[n] = static_cast<std::uint16_t>(field<kProfile, OusterField::NearIr>(channel));
-    n += ranges[i] != 0;
+    const std::uint32_t range = rangeOf<kProfile, kReturn>(channel);
+    returns.x[n] = positions[i];
+    returns.y[n] = positions[channels + i];
+    returns.z[n] = positions[2 * channels + i];
+    returns.intensity[n] = static_cast<float>(static_cast<std::int32_t>(field<kProfile, kReflectivity>(channel)));
+    returns.ring[n] = static_cast<std::uint16_t>(i);
+    returns.range[n] = range;
+    returns.signal[n] = static_cast<std::uint16_t>(field<kProfile, kSignal>(channel));
+    returns.near_ir[n] = static_cast<std::uint16_t>(field<kProfile, OusterField::NearIr>(channel));
+    n += range != 0;
   }
-  cloud.resize(n);
+  returns.count = n;
+  append(returns, column, cloud);
 }
 
 template <std::size_t kProfile>
