@@ -1,12 +1,12 @@
 #include "imu/ImuInitialisation.h"
 
 #include "imu/AnalyticDrive.h"
+#include "imu/readImuCsv.h"
 #include "support/TestData.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <fstream>
 
 using namespace scanloom;
 
@@ -41,24 +41,12 @@ double tiltBetween(const NavState& a, const Rigid& map_T_imu)
   return std::acos(std::min(1.0, (a.map_T_imu.rotation.conjugate() * z).dot(map_T_imu.rotation.conjugate() * z)));
 }
 
-std::vector<ImuSample> readImuCsv(const std::string& file, Duration from, Duration to)
+std::vector<ImuSample> part(const std::vector<ImuSample>& samples, Duration from, Duration to)
 {
-  std::ifstream in(file);
-  std::string line;
-  std::vector<ImuSample> samples;
-  std::optional<Timestamp> start;
-  while (std::getline(in, line))
-  {
-    long long ns = 0;
-    ImuSample s;
-    if (std::sscanf(line.c_str(), "%lld,%lf,%lf,%lf,%lf,%lf,%lf", &ns, &s.gyro.x(), &s.gyro.y(), &s.gyro.z(),
-                    &s.accel.x(), &s.accel.y(), &s.accel.z()) != 7)
-      continue;
-    s.stamp = fromNanoseconds(ns);
-    if (!start) start = s.stamp;
-    if (s.stamp - *start >= from && s.stamp - *start <= to) samples.push_back(s);
-  }
-  return samples;
+  std::vector<ImuSample> inside;
+  for (const ImuSample& s : samples)
+    if (s.stamp - samples.front().stamp >= from && s.stamp - samples.front().stamp <= to) inside.push_back(s);
+  return inside;
 }
 }  // namespace
 
@@ -161,11 +149,12 @@ TEST(ImuInitialisation, needsAForceToTellUp)
 TEST(ImuInitialisation, tellsTheStandstillOfARecordingFromItsDrive)
 {
   SCANLOOM_NEEDS_DATA(file, "recordings/sparse/imu.csv");
-  const auto start = initialiseAtRest(readImuCsv(file, 0s, 2500ms), kBodyFromImu, {});
+  const std::vector<ImuSample> samples = readImuCsv(file);
+  const auto start = initialiseAtRest(part(samples, 0s, 2500ms), kBodyFromImu, {});
   ASSERT_TRUE(start);
   // summary.json: the constant part of the simulated bias
   EXPECT_LT((start->state.bias.gyro - Eigen::Vector3d(-1.72e-4, -1.27e-5, 7.32e-4)).norm(), 0.02 * kDegree);
 
   for (const Duration from : {3s, 5s, 10s, 15s, 20s})
-    EXPECT_FALSE(initialiseAtRest(readImuCsv(file, from, from + 2100ms), kBodyFromImu, {})) << seconds(from);
+    EXPECT_FALSE(initialiseAtRest(part(samples, from, from + 2100ms), kBodyFromImu, {})) << seconds(from);
 }
