@@ -4,6 +4,18 @@
 
 namespace scanloom
 {
+namespace
+{
+RecordedEvent eventOf(const mrpt::obs::CObservation::Ptr& observation, const std::optional<RecordingHeader>& header)
+{
+  if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get()))
+    return RecordedScan{fromObservation(*cloud, header), cloud->sensorLabel};
+  if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(observation.get()))
+    if (auto recorded = fromObservation(*imu)) return *std::move(recorded);
+  return observation;
+}
+}  // namespace
+
 std::optional<RecordingHeader> headerIn(const mrpt::obs::CObservation& observation)
 {
   const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&observation);
@@ -18,13 +30,37 @@ RawlogReader::RawlogReader(const std::filesystem::path& path) : observations_(pa
 
 std::optional<RecordedEvent> RawlogReader::next()
 {
-  const auto observation = first_ ? std::exchange(first_, nullptr) : observations_.next();
-  if (!observation) return std::nullopt;
+  while (released_.empty())
+  {
+    const auto observation = first_ ? std::exchange(first_, nullptr) : observations_.next();
+    if (observation)
+      take(eventOf(observation, header_));
+    else if (held_.empty())
+      return std::nullopt;
+    else
+      releaseScansUntil(Timestamp::max());
+  }
+  RecordedEvent event = std::move(released_.front());
+  released_.pop_front();
+  return event;
+}
 
-  if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get()))
-    return RecordedScan{fromObservation(*cloud, header_), cloud->sensorLabel};
-  if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(observation.get()))
-    if (auto recorded = fromObservation(*imu)) return *std::move(recorded);
-  return observation;
+void RawlogReader::take(RecordedEvent event)
+{
+  if (auto* scan = std::get_if<RecordedScan>(&event))
+  {
+    releaseScansUntil(scan->scan.start);
+    held_.push_back(std::move(*scan));
+    return;
+  }
+  if (const auto* imu = std::get_if<RecordedImu>(&event)) releaseScansUntil(imu->sample.stamp);
+  released_.push_back(std::move(event));
+}
+
+/** Scans of one label don't overlap, so the first ones held are the first ones over. */
+void RawlogReader::releaseScansUntil(Timestamp stamp)
+{
+  for (; !held_.empty() && held_.front().scan.end() <= stamp; held_.pop_front())
+    released_.emplace_back(std::move(held_.front()));
 }
 }  // namespace scanloom

@@ -4,6 +4,7 @@
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RecordingHeader.h"
 
+#include <deque>
 #include <optional>
 #include <variant>
 
@@ -21,8 +22,9 @@ using OtherObservation = mrpt::obs::CObservation::Ptr;
 using RecordedEvent = std::variant<RecordedScan, RecordedImu, OtherObservation>;
 
 /**
- * Streams a rawlog in the file's order. A damaged file is read up to the damage; damage() then says what and where: ask
- * it once next() has returned nothing.
+ * Streams a rawlog in the file's order, but that a scan comes after all IMU samples of its period, as from the batcher:
+ * rawlog-grabber sorts by stamp, and a scan's is its start. A damaged file is read up to the damage; damage() then says
+ * what and where: ask it once next() has returned nothing.
  */
 class RawlogReader
 {
@@ -39,8 +41,13 @@ class RawlogReader
   const std::string& damage() const { return observations_.damage(); }
 
  private:
+  void take(RecordedEvent);
+  void releaseScansUntil(Timestamp);
+
   ObservationReader observations_;
   std::optional<RecordingHeader> header_;
+  std::deque<RecordedScan> held_;  // their period may not be over yet
+  std::deque<RecordedEvent> released_;
   mrpt::obs::CObservation::Ptr first_;  // read ahead in search of the header
 };
 

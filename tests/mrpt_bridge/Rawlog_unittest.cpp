@@ -62,7 +62,7 @@ int scansIn(RawlogReader& reader)
 }
 }  // namespace
 
-TEST_F(Rawlog, givesBackScansAndSamplesInTheOrderTheyWereWritten)
+TEST_F(Rawlog, givesBackScansAndSamplesWholeAndInOrder)
 {
   RawlogReader reader(written(3));
   ASSERT_TRUE(reader.header());
@@ -86,7 +86,7 @@ TEST_F(Rawlog, givesBackScansAndSamplesInTheOrderTheyWereWritten)
       EXPECT_EQ(imu->sample.accel, Eigen::Vector3d(4, 5, 6));
     }
   }
-  EXPECT_EQ(order, "siisiisii");
+  EXPECT_EQ(order, "iisiisiis") << "a scan after the IMU samples of its period, though they were written after it";
   EXPECT_EQ(reader.damage(), "");
 }
 

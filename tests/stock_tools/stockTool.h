@@ -2,6 +2,8 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <cstdio>
 #include <cstdlib>
@@ -46,6 +48,24 @@ class Workplace
 
  private:
   std::filesystem::path path_ = std::filesystem::temp_directory_path() / ("scanloom_stock_" + std::to_string(getpid()));
+};
+
+/** A named pipe that stays open and empty: rawlog-grabber ends at once if its input is closed, or at a key. */
+class OpenInput
+{
+ public:
+  explicit OpenInput(const std::filesystem::path& path) : path_(path)
+  {
+    if (mkfifo(path.c_str(), 0600) == 0) file_ = open(path.c_str(), O_RDWR);
+  }
+  OpenInput(const OpenInput&) = delete;
+  OpenInput& operator=(const OpenInput&) = delete;
+  ~OpenInput() { close(file_); }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  int file_ = -1;
 };
 
 /** Of `rawlog-edit --info`: how often a label occurs; -1 if it is not there. */

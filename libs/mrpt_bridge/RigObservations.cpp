@@ -1,0 +1,59 @@
+#include "mrpt_bridge/RigObservations.h"
+
+namespace scanloom
+{
+namespace
+{
+/** A scan follows the IMU samples of its period, so that the first sample may be later than the first scan's start. */
+Timestamp beforeEverything(const std::optional<SensorEvent>& first, Duration period)
+{
+  if (!first) return {};
+  if (const auto* scan = std::get_if<Scan>(&*first)) return scan->start;
+  return std::get<SensorImu>(*first).sample.stamp - period;
+}
+}  // namespace
+
+RecordingHeader recordingHeader(const Rig& rig)
+{
+  RecordingHeader header;
+  header.scan_rate = rig.batcher.scan_rate;
+  for (const BatchedLidar& lidar : rig.lidars)
+    header.lidars.push_back(recordedLidar(lidar.name, lidar.decoder->description()));
+  return header;
+}
+
+mrpt::obs::CObservation::Ptr toObservation(const SensorEvent& event, const Rig& rig, const DriverOptions& options)
+{
+  if (const auto* scan = std::get_if<Scan>(&event))
+    return toObservation(*scan, cloudClassFromName(options.cloud_class), options.sensorLabel);
+
+  const auto& imu = std::get<SensorImu>(event);
+  if (imu.sensor == SensorImu::kBody) return toObservation(imu.sample, rig.body_T_imu, options.imu_label);
+
+  const BatchedLidar& lidar = rig.lidars.at(static_cast<std::size_t>(imu.sensor));
+  const LidarDescription& description = lidar.decoder->description();
+  return toObservation(imu.sample, description.body_T_sensor * description.sensor_T_imu,
+                       options.imu_label + "_" + lidar.name);
+}
+
+RigObservations::RigObservations(const Rig& rig, const DriverOptions& options)
+  : rig_(rig), options_(options), replay_(rig_)
+{
+  cloudClassFromName(options_.cloud_class);
+}
+
+mrpt::obs::CObservation::Ptr RigObservations::next()
+{
+  if (!header_given_)
+  {
+    header_given_ = true;
+    event_ = replay_.next();
+    const RecordingHeader header = recordingHeader(rig_);
+    return toObservation(header, beforeEverything(event_, header.period()));
+  }
+  if (!event_) return nullptr;
+  auto observation = toObservation(*event_, rig_, options_);
+  event_ = replay_.next();
+  return observation;
+}
+}  // namespace scanloom
