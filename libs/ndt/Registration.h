@@ -1,6 +1,6 @@
 /**
  * Distribution-to-distribution NDT registration (T. Stoyanov: Reliable autonomous navigation in semi-structured
- * environments using the 3D-NDT, PhD thesis, Orebro 2012, chapter 6).
+ * environments using the 3D-NDT, PhD thesis, Orebro 2012, chapter 6). The equations are in doc/registration.md.
  */
 #pragma once
 #include "core/Field.h"
@@ -8,14 +8,15 @@
 #include "ndt/NdtMap.h"
 
 #include <string>
+#include <vector>
 
 namespace scanloom
 {
 struct RegistrationOptions
 {
-  double d2 = 0.05;                   // Stoyanov 2012
+  double d2 = 0.05;  // Stoyanov 2012
   int max_iterations = 30;
-  double tolerance = 1e-4;            // m, and rad by a 5 m arm
+  double tolerance = 1e-4;
   int neighbours = 27;
   double min_overlap = 0.3;
 
@@ -23,10 +24,12 @@ struct RegistrationOptions
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.d2, Field{"d2", "", "width of the score's Gaussian: exp(-d2/2 m'Bm)", above(0)});
-    visit(o.max_iterations, Field{"max_iterations", "", "Newton steps at most", between(1, 1000)});
-    visit(o.tolerance, Field{"tolerance", "m", "a step below this ends the search (rotations count by a 5 m arm)", above(0)});
+    visit(o.max_iterations, Field{"max_iterations", "", "steps at most", between(1, 1000)});
+    visit(o.tolerance,
+          Field{"tolerance", "m", "a step below this ends the search (rotations count by a 5 m arm)", above(0)});
     visit(o.neighbours, Field{"neighbours", "", "target cells looked at per source cell: 1, 7 or 27", between(1, 27)});
-    visit(o.min_overlap, Field{"min_overlap", "", "least share of source cells that must meet the target", between(0, 1)});
+    visit(o.min_overlap,
+          Field{"min_overlap", "", "least share of the source's points that must meet the target", between(0, 1)});
   }
 };
 
@@ -34,20 +37,24 @@ enum class Outcome
 {
   Converged,
   IterationLimit,
-  LowOverlap,   // too few source cells found a partner: the pose is not to be trusted
-  Degenerate,   // some direction has no information: it was not moved
+  LowOverlap,  // too little of the source met the target: the pose is not to be trusted
+  Degenerate,  // some direction has no information: it was not moved
 };
 std::string toString(Outcome);
 
 struct RegistrationResult
 {
   Rigid target_T_source;
-  Matrix6d information = Matrix6d::Zero();  // of the lidar alone; tangent of boxPlus: translation, rotation in the source frame
-  Matrix6d covariance = Matrix6d::Zero();   // its calibrated inverse; zero where there is none
-  double score = 0;                         // Stoyanov's objective, per source cell, negative
-  double overlap = 0;                       // share of source cells with a partner within the score's reach
+  Matrix6d information =
+      Matrix6d::Zero();  // of the lidar alone; tangent of boxPlus: translation, rotation in the source frame
+  Matrix6d covariance = Matrix6d::Zero();  // its inverse; both are zero without a single pair of cells
+  double score = 0;                        // Stoyanov's objective, per source cell, negative
+  double overlap = 0;  // share of the source's points in cells that meet a target cell within the score's reach
   int iterations = 0;
   Outcome outcome = Outcome::LowOverlap;
+  /** Orthonormal steps (m, m, m, and rad times the arm of 5 m) that no structure resists; 10 m uncertain in covariance.
+   */
+  std::vector<Vector6d> degenerate_directions;
 
   bool trustworthy() const { return outcome == Outcome::Converged || outcome == Outcome::IterationLimit; }
   std::string brief() const;  // one line for a person
@@ -55,4 +62,18 @@ struct RegistrationResult
 
 /** Finds target_T_source from a guess. Values in, values out: the same input gives the same bits. */
 RegistrationResult align(const NdtMap& target, const NdtMap& source, const Rigid& guess, const RegistrationOptions&);
+
+struct RegistrationLevel
+{
+  const NdtMap& target;
+  const NdtMap& source;
+};
+
+/**
+ * One level after the other, coarse cells first (4, 2, 1 m): wider basin, and the accuracy of the last level. All
+ * levels but the last look at 7 neighbours; one that ends in LowOverlap leaves the guess as it was. The result is the
+ * last level's, its iterations are those of all. Throws std::invalid_argument without a level.
+ */
+RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>&, const Rigid& guess,
+                                     const RegistrationOptions& last);
 }  // namespace scanloom

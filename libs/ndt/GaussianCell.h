@@ -1,0 +1,48 @@
+/** One cell's points as sums, and the normal distribution that the sums describe. */
+#pragma once
+#include <Eigen/Core>
+
+#include <cstdint>
+
+namespace scanloom
+{
+/** A normal distribution of the points in one cell, in the frame of its map. */
+struct GaussianCell
+{
+  Eigen::Vector3d mean;        // m
+  Eigen::Matrix3d covariance;  // m^2, no eigenvalue below the floor of the map's options
+  std::uint32_t points = 0;
+};
+
+/**
+ * Number, sum and sum of products of points, in units of kQuantum from the cell's own corner.
+ *
+ * Integers add without rounding: the sums are the same bits for any order of points, threads and merges, and what was
+ * added can be taken out again without a trace. 15 um of resolution is far below any lidar's; 64 bits hold 20 million
+ * points in a cell of 10 m, the largest that NdtOptions allows.
+ */
+struct Moments
+{
+  static constexpr double kQuantum = 1.0 / 65536;  // m
+
+  std::int64_t n = 0;
+  std::int64_t x = 0, y = 0, z = 0;
+  std::int64_t xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+  void add(std::int64_t px, std::int64_t py, std::int64_t pz)
+  {
+    ++n;
+    x += px, y += py, z += pz;
+    xx += px * px, xy += px * py, xz += px * pz;
+    yy += py * py, yz += py * pz, zz += pz * pz;
+  }
+  Moments& operator+=(const Moments&);
+  Moments& operator-=(const Moments&);
+};
+
+/**
+ * The Gaussian of at least two points whose sums are about `corner`. Eigenvalues below min_deviation^2 are raised to
+ * it: walls and stems are thinner than the noise of their cells is known.
+ */
+GaussianCell gaussianOf(const Moments&, const Eigen::Vector3d& corner, double min_deviation);
+}  // namespace scanloom

@@ -1,0 +1,23 @@
+/** What the matched cells know about a pose, how surely, and what they cannot know. */
+#pragma once
+#include "ndt/Neighbourhoods.h"
+
+#include <vector>
+
+namespace scanloom
+{
+/** Rotations count as the way of a point at this distance, wherever they are compared with translations. */
+constexpr double kArm = 5.0;  // m
+
+/** diag(1, 1, 1, 1/kArm, ...): takes a step in metres to the tangent of boxPlus. */
+Vector6d stepOfMetres();
+
+struct LidarInformation
+{
+  Matrix6d covariance = Matrix6d::Zero();  // sandwich with floor; kUnknownDeviation along the degenerate directions
+  std::vector<Vector6d> degenerate;        // orthonormal, in metres (see stepOfMetres)
+};
+
+/** Neighbourhoods must have been moved to the pose. */
+LidarInformation lidarInformation(const Neighbourhoods&, const Rigid& target_T_source, double d2);
+}  // namespace scanloom

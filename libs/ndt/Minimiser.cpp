@@ -1,0 +1,66 @@
+#include "ndt/Minimiser.h"
+
+#include "ndt/LidarInformation.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+// Steps go down the score with B held, and its zero is not quite the minimum of the score with B turning (which
+// rewards a turn that merely widens B^-1, and locks in worse poses): near it the score may rise a little.
+constexpr double kSlack = 0.02;
+
+NormalEquations at(const Rigid& pose, Neighbourhoods& neighbourhoods, double d2)
+{
+  neighbourhoods.moveTo(pose);
+  return normalEquations(neighbourhoods, pose, d2);
+}
+
+/** In metres, within the range of the projector `free`. */
+Vector6d dampedStep(const NormalEquations& equations, double damping, const Matrix6d& free)
+{
+  const Vector6d scale = stepOfMetres();
+  const Matrix6d curvature = scale.asDiagonal() * equations.curvature * scale.asDiagonal();
+  const Matrix6d identity = Matrix6d::Identity();
+  const Matrix6d damped =
+      free * curvature * free + curvature.trace() * ((identity - free) + (damping + 1e-9) * identity);
+  return -free * damped.ldlt().solve(free * scale.cwiseProduct(equations.gradient));
+}
+}  // namespace
+
+Minimum minimise(Neighbourhoods& neighbourhoods, const Rigid& guess, const RegistrationOptions& options,
+                 const std::vector<Vector6d>& locked)
+{
+  Matrix6d free = Matrix6d::Identity();
+  for (const Vector6d& direction : locked) free -= direction * direction.transpose();
+
+  Minimum here{guess, at(guess, neighbourhoods, options.d2), 0, false};
+  double damping = 0;
+  while (!here.converged && here.equations.met_points > 0 && here.iterations < options.max_iterations)
+  {
+    ++here.iterations;
+    const Vector6d step = dampedStep(here.equations, damping, free);
+    const Rigid candidate = boxPlus(here.target_T_source, stepOfMetres().cwiseProduct(step));
+    const NormalEquations there = at(candidate, neighbourhoods, options.d2);
+
+    here.converged = step.norm() < options.tolerance;
+    if (there.value <= here.equations.value + kSlack * std::abs(here.equations.value))
+    {
+      here.target_T_source = candidate;
+      here.equations = there;
+      damping = damping > 1e-4 ? damping / 10 : 0;
+    }
+    else
+    {
+      damping = std::max(10 * damping, 1e-3);
+    }
+  }
+  neighbourhoods.moveTo(here.target_T_source);
+  return here;
+}
+}  // namespace scanloom

@@ -1,0 +1,20 @@
+/** Damped Gauss-Newton on the distribution-to-distribution objective. */
+#pragma once
+#include "ndt/NormalEquations.h"
+#include "ndt/Registration.h"
+
+#include <vector>
+
+namespace scanloom
+{
+struct Minimum
+{
+  Rigid target_T_source;
+  NormalEquations equations;  // there
+  int iterations = 0;
+  bool converged = false;
+};
+
+/** Never steps along the `locked` directions (orthonormal, in metres). Leaves the neighbourhoods at the minimum. */
+Minimum minimise(Neighbourhoods&, const Rigid& guess, const RegistrationOptions&, const std::vector<Vector6d>& locked);
+}  // namespace scanloom

@@ -1,0 +1,178 @@
+#include "ndt/Registration.h"
+
+#include "ndt/RayWorld.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <limits>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kDegree = M_PI / 180;
+
+NdtMap mapOf(const std::vector<Eigen::Vector3f>& points, double cell_size)
+{
+  NdtOptions options;
+  options.cell_size = cell_size;
+  return NdtMap(points, options);
+}
+
+double metres(const Rigid& a, const Rigid& b) { return boxMinus(a, b).head<3>().norm(); }
+double degrees(const Rigid& a, const Rigid& b) { return boxMinus(a, b).tail<3>().norm() / kDegree; }
+
+const Rigid kMotion = Rigid::fromXyzYawPitchRoll(0.4, 0.15, 0.05, 3 * kDegree, 0.6 * kDegree, -0.6 * kDegree);
+
+RegistrationResult alignForest(double cell_size, const Rigid& guess)
+{
+  const RayWorld world = forest(3);
+  return align(mapOf(scanFrom(world, Rigid::identity(), 1), 1.0), mapOf(scanFrom(world, kMotion, 2), cell_size), guess,
+               {});
+}
+
+class RegistrationInAForest : public testing::TestWithParam<double>
+{
+};
+
+TEST_P(RegistrationInAForest, findsTheTrueMotion)
+{
+  const RegistrationResult result = alignForest(GetParam(), Rigid::identity());
+
+  EXPECT_EQ(result.outcome, Outcome::Converged) << result.brief();
+  EXPECT_LT(metres(result.target_T_source, kMotion), 0.03) << result.brief();
+  EXPECT_LT(degrees(result.target_T_source, kMotion), 0.1) << result.brief();
+  EXPECT_GT(result.overlap, 0.6);
+}
+INSTANTIATE_TEST_SUITE_P(scanCells, RegistrationInAForest, testing::Values(2.5, 1.0, 0.5));
+
+TEST(Registration, givesTheSameBitsTwice)
+{
+  const RegistrationResult a = alignForest(2.5, Rigid::identity()), b = alignForest(2.5, Rigid::identity());
+
+  EXPECT_EQ(a.target_T_source.translation, b.target_T_source.translation);
+  EXPECT_EQ(a.target_T_source.rotation.coeffs(), b.target_T_source.rotation.coeffs());
+  EXPECT_EQ(a.information, b.information);
+}
+
+TEST(Registration, doesNotDependOnHowFarTheGuessWas)
+{
+  const RegistrationResult near = alignForest(2.5, kMotion), far = alignForest(2.5, Rigid::identity());
+
+  EXPECT_LT(metres(near.target_T_source, far.target_T_source), 1e-3);
+}
+
+TEST(Registration, movesWithTheTargetByWholeCells)
+{
+  const auto target = scanFrom(forest(3), Rigid::identity(), 1);
+  const NdtMap source = mapOf(scanFrom(forest(3), kMotion, 2), 2.5);
+  std::vector<Eigen::Vector3f> moved = target;
+  for (Eigen::Vector3f& p : moved) p += Eigen::Vector3f(-64, 32, 8);
+  const Rigid shift{Eigen::Quaterniond::Identity(), {-64, 32, 8}};
+
+  const RegistrationResult here = align(mapOf(target, 1.0), source, Rigid::identity(), {});
+  const RegistrationResult there = align(mapOf(moved, 1.0), source, shift, {});
+
+  EXPECT_LT(metres(there.target_T_source, shift * here.target_T_source), 1e-4);
+}
+
+TEST(Registration, ofNothingSaysLowOverlapAndStaysAtTheGuess)
+{
+  const NdtMap scan = mapOf(scanFrom(forest(3), kMotion, 2), 2.5), empty{NdtOptions{}};
+  const Rigid far = Rigid::fromXyzYawPitchRoll(500, 0, 0, 0, 0, 0);
+
+  for (const auto& result :
+       {align(empty, scan, kMotion, {}), align(scan, empty, kMotion, {}), align(empty, empty, kMotion, {})})
+  {
+    EXPECT_EQ(result.outcome, Outcome::LowOverlap);
+    EXPECT_EQ(result.target_T_source.translation, kMotion.translation);
+    EXPECT_TRUE(result.information.isZero());
+    EXPECT_FALSE(result.trustworthy());
+  }
+  EXPECT_EQ(align(scan, scan, far, {}).outcome, Outcome::LowOverlap);
+}
+
+TEST(Registration, ignoresPointsThatAreNotFinite)
+{
+  auto points = scanFrom(forest(3), kMotion, 2);
+  const NdtMap target = mapOf(scanFrom(forest(3), Rigid::identity(), 1), 1.0);
+  const RegistrationResult clean = align(target, mapOf(points, 2.5), Rigid::identity(), {});
+  points.insert(points.begin() + 100, Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN()));
+
+  EXPECT_EQ(align(target, mapOf(points, 2.5), Rigid::identity(), {}).information, clean.information);
+}
+
+TEST(Registration, refusesANeighbourhoodThatDoesNotExist)
+{
+  RegistrationOptions options;
+  options.neighbours = 9;
+  const NdtMap empty{NdtOptions{}};
+  EXPECT_THAT([&] { align(empty, empty, Rigid::identity(), options); },
+              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("neighbours = 9")));
+}
+
+TEST(Registration, comesFromFurtherAwayWithCoarseLevels)
+{
+  const auto target = scanFrom(forest(3), Rigid::identity(), 1), source = scanFrom(forest(3), kMotion, 2);
+  const Rigid guess = kMotion * Rigid::fromXyzYawPitchRoll(0.5, -0.3, 0.1, 5 * kDegree, 0, 0);
+  const NdtMap t4 = mapOf(target, 4), t2 = mapOf(target, 2), t1 = mapOf(target, 1);
+  const NdtMap s4 = mapOf(source, 4), s2 = mapOf(source, 2), s1 = mapOf(source, 1);
+
+  const RegistrationResult result = alignCoarseToFine({{t4, s4}, {t2, s2}, {t1, s1}}, guess, {});
+
+  EXPECT_TRUE(result.trustworthy()) << result.brief();
+  EXPECT_LT(metres(result.target_T_source, kMotion), 0.05) << result.brief();
+  EXPECT_THROW(alignCoarseToFine({}, guess, {}), std::invalid_argument);
+}
+
+TEST(Registration, saysItAllInOneLine)
+{
+  EXPECT_THAT(alignForest(2.5, Rigid::identity()).brief(),
+              testing::MatchesRegex("converged: \\(.* overlap .* %, score .*, .* iterations"));
+}
+
+TEST(RegistrationInAnOpenField, namesSlidingAndTurningAndDoesNotMoveThere)
+{
+  const Rigid motion = Rigid::fromXyzYawPitchRoll(0.3, 0.1, 0.05, 2 * kDegree, 0.5 * kDegree, 0);
+  const auto target = scanFrom(openField(), Rigid::identity(), 1), source = scanFrom(openField(), motion, 2);
+
+  const RegistrationResult result = align(mapOf(target, 1.0), mapOf(source, 2.5), Rigid::identity(), {});
+
+  EXPECT_EQ(result.outcome, Outcome::Degenerate) << result.brief();
+  EXPECT_EQ(result.degenerate_directions.size(), 3u);
+  EXPECT_NEAR(result.target_T_source.translation.z(), 0.05, 0.02);
+  EXPECT_LT(result.target_T_source.translation.head<2>().norm(), 0.02) << "slid over bare ground";
+  EXPECT_LT(result.information(0, 0), 1.0);
+  EXPECT_GT(result.information(2, 2), 1000.0);
+}
+
+/** The ratio of what is reported to what is: over 1 is cautious, as it should be until it is calibrated. */
+TEST(RegistrationCovariance, coversTheSpreadOfRepeatedScans)
+{
+  const int runs = 30;
+  Matrix6d reported = Matrix6d::Zero(), actual = Matrix6d::Zero();
+  double nees = 0;
+  for (int i = 0; i < runs; ++i)
+  {
+    const RayWorld world = forest(static_cast<std::uint64_t>(100 + i));
+    const auto target = scanFrom(world, Rigid::identity(), static_cast<std::uint64_t>(1000 + i));
+    const auto source = scanFrom(world, kMotion, static_cast<std::uint64_t>(2000 + i));
+    const RegistrationResult result = align(mapOf(target, 1.0), mapOf(source, 2.5), kMotion, {});
+    const Vector6d error = boxMinus(result.target_T_source, kMotion);
+    reported += result.covariance / runs;
+    actual += error * error.transpose() / runs;
+    nees += error.dot(result.information * error) / runs;
+  }
+  const Vector6d ratio = (reported.diagonal().array() / actual.diagonal().array()).sqrt();
+  std::string text;
+  for (const double r : ratio) text += std::to_string(r) + " ";
+  RecordProperty("reported_over_actual_deviation", text);
+  RecordProperty("mean_nees_of_6", std::to_string(nees));
+
+  EXPECT_GT(ratio.minCoeff(), 0.7) << text;
+  EXPECT_LT(nees, 9) << text;
+}
+}  // namespace
+}  // namespace scanloom
