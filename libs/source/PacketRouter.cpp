@@ -53,7 +53,7 @@ PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars) : lidars_(std::move(
   for (const RoutedLidar& lidar : lidars_)
     if (lidar.address.lidar_port == 0)
       throw std::invalid_argument(
-          fmt::format("[{}] no lidar port: set lidar_port, or give metadata that names it", lidar.label));
+          fmt::format("lidar '{}' has no UDP port: give its key 'port', or metadata that names one", lidar.label));
 }
 
 std::optional<Routed> PacketRouter::route(const Datagram& datagram)
@@ -111,10 +111,9 @@ std::runtime_error PacketRouter::ambiguous(const Datagram& datagram, const std::
 {
   std::vector<std::string> labels;
   for (const Routed& candidate : candidates) labels.push_back(lidars_[candidate.lidar].label);
-  return std::runtime_error(
-      fmt::format("lidar packet from {} at port {} may be of [{}]: it holds no serial number; set source_address in "
-                  "these sections to "
-                  "the sensors' own addresses, or give each its own lidar_port",
-                  datagram.source.text(), datagram.destination_port, fmt::join(labels, "] or [")));
+  return std::runtime_error(fmt::format(
+      "lidar packet from {} at port {} may be of '{}': it holds no serial number; give each of these lidars its "
+      "key 'address' (the sensor's own IP address) or a 'port' of its own",
+      datagram.source.text(), datagram.destination_port, fmt::join(labels, "' or '")));
 }
 }  // namespace scanloom

@@ -22,7 +22,7 @@ struct LidarAddress
 
 struct RoutedLidar
 {
-  std::string label;  // the lidar's section in the configuration
+  std::string label;  // what the configuration calls the lidar
   LidarAddress address;
   const PacketDecoder* decoder = nullptr;  // must outlive the router
 };

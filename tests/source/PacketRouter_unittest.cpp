@@ -1,5 +1,9 @@
 #include "source/PacketRouter.h"
 
+#include "lidar/LidarModels.h"
+#include "source/CaptureReader.h"
+#include "support/TestData.h"
+
 #include <gmock/gmock.h>
 
 namespace scanloom
@@ -134,11 +138,51 @@ TEST(PacketRouter, asksThePersonWhereLidarPacketsCouldBeOfTwo)
   catch (const std::runtime_error& error)
   {
     EXPECT_THAT(error.what(), HasSubstr("10.0.0.5 at port 7502"));
-    EXPECT_THAT(error.what(), HasSubstr("[left] or [right]"));
-    EXPECT_THAT(error.what(), HasSubstr("source_address"));
+    EXPECT_THAT(error.what(), HasSubstr("'left' or 'right'"));
+    EXPECT_THAT(error.what(), HasSubstr("'address'"));
   }
 }
 
 TEST(PacketRouter, needsAPortForEveryLidar) { EXPECT_THROW(twoLidars({7502, 0, {}}, {}), std::invalid_argument); }
+
+constexpr const char* kOuster = "ouster/ouster-lidar+ouster-sdk/tests/pcaps/";
+constexpr const char* kOs1 = "169.254.238.111";
+constexpr const char* kOs0 = "169.254.92.158";
+
+/** An OS0 with serial in its packets and an OS1 of legacy format on one port; both IMU packets come before any lidar
+ * packet. */
+TEST(PacketRouter, tellsTwoRealSensorsOnOnePortApart)
+{
+  SCANLOOM_NEEDS_DATA(first, std::string(kOuster) + "same_ports.1.json");
+  SCANLOOM_NEEDS_DATA(second, std::string(kOuster) + "same_ports.2.json");
+  SCANLOOM_NEEDS_DATA(capture, std::string(kOuster) + "same_ports.pcap");
+  const auto a = makeDecoder(first.string(), Rigid::identity()), b = makeDecoder(second.string(), Rigid::identity());
+  PacketRouter router({{"a", {7502, 7502, {}}, a.get()}, {"b", {7502, 7502, {}}, b.get()}});
+
+  std::map<std::string, std::string> routes;
+  CaptureReader reader(capture);
+  for (Datagram d; reader.next(d);) routes[d.source.text()] += route(router, d) + " ";
+  CaptureReader again(capture);
+  for (Datagram d; again.next(d);) routes[d.source.text()] += route(router, d) + " ";
+
+  EXPECT_EQ(routes[kOs1], "none 1L 1I 1L ");
+  EXPECT_EQ(routes[kOs0], "none 0L 0I 0L ");
+}
+
+/** Both of legacy format: the packet's size tells the 64 channels from the 128. */
+TEST(PacketRouter, tellsTwoRealLegacySensorsOfDifferentSizeApart)
+{
+  SCANLOOM_NEEDS_DATA(first, std::string(kOuster) + "same_ports_legacy.1.json");
+  SCANLOOM_NEEDS_DATA(second, std::string(kOuster) + "same_ports_legacy.2.json");
+  SCANLOOM_NEEDS_DATA(capture, std::string(kOuster) + "same_ports_legacy.pcap");
+  const auto a = makeDecoder(first.string(), Rigid::identity()), b = makeDecoder(second.string(), Rigid::identity());
+  PacketRouter router({{"a", {7502, 7502, {}}, a.get()}, {"b", {7502, 7502, {}}, b.get()}});
+
+  std::map<std::string, std::string> routes;
+  CaptureReader reader(capture);
+  for (Datagram d; reader.next(d);) routes[d.source.text()] += route(router, d);
+  EXPECT_EQ(routes[kOs1], "1L");
+  EXPECT_EQ(routes[kOs0], "0L");
+}
 }  // namespace
 }  // namespace scanloom

@@ -69,7 +69,10 @@ TEST(RigReplay, weavesBothLidarsOfARecordingWithExactAccounts)
       body_imu += imu->sensor == SensorImu::kBody;
       continue;
     }
-    if (scans++ > 0) EXPECT_EQ(std::get<Scan>(*event).start, end);
+    if (scans++ > 0)
+    {
+      EXPECT_EQ(std::get<Scan>(*event).start, end);
+    }
     end = std::get<Scan>(*event).end();
     for (const Column& column : std::get<Scan>(*event).columns)
     {
