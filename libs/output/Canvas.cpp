@@ -1,5 +1,7 @@
 #include "output/Canvas.h"
 
+#include "config/AtomicFile.h"
+
 #include <fmt/format.h>
 #include <mrpt/img/CImage.h>
 
@@ -83,9 +85,9 @@ void Canvas::savePng(const std::filesystem::path& path) const
     image.selectTextFont(label.font == Font::Small ? "6x13" : "9x15");
     image.textOut(label.x, label.y, label.text, toMrpt(label.color));
   }
-  const std::filesystem::path temporary = path.string() + ".part.png";  // the suffix chooses the format
-  if (!image.saveToFile(temporary.string()))
-    throw std::runtime_error(fmt::format("cannot write the picture '{}'", path.string()));
-  std::filesystem::rename(temporary, path);
+  AtomicFile file(path);
+  if (!image.saveToFile(file.temporary().string()))
+    throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
+  file.commit();
 }
 }  // namespace scanloom

@@ -1,6 +1,6 @@
 #include "output/OctoMapExport.h"
 
-#include "output/OutputFile.h"
+#include "config/AtomicFile.h"
 
 #include <fmt/format.h>
 #include <octomap/octomap.h>
@@ -83,18 +83,14 @@ void OctoMapBuilder::add(const Keyframe& keyframe)
 
 void OctoMapBuilder::writeBinary(const std::filesystem::path& path) const
 {
-  OutputFile file(path);
   octomap::OcTree most_likely(*tree_);
   most_likely.toMaxLikelihood();
   most_likely.prune();
-  requireWritten(most_likely.writeBinaryConst(file.stream()), path);
-  file.commit();
+  writeAtomically(path, [&](std::ostream& file) { requireWritten(most_likely.writeBinaryConst(file), path); });
 }
 
 void OctoMapBuilder::writeFull(const std::filesystem::path& path) const
 {
-  OutputFile file(path);
-  requireWritten(tree_->write(file.stream()), path);
-  file.commit();
+  writeAtomically(path, [&](std::ostream& file) { requireWritten(tree_->write(file), path); });
 }
 }  // namespace scanloom

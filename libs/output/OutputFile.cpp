@@ -5,29 +5,20 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
-#include <system_error>
 
 namespace scanloom
 {
-OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), temporary_(path_.string() + ".part")
+OutputFile::OutputFile(const std::filesystem::path& path)
+  : path_(path), file_(path), stream_(file_.temporary(), std::ios::binary | std::ios::trunc)
 {
-  errno = 0;
-  stream_.open(temporary_, std::ios::binary | std::ios::trunc);
-  if (!stream_) throw std::runtime_error(fmt::format("cannot write '{}': {}", path_.string(), std::strerror(errno)));
-}
-
-OutputFile::~OutputFile()
-{
-  stream_.close();
-  std::error_code ignored;  // after commit() there is nothing to remove
-  std::filesystem::remove(temporary_, ignored);
 }
 
 void OutputFile::commit()
 {
   errno = 0;
   stream_.close();
-  if (!stream_) throw std::runtime_error(fmt::format("cannot finish '{}': {}", path_.string(), std::strerror(errno)));
-  std::filesystem::rename(temporary_, path_);
+  if (!stream_)
+    throw std::runtime_error(fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
+  file_.commit();
 }
 }  // namespace scanloom

@@ -1,34 +1,26 @@
-/** A result appears under its name only when it is whole: written beside it under a temporary name, then renamed. */
+/** A stream into a file that appears under its name only when it is whole. */
 #pragma once
-#include <filesystem>
+#include "config/AtomicFile.h"
+
 #include <fstream>
 
 namespace scanloom
 {
+/** For results that grow while a run lasts; what is written in one go uses writeAtomically(). */
 class OutputFile
 {
  public:
-  /** Opens `path` + ".part" for binary writing; throws std::runtime_error, with the path and the reason, if it cannot.
-   */
-  explicit OutputFile(std::filesystem::path path);
-
-  /** Without a commit() nothing stays behind, and an older file of that name stays as it was. */
-  ~OutputFile();
-
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
+  /** Throws std::runtime_error, with the path and the reason, if it cannot be written. */
+  explicit OutputFile(const std::filesystem::path&);
 
   std::ostream& stream() { return stream_; }
 
-  /** For libraries that insist on opening the file themselves; stream() must not be written then. */
-  const std::filesystem::path& temporaryPath() const { return temporary_; }
-
-  /** Replaces the file of that name; throws std::runtime_error if not every byte reached the disk (disk full). */
+  /** Gives the file its name; throws std::runtime_error if not every byte reached the disk. No write may follow. */
   void commit();
 
  private:
   std::filesystem::path path_;
-  std::filesystem::path temporary_;
+  AtomicFile file_;
   std::ofstream stream_;
 };
 }  // namespace scanloom

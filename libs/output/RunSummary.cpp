@@ -1,5 +1,7 @@
 #include "output/RunSummary.h"
 
+#include "config/AtomicFile.h"
+
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
 
@@ -40,8 +42,6 @@ void to_json(nlohmann::json& json, const RunSummary& run)
 
 void writeSummary(const std::filesystem::path& path, const RunSummary& run)
 {
-  OutputFile file(path);
-  file.stream() << nlohmann::json(run).dump(2) << '\n';
-  file.commit();
+  writeAtomically(path, [&](std::ostream& file) { file << nlohmann::json(run).dump(2) << '\n'; });
 }
 }  // namespace scanloom

@@ -1,11 +1,11 @@
 /** summary.json: what a run did, how long it took and how it ended. */
 #pragma once
 #include "core/StageTimes.h"
-#include "output/OutputFile.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 

@@ -1,7 +1,7 @@
 #include "output/SimpleMapFile.h"
 
+#include "config/AtomicFile.h"
 #include "mrpt_bridge/Conversions.h"
-#include "output/OutputFile.h"
 
 #include <fmt/format.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
@@ -62,8 +62,8 @@ void SimpleMapBuilder::add(const Keyframe& keyframe)
 
 void SimpleMapBuilder::write(const std::filesystem::path& path) const
 {
-  OutputFile file(path);
-  if (!map_->saveToFile(file.temporaryPath().string()))
+  AtomicFile file(path);
+  if (!map_->saveToFile(file.temporary().string()))
     throw std::runtime_error(fmt::format("cannot write the keyframes '{}'", path.string()));
   file.commit();
 }

@@ -85,15 +85,18 @@ Trajectory readTum(const std::filesystem::path& path)
 
 void writeKitti(const std::filesystem::path& poses, const std::filesystem::path& times, const Trajectory& trajectory)
 {
-  OutputFile pose_file(poses), time_file(times);
   const Eigen::IOFormat row_major(9, Eigen::DontAlignCols, " ", " ");
-  for (const StampedPose& pose : trajectory)
-  {
-    pose_file.stream() << std::fixed << pose.map_T_body.matrix().topRows<3>().format(row_major) << '\n';
-    time_file.stream() << secondsText(pose.stamp) << '\n';
-  }
-  pose_file.commit();
-  time_file.commit();
+  writeAtomically(poses,
+                  [&](std::ostream& file)
+                  {
+                    for (const StampedPose& pose : trajectory)
+                      file << std::fixed << pose.map_T_body.matrix().topRows<3>().format(row_major) << '\n';
+                  });
+  writeAtomically(times,
+                  [&](std::ostream& file)
+                  {
+                    for (const StampedPose& pose : trajectory) file << secondsText(pose.stamp) << '\n';
+                  });
 }
 
 void writeEuroc(const std::filesystem::path& path, const Trajectory& trajectory)

@@ -1,0 +1,60 @@
+/** Random numbers that depend on their place alone, so that no thread and no order can change them. */
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+namespace scanloom
+{
+/** What random numbers are drawn for. */
+enum class RandomStream : std::uint64_t
+{
+  Stand,
+  LeftLidar,
+  RightLidar,
+  LeftTiming,
+  RightTiming,
+  LeftTransport,
+  RightTransport,
+  BodyImu,
+  LeftImu,
+  RightImu,
+  ImuBiases,
+  TotalStation,
+};
+
+/** SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), one per place. */
+class Random
+{
+ public:
+  /** `index`: the column, the sample or the stem that is drawn for. */
+  Random(std::uint64_t seed, RandomStream stream, std::uint64_t index)
+    : state_(mix(mix(mix(seed) + static_cast<std::uint64_t>(stream)) + index))
+  {
+  }
+
+  std::uint64_t bits() { return mix(state_ += kGoldenGamma); }
+
+  /** In [0, 1). */
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double uniform(double lowest, double highest) { return lowest + (highest - lowest) * uniform(); }
+
+  /** Mean 0, deviation 1. Box and Muller's, because std::normal_distribution differs between standard libraries. */
+  double normal()
+  {
+    const double radius = std::sqrt(-2 * std::log(1 - uniform()));
+    return radius * std::cos(2 * M_PI * uniform());
+  }
+
+ private:
+  static constexpr std::uint64_t kGoldenGamma = 0x9e3779b97f4a7c15;
+
+  static constexpr std::uint64_t mix(std::uint64_t z)
+  {
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+  }
+
+  std::uint64_t state_;
+};
+}  // namespace scanloom
