@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace scanloom
 {
@@ -44,6 +45,13 @@ Matrix3d thinDirections(const GaussianCell& cell, double edge)
   return eigen.eigenvectors() * share.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
+/** What is gathered per target cell; most are met by several source cells, many by none. */
+struct TargetRole
+{
+  Matrix63 pull = Matrix63::Zero();  // d gradient / d mean
+  std::optional<Matrix3d> thin;
+};
+
 /** Sums over all pairs; steps in metres. */
 struct Evidence
 {
@@ -56,7 +64,7 @@ struct Evidence
 Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
   const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
-  std::vector<Matrix63> pull_of_target(all.target().size(), Matrix63::Zero());  // d gradient / d its mean
+  std::vector<TargetRole> roles(all.target().size());
   Evidence evidence;
   for (std::size_t i = 0; i < all.source().size(); ++i)
   {
@@ -77,11 +85,13 @@ Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, dou
       const Vector3d u = b * m;
       const double w = d2 * std::exp(-d2 / 2 * m.dot(u));
       const Matrix3d pull = w * (b - d2 * u * u.transpose());
-      const Matrix3d thin = thin_source * thinDirections(target, all.targetEdge());
+      TargetRole& role = roles[j];
+      if (!role.thin) role.thin = thinDirections(target, all.targetEdge());
+      const Matrix3d thin = thin_source * *role.thin;
       weights += w * b;
       structures += w * thin * b * thin.transpose();
       pulls += pull;
-      pull_of_target[j] += jacobian.transpose() * pull;
+      role.pull += jacobian.transpose() * pull;
     }
     const Matrix63 pull_of_source = jacobian.transpose() * pulls;
     evidence.resistance += jacobian.transpose() * weights * jacobian;
@@ -90,8 +100,8 @@ Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, dou
     evidence.noise +=
         pull_of_source * rotation * covarianceOfMean(source) * rotation.transpose() * pull_of_source.transpose();
   }
-  for (std::size_t j = 0; j < pull_of_target.size(); ++j)
-    evidence.noise += pull_of_target[j] * covarianceOfMean(all.target()[j]) * pull_of_target[j].transpose();
+  for (std::size_t j = 0; j < roles.size(); ++j)
+    if (roles[j].thin) evidence.noise += roles[j].pull * covarianceOfMean(all.target()[j]) * roles[j].pull.transpose();
   return evidence;
 }
 
