@@ -11,7 +11,6 @@ namespace
 {
 constexpr std::uint64_t kNoCrcFirmware22 = 0;
 constexpr std::uint64_t kNoCrcFirmware23 = 0xDEADBEEF0000C0DE;
-constexpr std::uint64_t kLatestStamp = std::uint64_t{1} << 62;  // differences of stamps stay within 64 bits
 
 std::uint64_t loadField(Bytes packet, ByteField f)
 {
@@ -145,7 +144,7 @@ MeasurementBlock OusterDecoder::readBlock(Bytes packet, std::size_t index, std::
   block.frame_id = layout_.isLegacy() ? load<std::uint16_t>(column, kOusterColumnFrameIdOrStatus) : packet_frame_id;
   block.index = static_cast<std::uint16_t>(index);
   block.valid = (columnStatus(packet, index) & 1) != 0 && block.measurement_id < metadata_.columns_per_frame &&
-                stamp < kLatestStamp;
+                stamp < kOusterEndOfTime;
   return block;
 }
 

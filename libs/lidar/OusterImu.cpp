@@ -6,8 +6,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::uint64_t kLatestStamp = std::uint64_t{1} << 62;
-
 Eigen::Vector3d loadVector(Bytes bytes, std::size_t offset)
 {
   return {load<float>(bytes, offset), load<float>(bytes, offset + 4), load<float>(bytes, offset + 8)};
@@ -16,7 +14,7 @@ Eigen::Vector3d loadVector(Bytes bytes, std::size_t offset)
 void appendIfUsable(std::vector<ImuSample>& samples, std::uint64_t stamp, const Eigen::Vector3d& gyro,
                     const Eigen::Vector3d& accel)
 {
-  if (stamp < kLatestStamp && gyro.allFinite() && accel.allFinite())
+  if (stamp < kOusterEndOfTime && gyro.allFinite() && accel.allFinite())
     samples.push_back({fromNanoseconds(static_cast<std::int64_t>(stamp)), gyro, accel});
 }
 

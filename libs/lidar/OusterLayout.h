@@ -52,6 +52,9 @@ constexpr std::size_t kOusterColumnEncoder = 12;  // LEGACY only: ticks of a tur
 constexpr std::uint32_t kOusterEncoderTicks = 90112;
 constexpr std::size_t kOusterCrcBytes = 8;
 
+/** Stamps from here on are taken for damage, so that differences of stamps always fit into 64 bits. */
+constexpr std::uint64_t kOusterEndOfTime = std::uint64_t{1} << 62;  // ns, 146 years
+
 /** LEGACY IMU packet: stamps u64, accelerations f32 in g, rates f32 in deg/s. */
 namespace ouster_legacy_imu
 {

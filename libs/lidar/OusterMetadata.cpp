@@ -51,13 +51,6 @@ std::string nameOf(const Table& table, Value value)
       std::find_if(table.begin(), table.end(), [&](const auto& row) { return row.second == value; })->first);
 }
 
-const OusterProfile* findProfile(std::string_view name)
-{
-  const auto row = std::find_if(kOusterProfiles.begin(), kOusterProfiles.end(),
-                                [&](const OusterProfile& p) { return p.name == name; });
-  return row == kOusterProfiles.end() ? nullptr : &*row;
-}
-
 /** "1024x10": columns per turn and turns per second. */
 std::pair<int, int> parseMode(const MetadataKeys& keys, const std::string& mode)
 {
@@ -109,7 +102,7 @@ void readProfiles(const MetadataKeys& keys, OusterMetadata& m)
 {
   const std::string& section = formatSection(keys);
   m.lidar_profile = keys.text(section, "udp_profile_lidar").value_or("LEGACY");
-  if (!findProfile(m.lidar_profile))
+  if (!findOusterProfile(m.lidar_profile))
   {
     std::string known;
     for (const OusterProfile& p : kOusterProfiles) known += fmt::format("{}{}", known.empty() ? "" : ", ", p.name);
@@ -213,30 +206,6 @@ OusterMetadata parseOusterMetadata(const std::string& text, const std::string& n
 }
 
 OusterMetadata loadOusterMetadata(const std::string& path) { return parseOusterMetadata(readMetadataText(path), path); }
-
-OusterLayout layoutOf(const OusterMetadata& m)
-{
-  OusterLayout layout;
-  layout.profile = findProfile(m.lidar_profile);
-  if (!layout.profile) throw std::invalid_argument(fmt::format("lidar_profile '{}' is unknown", m.lidar_profile));
-  layout.lidar_header = m.lidar_profile == "LEGACY" ? OusterHeader::None : m.header_type;
-  layout.imu_profile = m.imu_profile;
-  layout.imu_header = m.imu_profile == OusterImuProfile::Legacy ? OusterHeader::None : m.header_type;
-  layout.channels = static_cast<std::size_t>(m.channels);
-  layout.columns = static_cast<std::size_t>(m.columns_per_packet);
-  layout.imu_measurements = static_cast<std::size_t>(m.imu_measurements_per_packet);
-  return layout;
-}
-
-std::optional<std::uint64_t> serialNumber(const OusterMetadata& m)
-{
-  const bool digits = !m.serial.empty() && m.serial.size() <= 13 &&
-                      std::all_of(m.serial.begin(), m.serial.end(), [](char c) { return c >= '0' && c <= '9'; });
-  if (!digits) return std::nullopt;
-  const std::uint64_t number = std::stoull(m.serial);
-  if (number == 0 || number >= (std::uint64_t{1} << 40)) return std::nullopt;
-  return number;
-}
 
 std::string toJson(const OusterMetadata& m)
 {

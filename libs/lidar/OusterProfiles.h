@@ -185,6 +185,9 @@ inline constexpr std::array kOusterProfiles{
     ouster_profiles::dual19("FIVE_WORD_PIXEL", 20, {{OusterField::NearIr, 96, 16}, {OusterField::Window, 120, 8}}),
 };
 
+/** The row of that name; nothing if there is none. */
+const OusterProfile* findOusterProfile(std::string_view name);
+
 /** The fields of a profile lie inside its channel and fit into the integers that hold them. */
 constexpr bool isConsistent(const OusterProfile& p)
 {

@@ -63,12 +63,13 @@ struct MeasurementBlock
   std::uint32_t frame_id = 0;
   std::uint16_t measurement_id = 0;  // column of the turn
   std::uint16_t index = 0;           // place in the packet
-  bool valid = false;                // the sensor's own flag
+  bool valid = false;                // says the sensor; and its id lies within the turn, its stamp within 62 bits
 };
 
 /**
- * Reads bounded bytes and never trusts them: whatever kind() calls Lidar or Imu can be given to the other functions,
- * which throw std::out_of_range on anything shorter. Const and free of state: one decoder may serve many threads.
+ * Reads bounded bytes and never trusts them: what kind() calls Lidar can be given to readBlocks and appendPoints, what
+ * it calls Imu to imuSamples, and both to header; they throw std::out_of_range on anything too short for them. Const
+ * and free of state: one decoder may serve many threads.
  */
 class PacketDecoder
 {

@@ -8,6 +8,7 @@
 
 #include "captures.h"
 #include "lidar/Digest.h"
+#include "simpleMetadata.h"
 
 using namespace scanloom;
 
@@ -90,4 +91,49 @@ TEST(FrameFields, everyNamedDigestOfThePacketsIsOurs)
   }
   RecordProperty("digests_compared", compared);
   EXPECT_EQ(compared, 9 + 5 + 5);
+}
+
+namespace
+{
+/** The range of one pixel. */
+std::uint32_t rangeAt(const FieldFrame& frame, std::size_t channel, std::size_t column)
+{
+  std::uint32_t range = 0;
+  std::memcpy(&range, &frame.fields[0].values[4 * (channel * frame.timestamp.size() + column)], 4);
+  return range;
+}
+}  // namespace
+
+TEST(FrameFields, aLatePacketFindsItsTurnAndInvalidOrLostColumnsAreZero)
+{
+  const OusterMetadata m = simpleMetadata("RNG19_RFL8_SIG16_NIR16", 4, 16);
+  const OusterDecoder decoder(m, Rigid::identity());
+  const OusterEncoder encoder(m);
+  const auto packet = [&](std::uint32_t frame_id, std::uint16_t first_column, bool valid = true)
+  {
+    auto columns = randomColumns(m, 1, frame_id, first_column);
+    for (OusterColumn& column : columns) column.readings[2].first.range_mm = 1000u * frame_id + first_column;
+    columns[3].valid = valid;
+    return encoder.lidarPacket(columns);
+  };
+  const auto frames = framesOf(decoder, {packet(8, 0), packet(9, 0, false), packet(8, 32), packet(10, 0)});
+
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_EQ(frames[0].frame_id, 8u);
+  EXPECT_EQ(rangeAt(frames[0], 2, 5), 8000u);
+  EXPECT_EQ(rangeAt(frames[0], 2, 20), 0u) << "never came";
+  EXPECT_EQ(rangeAt(frames[0], 2, 37), 8032u) << "came late";
+  EXPECT_EQ(frames[0].measurement_id[37], 37);
+  EXPECT_EQ(frames[1].frame_id, 9u);
+  EXPECT_EQ(rangeAt(frames[1], 2, 3), 0u) << "invalid";
+  EXPECT_EQ(frames[1].status[3], 0u);
+  EXPECT_EQ(rangeAt(frames[1], 2, 4), 9000u);
+  EXPECT_EQ(frames[2].frame_id, 10u);
+}
+
+TEST(Digest, isMd5)
+{
+  const std::string text = "message digest";  // RFC 1321, appendix A.5
+  EXPECT_EQ(md5({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}), "f96b697d7cb7938d525a2f31aaf161d0");
+  EXPECT_EQ(md5({}), "d41d8cd98f00b204e9800998ecf8427e");
 }
