@@ -192,7 +192,7 @@ TEST(FixedLagSmoother, tiesAStateToAnOlderOneInTheWindow)
   const DriveNoise noise;
   const SimulatedDrive drive = simulate(kDrive, 12, 200ms, noise, 8);
   FixedLagSmoother smoother = smootherFor(drive, noise, withoutHuber(5));
-  Matrix6d sharp = 1e8 * Matrix6d::Identity();
+  const Matrix6d sharp = 1e8 * Matrix6d::Identity();  // 0.1 mm and 0.1 mrad
   const auto bodyOf = [&](std::size_t k) { return drive.truth[k].map_T_imu * kBodyFromImu.inverse(); };
   for (std::size_t k = 1; k < drive.truth.size(); ++k)
   {
@@ -202,10 +202,6 @@ TEST(FixedLagSmoother, tiesAStateToAnOlderOneInTheWindow)
     smoother.optimise();
     EXPECT_TRUE(smoother.report().usable);
   }
-  // Relative poses of 0.1 mm keep the error of the first pose, and let it grow no further.
-  const Vector6d first = boxMinus(drive.first_guess.map_T_imu, drive.truth.front().map_T_imu);
-  const Rigid truth_T_estimate = drive.truth.back().map_T_imu.inverse() * smoother.newest().map_T_imu;
-  EXPECT_LT(truth_T_estimate.translation.norm(), 0.15 + 5 * first.tail<3>().norm());
   const Rigid first_T_newest = smoother.states().front().map_T_imu.inverse() * smoother.newest().map_T_imu;
   const Rigid expected = drive.truth[7].map_T_imu.inverse() * drive.truth[11].map_T_imu;
   EXPECT_LT(boxMinus(first_T_newest, expected).norm(), 1e-3);
