@@ -1,0 +1,177 @@
+#include "slam/LidarInertialSlam.h"
+
+#include "preprocessing/Deskew.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+LidarInertialSlam::LidarInertialSlam(const SlamSettings& settings, const Rigid& body_T_imu)
+  : settings_(settings),
+    body_T_imu_(body_T_imu),
+    imu_T_body_(body_T_imu.inverse()),
+    local_map_(settings.local_map, settings.map_cells)
+{
+}
+
+void LidarInertialSlam::addImu(const ImuSample& sample)
+{
+  if (!imu_.add(sample)) ++refused_imu_samples_;
+}
+
+std::vector<StateEstimate> LidarInertialSlam::addScan(Scan scan)
+{
+  const bool wanted = scans_seen_++ % static_cast<std::uint64_t>(settings_.slam.every_nth) == 0;
+  if (wanted)
+    waiting_.push_back(std::move(scan));
+  else
+    ++skipped_scans_;
+  return processWaiting(false);
+}
+
+std::vector<StateEstimate> LidarInertialSlam::finish() { return processWaiting(true); }
+
+std::vector<StateEstimate> LidarInertialSlam::processWaiting(bool input_ended)
+{
+  std::vector<StateEstimate> estimates;
+  if (!smoother_ && !start(input_ended)) return estimates;
+  while (!waiting_.empty() && (input_ended || covered(waiting_.front())))
+  {
+    estimates.push_back(track(std::move(waiting_.front())));
+    waiting_.pop_front();
+  }
+  return estimates;
+}
+
+bool LidarInertialSlam::covered(const Scan& scan) const
+{
+  const Duration wait = fromSeconds(1e-3 * settings_.slam.imu_wait_ms);
+  const Timestamp newest_scan_end = waiting_.back().end();
+  return imu_.covers(scan.start, scan.end()) || newest_scan_end >= scan.end() + wait;
+}
+
+/** At rest if the first seconds allow it; otherwise gravity from whatever the accelerometer says. */
+bool LidarInertialSlam::start(bool input_ended)
+{
+  if (waiting_.empty() || imu_.empty()) return false;
+  const Timestamp first = waiting_.front().start;
+  const Timestamp enough = first + fromSeconds(settings_.start.duration);
+  if (!input_ended && !imu_.covers(first, enough)) return false;
+
+  const Timestamp to = std::min(enough, std::max(imu_.samples().back().stamp, waiting_.front().end()));
+  const std::vector<ImuSample> samples = imu_.between(first, to);
+  std::optional<ImuInitialisation> initial = initialiseAtRest(samples, body_T_imu_, settings_.start);
+  if (!initial)
+  {
+    initial = gravityOnly(samples, body_T_imu_, settings_.start);
+    initialising_until_ = enough;
+  }
+  initial->state.stamp = first;
+  last_trusted_ = first;
+  smoother_.emplace(initial->state, initial->covariance, body_T_imu_, settings_.imu, settings_.smoother);
+  return true;
+}
+
+StateEstimate LidarInertialSlam::track(Scan scan)
+{
+  StateEstimate estimate;
+  estimate.stamp = scan.end();
+  estimate.scan_complete = scan.complete;
+
+  const NavState before = smoother_->newest();
+  estimate.imu_complete = imu_.covers(before.stamp, scan.end());
+  const std::vector<ImuSample> samples = imu_.between(before.stamp, scan.end());
+  smoother_->addState(
+      times_.measure("preintegration", [&] { return preintegrate(samples, before.bias, settings_.imu); }));
+  const NavState predicted = smoother_->newest();
+
+  const PointCloud cloud =
+      times_.measure("preprocessing", [&] { return preprocess(std::move(scan), before, samples); });
+  estimate.points = cloud.size();
+  estimate.registration = registerRoughly(cloud, bodyAt(predicted));
+  if (estimate.registration && estimate.registration->outcome != Outcome::LowOverlap)
+    smoother_->addPosePrior(estimate.registration->target_T_source, estimate.registration->information);
+  const NavState state = times_.measure("smoother", [&] { return smoother_->optimise(); });
+
+  estimate.map_T_body = bodyAt(state);
+  estimate.velocity = state.velocity;
+  estimate.health = healthAt(state.stamp, estimate.registration);
+  estimate.since_last = posesBetween(before, state, samples);
+  if (estimate.health != Health::Lost && local_map_.wants(estimate.map_T_body)) addKeyframe(cloud, estimate);
+  imu_.forgetBefore(state.stamp);
+  return estimate;
+}
+
+/** Cropped, and moved to where the body is at the end of the scan. */
+PointCloud LidarInertialSlam::preprocess(Scan scan, const NavState& before, const std::vector<ImuSample>& samples) const
+{
+  std::vector<Timestamp> stamps;
+  for (const Column& column : scan.columns) stamps.push_back(std::max(column.stamp, before.stamp));
+  stamps.push_back(scan.end());
+  const std::vector<NavState> states = predictAt(before, samples, stamps);
+
+  const Rigid end_T_map = bodyAt(states.back()).inverse();
+  std::vector<Rigid> end_T_column;
+  for (std::size_t i = 0; i < scan.columns.size(); ++i) end_T_column.push_back(end_T_map * bodyAt(states[i]));
+  return deskew(cropOut(std::move(scan), settings_.crop), end_T_column);
+}
+
+std::optional<RegistrationResult> LidarInertialSlam::registerRoughly(const PointCloud& cloud, const Rigid& predicted)
+{
+  if (local_map_.empty() || cloud.empty()) return std::nullopt;
+  const NdtMap source = times_.measure("scan_ndt", [&] { return NdtMap(cloud, settings_.scan_cells); });
+  return times_.measure("alignment",
+                        [&] { return align(local_map_.ndt(), source, predicted, settings_.registration); });
+}
+
+/** Aligned again with finer cells, then added to the local map. */
+void LidarInertialSlam::addKeyframe(const PointCloud& cloud, StateEstimate& estimate)
+{
+  if (cloud.empty()) return;
+  times_.measure("keyframe",
+                 [&]
+                 {
+                   Rigid map_T_body = estimate.map_T_body;
+                   if (!local_map_.empty())
+                   {
+                     const NdtMap source(cloud, settings_.keyframe_cells);
+                     const RegistrationResult fine =
+                         align(local_map_.ndt(), source, map_T_body, settings_.registration);
+                     if (fine.trustworthy()) map_T_body = fine.target_T_source;
+                   }
+                   local_map_.add(cloud, map_T_body);
+                   estimate.keyframe = Keyframe{estimate.stamp, map_T_body, cloud};
+                 });
+}
+
+Health LidarInertialSlam::healthAt(Timestamp now, const std::optional<RegistrationResult>& registration)
+{
+  const bool first = local_map_.empty();
+  if (first || (registration && registration->trustworthy())) last_trusted_ = now;
+  if (now - last_trusted_ > fromSeconds(settings_.slam.lost_after)) return Health::Lost;
+  if (initialising_until_ && now <= *initialising_until_) return Health::Initialising;
+  return last_trusted_ == now ? Health::Ok : Health::Degenerate;
+}
+
+/** The smoother's two states joined by the IMU; what does not close is spread over the time between. */
+Trajectory LidarInertialSlam::posesBetween(const NavState& from, const NavState& to,
+                                           const std::vector<ImuSample>& samples) const
+{
+  std::vector<Timestamp> stamps;
+  for (const ImuSample& sample : samples)
+    if (sample.stamp > from.stamp) stamps.push_back(sample.stamp);
+  const std::vector<NavState> states = predictAt(from, samples, stamps);
+  if (states.empty()) return {};
+
+  const Vector6d gap = boxMinus(bodyAt(to), bodyAt(states.back()));
+  Trajectory poses;
+  for (const NavState& state : states)
+  {
+    const double share = seconds(state.stamp - from.stamp) / seconds(to.stamp - from.stamp);
+    poses.push_back({state.stamp, boxPlus(bodyAt(state), share * gap)});
+  }
+  return poses;
+}
+
+Rigid LidarInertialSlam::bodyAt(const NavState& state) const { return state.map_T_imu * imu_T_body_; }
+}  // namespace scanloom

@@ -1,0 +1,65 @@
+/**
+ * Lidar-inertial localisation in a local map ("A generic multi-lidar data batching strategy on the sensor driver
+ * level", EuroCOW 2025, section 2.2): one page, addScan() to track().
+ */
+#pragma once
+#include "batching/Scan.h"
+#include "core/StageTimes.h"
+#include "imu/ImuBuffer.h"
+#include "slam/SlamSettings.h"
+#include "slam/StateEstimate.h"
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/**
+ * The map frame: z up, origin and yaw those of the body at the start of the first scan. The same samples and scans in
+ * the same order give the same bits.
+ */
+class LidarInertialSlam
+{
+ public:
+  LidarInertialSlam(const SlamSettings&, const Rigid& body_T_imu);
+
+  /** In time order; a sample out of order or not finite is refused and counted. */
+  void addImu(const ImuSample&);
+
+  /** The estimates that became possible: a scan waits until the IMU covers it, the first ones until the start is known.
+   */
+  std::vector<StateEstimate> addScan(Scan);
+
+  /** No more input: what waits is processed with the samples there are. */
+  std::vector<StateEstimate> finish();
+
+  const StageTimes& times() const { return times_; }
+  std::uint64_t refusedImuSamples() const { return refused_imu_samples_; }
+  std::uint64_t skippedScans() const { return skipped_scans_; }
+
+ private:
+  std::vector<StateEstimate> processWaiting(bool input_ended);
+  bool start(bool input_ended);
+  bool covered(const Scan&) const;
+  StateEstimate track(Scan);
+  PointCloud preprocess(Scan, const NavState& at_end, const std::vector<ImuSample>&) const;
+  std::optional<RegistrationResult> registerRoughly(const PointCloud&, const Rigid& predicted);
+  void addKeyframe(const PointCloud&, StateEstimate&);
+  Health healthAt(Timestamp, const std::optional<RegistrationResult>&);
+  Trajectory posesBetween(const NavState& from, const NavState& to, const std::vector<ImuSample>&) const;
+  Rigid bodyAt(const NavState&) const;
+
+  SlamSettings settings_;
+  Rigid body_T_imu_, imu_T_body_;
+  ImuBuffer imu_;
+  std::deque<Scan> waiting_;
+  std::uint64_t scans_seen_ = 0, skipped_scans_ = 0, refused_imu_samples_ = 0;
+  std::optional<FixedLagSmoother> smoother_;  // none before the start
+  LocalMap local_map_;
+  std::optional<Timestamp> initialising_until_;
+  Timestamp last_trusted_;
+  StageTimes times_;
+};
+}  // namespace scanloom

@@ -1,0 +1,72 @@
+/** Everything that can be set about localisation, section by section. */
+#pragma once
+#include "config/Schema.h"
+#include "graph/FixedLagSmoother.h"
+#include "imu/ImuInitialisation.h"
+#include "imu/Preintegration.h"
+#include "ndt/Registration.h"
+#include "preprocessing/Crop.h"
+#include "slam/LocalMap.h"
+
+#include <string>
+
+namespace scanloom
+{
+struct SlamOptions
+{
+  int every_nth = 1;
+  std::string imu = "auto";
+  double imu_wait_ms = 50;
+  double lost_after = 2.0;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.every_nth, Field{"every_nth", "", "only every N-th scan is used; the IMU always is", atLeast(1)});
+    visit(
+        o.imu,
+        Field{"imu", "",
+              "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first lidar's"});
+    visit(o.imu_wait_ms, Field{"imu_wait_ms", "ms", "how long a scan waits for the IMU to cover its end", atLeast(0)});
+    visit(o.lost_after,
+          Field{"lost_after", "s", "without a trustworthy registration for so long the state is LOST", above(0)});
+  }
+};
+
+struct SlamSettings
+{
+  SlamOptions slam;
+  StandstillOptions start;
+  ImuNoise imu;
+  CropOptions crop;
+  NdtOptions scan_cells = cells(2.5);
+  NdtOptions map_cells = cells(1.0);
+  NdtOptions keyframe_cells = cells(0.5);
+  RegistrationOptions registration;
+  LocalMapOptions local_map;
+  SmootherOptions smoother;
+
+  template <typename Self, typename Visitor>
+  static void sections(Self& s, Visitor&& visit)
+  {
+    visit(s.slam, Section{"slam", "lidar-inertial localisation"});
+    visit(s.start, Section{"start", "the first attitude and gyro bias, from standstill"});
+    visit(s.imu, Section{"imu_noise", "how far the IMU is trusted"});
+    visit(s.crop, Section{"crop", "the machine's own points, and the ranges that are used"});
+    visit(s.scan_cells, Section{"scan_cells", "NDT cells of a scan for the rough alignment"});
+    visit(s.map_cells, Section{"map_cells", "NDT cells of the local map"});
+    visit(s.keyframe_cells, Section{"keyframe_cells", "NDT cells of a scan that becomes a keyframe"});
+    visit(s.registration, Section{"registration", "distribution-to-distribution NDT"});
+    visit(s.local_map, Section{"local_map", "the keyframes that a scan is aligned to"});
+    visit(s.smoother, Section{"smoother", "the window of states"});
+  }
+
+ private:
+  static NdtOptions cells(double size)
+  {
+    NdtOptions options;
+    options.cell_size = size;
+    return options;
+  }
+};
+}  // namespace scanloom

@@ -1,0 +1,34 @@
+#pragma once
+#include "core/Keyframe.h"
+#include "core/StampedPose.h"
+#include "ndt/Registration.h"
+
+#include <optional>
+#include <string>
+
+namespace scanloom
+{
+enum class Health
+{
+  Initialising,  // gravity and biases rest on a start that was neither at rest nor long enough
+  Ok,
+  Degenerate,  // the lidar leaves a direction open, or this scan was not trusted: the IMU carries it
+  Lost,        // carried by the IMU alone for too long
+};
+std::string toString(Health);
+
+/** The machine at the end of a processed scan. */
+struct StateEstimate
+{
+  Timestamp stamp;  // the instant at which the body was there: the scan's end
+  Rigid map_T_body;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the IMU, in the map frame
+  Health health = Health::Ok;
+  bool scan_complete = true;
+  bool imu_complete = true;  // false: the IMU did not cover the scan in time, its last reading was held
+  std::size_t points = 0;    // after the crop
+  std::optional<RegistrationResult> registration;  // none for the first scan, or one without points
+  std::optional<Keyframe> keyframe;
+  Trajectory since_last;  // body poses at the IMU's stamps, after the previous estimate up to this one
+};
+}  // namespace scanloom
