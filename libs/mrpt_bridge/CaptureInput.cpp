@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include "mrpt_bridge/RigObservations.h"
+#include "mrpt_bridge/SensorInput.h"
+
+namespace scanloom
+{
+namespace
+{
+class CaptureInput : public SensorInput
+{
+ public:
+  explicit CaptureInput(Rig rig) : rig_(std::move(rig)), header_(recordingHeader(rig_)), replay_(rig_) {}
+
+  std::optional<SensorEvent> next() override { return replay_.next(); }
+  const RecordingHeader& header() const override { return header_; }
+  double progress() const override { return replay_.progress(); }
+  std::map<std::string, std::uint64_t> counts() const override { return countsOf(replay_); }
+
+  std::optional<Rigid> body_T_imu(int sensor) const override
+  {
+    if (sensor == SensorImu::kBody)
+      return rig_.body_imu.empty() ? std::optional<Rigid>() : std::optional<Rigid>(rig_.body_T_imu);
+    const LidarDescription& lidar = rig_.lidars.at(static_cast<std::size_t>(sensor)).decoder->description();
+    return lidar.body_T_sensor * lidar.sensor_T_imu;
+  }
+
+  std::string damage() const override
+  {
+    return replay_.captureCounters().truncated ? "a capture ends inside a record: it was cut off" : "";
+  }
+
+ private:
+  Rig rig_;
+  RecordingHeader header_;
+  RigReplay replay_;
+};
+}  // namespace
+
+std::map<std::string, std::uint64_t> countsOf(const RigReplay& replay)
+{
+  std::map<std::string, std::uint64_t> counts;
+  const auto& lidars = replay.batcher().lidars();
+  for (LidarIndex i = 0; i < lidars.size(); ++i)
+  {
+    const LidarCounters& c = replay.batcher().counters(i);
+    const auto add = [&](const char* fate, std::uint64_t count)
+    { counts[fmt::format("{}.{}", lidars[i].name, fate)] = count; };
+    add("packets", c.packets);
+    add("packets_malformed", c.malformed_packets);
+    add("packets_bad_crc", c.bad_crc_packets);
+    add("packets_foreign", c.foreign_packets);
+    add("packets_other", c.other_packets);
+    add("restarts", c.restarts);
+    add("blocks_sent", c.sent());
+    add("blocks_emitted", c.emitted);
+    add("blocks_lost", c.lost);
+    add("blocks_late", c.late);
+    add("blocks_duplicate", c.duplicate);
+    add("blocks_invalid", c.invalid);
+    add("blocks_before_start", c.before_start);
+    add("blocks_implausible", c.implausible);
+    add("blocks_dropped", c.dropped);
+    add("points", c.points);
+  }
+  std::uint64_t strangers = 0;
+  for (const auto& [origin, datagrams] : replay.router().unmatched()) strangers += datagrams;
+  counts["datagrams_of_no_lidar"] = strangers;
+  counts["imu_samples_late"] = replay.lateImuSamples();
+  const CaptureCounters captures = replay.captureCounters();
+  counts["datagrams"] = captures.datagrams;
+  counts["datagrams_incomplete"] = captures.fragments_expired;
+  counts["records_malformed"] = captures.malformed + captures.cut_short;
+  return counts;
+}
+
+std::unique_ptr<SensorInput> makeCaptureInput(Rig rig) { return std::make_unique<CaptureInput>(std::move(rig)); }
+}  // namespace scanloom

@@ -1,0 +1,50 @@
+/** Scans and IMU samples in time order, wherever they come from: captures through the batcher, or a rawlog. */
+#pragma once
+#include "mrpt_bridge/RecordingHeader.h"
+#include "source/Rig.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+class SensorInput
+{
+ public:
+  virtual ~SensorInput() = default;
+
+  /** Nothing at the end of input. Throws what its reader throws. */
+  virtual std::optional<SensorEvent> next() = 0;
+
+  /** Lidars by sensor id, and the rate of the scans. */
+  virtual const RecordingHeader& header() const = 0;
+
+  /** Where an IMU sits; nothing if there is none (or none was seen yet): kBody or a sensor id. */
+  virtual std::optional<Rigid> body_T_imu(int sensor) const = 0;
+
+  /** Share of the input that was read, 0 to 1; 0 where it is not known. */
+  virtual double progress() const = 0;
+
+  /** What was counted on the way, by name: packets and blocks per lidar. */
+  virtual std::map<std::string, std::uint64_t> counts() const = 0;
+
+  /** For a person: empty if all is well, otherwise what could not be read. Known at the end of input. */
+  virtual std::string damage() const = 0;
+};
+
+/** The captures of a rig. */
+std::unique_ptr<SensorInput> makeCaptureInput(Rig);
+
+/**
+ * A rawlog of ours; `only` names the lidars whose columns are wanted, empty means all. Throws std::runtime_error if it
+ * can't be opened or has no header, ConfigError for a name that no lidar has.
+ */
+std::unique_ptr<SensorInput> makeRawlogInput(const std::filesystem::path&, const std::vector<std::string>& only = {});
+
+/** Per lidar, as `<name>.<fate>`: the batcher's accounts, the router's strangers, the captures' losses. */
+std::map<std::string, std::uint64_t> countsOf(const RigReplay&);
+}  // namespace scanloom

@@ -1,0 +1,51 @@
+/** The files of a localisation run, written while it goes: an interrupted run leaves what it had. */
+#pragma once
+#include "mrpt_bridge/RecordingHeader.h"
+#include "output/MapPicture.h"
+#include "output/OctoMapExport.h"
+#include "output/OutputFile.h"
+#include "output/PlyFile.h"
+#include "output/RunSummary.h"
+#include "output/SimpleMapFile.h"
+#include "output/Trajectory.h"
+#include "slam/StateEstimate.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/**
+ * trajectory.tum (a pose per processed scan), trajectory_imu.tum (at the IMU's rate), trajectory.csv (health and
+ * registration per pose), keyframes.simplemap, map.ply, map.bt, map.ot, map.png and summary.json, all in the map frame,
+ * every pose at the instant of its stamp.
+ */
+class SlamFiles
+{
+ public:
+  /** All names that close() leaves in the folder. */
+  static std::vector<std::string> names();
+
+  /** Creates the folder. Throws std::runtime_error if it cannot be written. */
+  SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OctoMapOptions&);
+
+  void add(const StateEstimate&);
+
+  /** Writes the maps and the summary, completed by what was counted here, and gives every file its name. */
+  void close(RunSummary);
+
+ private:
+  void addKeyframe(const Keyframe&);
+
+  std::filesystem::path folder_;
+  TumWriter trajectory_, trajectory_imu_;
+  OutputFile csv_;
+  PlyWriter ply_;
+  SimpleMapBuilder simple_map_;
+  OctoMapBuilder octomap_;
+  MapPicture picture_;
+  Trajectory poses_;
+  StageTimes times_;
+};
+}  // namespace scanloom

@@ -1,0 +1,113 @@
+#include "output/SlamRun.h"
+
+#include <fmt/format.h>
+
+namespace scanloom
+{
+namespace
+{
+/** The IMU that localisation listens to. */
+int chooseImu(const SensorInput& input, const std::string& wanted)
+{
+  const auto& lidars = input.header().lidars;
+  std::vector<std::string> choices;
+  if (input.body_T_imu(SensorImu::kBody)) choices.emplace_back("body");
+  for (const RecordedLidar& lidar : lidars) choices.push_back(lidar.name);
+
+  const std::string& name = wanted == "auto" && !choices.empty() ? choices.front() : wanted;
+  if (name == "body" && input.body_T_imu(SensorImu::kBody)) return SensorImu::kBody;
+  for (std::size_t i = 0; i < lidars.size(); ++i)
+    if (lidars[i].name == name && input.body_T_imu(static_cast<int>(i))) return static_cast<int>(i);
+  throw ConfigError(fmt::format("[slam] imu = {}: the input has no such IMU: {}", wanted, suggestion(wanted, choices)));
+}
+
+struct HealthCounts
+{
+  std::uint64_t poses = 0, initialising = 0, degenerate = 0, lost = 0, keyframes = 0;
+  std::uint64_t cut_scans = 0, imu_short = 0;
+  Health last = Health::Ok;
+  std::optional<Timestamp> first;
+  Timestamp newest;
+
+  void add(const StateEstimate& e)
+  {
+    ++poses;
+    initialising += e.health == Health::Initialising;
+    degenerate += e.health == Health::Degenerate;
+    lost += e.health == Health::Lost;
+    keyframes += e.keyframe.has_value();
+    cut_scans += !e.scan_complete;
+    imu_short += !e.imu_complete;
+    last = e.health;
+    if (!first) first = e.stamp;
+    newest = e.stamp;
+  }
+
+  bool passed() const { return poses > 0 && last != Health::Lost && 20 * lost <= poses; }
+
+  std::string outcome() const
+  {
+    if (poses == 0) return "NOTHING";
+    if (!passed()) return "LOST";
+    return degenerate + lost > 0 ? "DEGENERATE" : "OK";
+  }
+};
+}  // namespace
+
+SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFiles& files, const KeepGoing& keepGoing)
+{
+  const auto start = std::chrono::steady_clock::now();
+  const int imu = chooseImu(input, settings.slam.imu);
+  LidarInertialSlam slam(settings, *input.body_T_imu(imu));
+  StageTimes times;
+  HealthCounts health;
+  std::uint64_t scans = 0;
+  const auto keep = [&](const std::vector<StateEstimate>& estimates)
+  {
+    for (const StateEstimate& estimate : estimates)
+    {
+      health.add(estimate);
+      files.add(estimate);
+    }
+  };
+
+  bool going = true;
+  while (going)
+  {
+    std::optional<SensorEvent> event = times.measure("input", [&] { return input.next(); });
+    if (!event) break;
+    if (const auto* sample = std::get_if<SensorImu>(&*event))
+    {
+      if (sample->sensor == imu) slam.addImu(sample->sample);
+    }
+    else
+    {
+      ++scans;
+      keep(slam.addScan(std::get<Scan>(std::move(*event))));
+      going = keepGoing(input.progress(), scans);
+    }
+  }
+  keep(slam.finish());
+
+  SlamRunResult result;
+  RunSummary& summary = result.summary;
+  result.passed = health.passed();
+  summary.outcome = going ? health.outcome() : "INTERRUPTED";
+  summary.counts = input.counts();
+  summary.counts["scans"] = scans;
+  summary.counts["scans_skipped"] = slam.skippedScans();
+  summary.counts["scans_cut"] = health.cut_scans;
+  summary.counts["scans_without_full_imu"] = health.imu_short;
+  summary.counts["poses"] = health.poses;
+  summary.counts["poses_initialising"] = health.initialising;
+  summary.counts["poses_degenerate"] = health.degenerate;
+  summary.counts["poses_lost"] = health.lost;
+  summary.counts["keyframes"] = health.keyframes;
+  summary.counts["imu_samples_refused"] = slam.refusedImuSamples();
+  summary.stages = slam.times().stages();
+  for (const auto& [stage, time] : times.stages()) summary.stages[stage] = time;
+  summary.recorded = health.first ? seconds(health.newest - *health.first) : 0;
+  summary.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+}  // namespace scanloom

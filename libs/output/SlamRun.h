@@ -1,0 +1,25 @@
+/** Sensor input through localisation into files. */
+#pragma once
+#include "mrpt_bridge/SensorInput.h"
+#include "output/SlamFiles.h"
+#include "slam/LidarInertialSlam.h"
+
+#include <functional>
+
+namespace scanloom
+{
+/** Called after each event with the share of the input that was read; false stops the run, keeping what there is. */
+using KeepGoing = std::function<bool(double progress, std::uint64_t scans)>;
+
+struct SlamRunResult
+{
+  RunSummary summary;  // counts, stages, outcome: OK, DEGENERATE, LOST, NOTHING or INTERRUPTED
+  bool passed = true;  // false: LOST at the end or for more than 5 % of the scans, or not a single pose
+};
+
+/**
+ * Runs to the end of input and hands every estimate to `files`, which the caller closes with the summary.
+ * Throws ConfigError if settings.slam.imu names an IMU that the input does not have.
+ */
+SlamRunResult runSlam(SensorInput&, const SlamSettings&, SlamFiles& files, const KeepGoing&);
+}  // namespace scanloom
