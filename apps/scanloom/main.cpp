@@ -4,11 +4,17 @@
 namespace scanloom
 {
 Verb configVerb();
+Verb infoVerb();
+Verb recordVerb();
+Verb slamVerb();
 
 const std::vector<Verb>& verbs()
 {
   static const std::vector<Verb> table{
+      recordVerb(),
+      infoVerb(),
       configVerb(),
+      slamVerb(),
   };
   return table;
 }

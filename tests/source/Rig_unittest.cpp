@@ -69,12 +69,11 @@ TEST(RigReplay, weavesBothLidarsOfARecordingWithExactAccounts)
       body_imu += imu->sensor == SensorImu::kBody;
       continue;
     }
-    if (scans++ > 0)
-    {
-      EXPECT_EQ(std::get<Scan>(*event).start, end);
-    }
-    end = std::get<Scan>(*event).end();
-    for (const Column& column : std::get<Scan>(*event).columns)
+    const Scan& scan = std::get<Scan>(*event);
+    EXPECT_TRUE(scans == 0 || scan.start == end);
+    ++scans;
+    end = scan.end();
+    for (const Column& column : scan.columns)
     {
       EXPECT_GE(column.stamp, previous);
       previous = column.stamp;
