@@ -258,3 +258,24 @@ TEST(OusterDecoder, readingsThatAreNoNumbersAreLeftOut)
   EXPECT_EQ(decoded[0].stamp, fromNanoseconds(1)) << "oldest first";
   EXPECT_EQ(decoded[1].stamp, fromNanoseconds(3));
 }
+
+TEST(OusterDecoder, readsTheOldAndTheNewFileOfADualRecordingByAnotherGenerator)
+{
+  SCANLOOM_NEEDS_DATA(capture, "recordings/sparse/recording.pcap");
+  SCANLOOM_NEEDS_DATA(left, "recordings/sparse/left.json");
+  SCANLOOM_NEEDS_DATA(right, "recordings/sparse/right.json");
+  const OusterDecoder decoders[] = {decoderOf(left), decoderOf(right)};
+  std::map<PacketKind, int> own, crossed;
+  CaptureReader reader(capture);
+  for (Datagram datagram; reader.next(datagram);)
+  {
+    const std::size_t side = datagram.destination_port < 7504 ? 0 : 1;
+    ++own[decoders[side].kind(datagram.payload)];
+    ++crossed[decoders[1 - side].kind(datagram.payload)];
+  }
+  EXPECT_EQ(own.size(), 2u) << "lidar and IMU packets and nothing else";
+  EXPECT_GT(own[PacketKind::Lidar], 2 * 30 * 310);  // two sensors, 30 s, 320 packets per second
+  EXPECT_GT(own[PacketKind::Imu], 2 * 30 * 95);
+  EXPECT_EQ(crossed[PacketKind::Foreign], own[PacketKind::Lidar]);
+  EXPECT_EQ(crossed[PacketKind::Lidar], 0);
+}
