@@ -9,9 +9,10 @@ namespace scanloom
  * range. */
 struct CropOptions
 {
-  double min_x = -4.0, max_x = 4.0;
-  double min_y = -2.0, max_y = 2.0;
-  double min_z = -0.5, max_z = 4.5;
+  // A harvester with its boom, generously: better to lose some trees than to keep a part of the machine.
+  double min_x = -4.0, max_x = 10.0;
+  double min_y = -3.0, max_y = 3.0;
+  double min_z = -0.5, max_z = 6.0;
   double min_range = 0.5;
   double max_range = 100.0;
 

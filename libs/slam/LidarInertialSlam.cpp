@@ -88,7 +88,7 @@ StateEstimate LidarInertialSlam::track(Scan scan)
   const PointCloud cloud =
       times_.measure("preprocessing", [&] { return preprocess(std::move(scan), before, samples); });
   estimate.points = cloud.size();
-  estimate.registration = registerRoughly(cloud, bodyAt(predicted));
+  estimate.registration = registerToMap(cloud, bodyAt(predicted));
   if (estimate.registration && estimate.registration->outcome != Outcome::LowOverlap)
     smoother_->addPosePrior(estimate.registration->target_T_source, estimate.registration->information);
   const NavState state = times_.measure("smoother", [&] { return smoother_->optimise(); });
@@ -116,12 +116,18 @@ PointCloud LidarInertialSlam::preprocess(Scan scan, const NavState& before, cons
   return deskew(cropOut(std::move(scan), settings_.crop), end_T_column);
 }
 
-std::optional<RegistrationResult> LidarInertialSlam::registerRoughly(const PointCloud& cloud, const Rigid& predicted)
+/** Roughly from the prediction, then finely from there. */
+std::optional<RegistrationResult> LidarInertialSlam::registerToMap(const PointCloud& cloud, const Rigid& predicted)
 {
   if (local_map_.empty() || cloud.empty()) return std::nullopt;
-  const NdtMap source = times_.measure("scan_ndt", [&] { return NdtMap(cloud, settings_.scan_cells); });
-  return times_.measure("alignment",
-                        [&] { return align(local_map_.ndt(), source, predicted, settings_.registration); });
+  const NdtMap coarse = times_.measure("scan_ndt", [&] { return NdtMap(cloud, settings_.scan_cells); });
+  RegistrationResult result =
+      times_.measure("rough_alignment", [&] { return align(local_map_.ndt(), coarse, predicted, settings_.rough); });
+  if (!settings_.slam.refine) return result;
+
+  const Rigid guess = result.trustworthy() ? result.target_T_source : predicted;
+  const NdtMap fine = times_.measure("scan_ndt", [&] { return NdtMap(cloud, settings_.fine_cells); });
+  return times_.measure("fine_alignment", [&] { return align(local_map_.ndt(), fine, guess, settings_.fine); });
 }
 
 /** Aligned again with finer cells, then added to the local map. */
@@ -136,7 +142,7 @@ void LidarInertialSlam::addKeyframe(const PointCloud& cloud, StateEstimate& esti
                    {
                      const NdtMap source(cloud, settings_.keyframe_cells);
                      const RegistrationResult fine =
-                         align(local_map_.ndt(), source, map_T_body, settings_.registration);
+                         align(local_map_.ndt(), source, map_T_body, settings_.fine);
                      if (fine.trustworthy()) map_T_body = fine.target_T_source;
                    }
                    local_map_.add(cloud, map_T_body);

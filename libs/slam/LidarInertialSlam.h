@@ -45,7 +45,7 @@ class LidarInertialSlam
   bool covered(const Scan&) const;
   StateEstimate track(Scan);
   PointCloud preprocess(Scan, const NavState& at_end, const std::vector<ImuSample>&) const;
-  std::optional<RegistrationResult> registerRoughly(const PointCloud&, const Rigid& predicted);
+  std::optional<RegistrationResult> registerToMap(const PointCloud&, const Rigid& predicted);
   void addKeyframe(const PointCloud&, StateEstimate&);
   Health healthAt(Timestamp, const std::optional<RegistrationResult>&);
   Trajectory posesBetween(const NavState& from, const NavState& to, const std::vector<ImuSample>&) const;

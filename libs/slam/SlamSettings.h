@@ -18,6 +18,7 @@ struct SlamOptions
   std::string imu = "auto";
   double imu_wait_ms = 50;
   double lost_after = 2.0;
+  bool refine = true;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -28,6 +29,7 @@ struct SlamOptions
         Field{"imu", "",
               "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first lidar's"});
     visit(o.imu_wait_ms, Field{"imu_wait_ms", "ms", "how long a scan waits for the IMU to cover its end", atLeast(0)});
+    visit(o.refine, Field{"refine", "", "align every scan again with [fine_cells] after the rough alignment"});
     visit(o.lost_after,
           Field{"lost_after", "s", "without a trustworthy registration for so long the state is LOST", above(0)});
   }
@@ -40,9 +42,11 @@ struct SlamSettings
   ImuNoise imu;
   CropOptions crop;
   NdtOptions scan_cells = cells(2.5);
+  NdtOptions fine_cells = cells(1.0);
   NdtOptions map_cells = cells(1.0);
   NdtOptions keyframe_cells = cells(0.5);
-  RegistrationOptions registration;
+  RegistrationOptions rough = reach(0.3);
+  RegistrationOptions fine = reach(1.0);
   LocalMapOptions local_map;
   SmootherOptions smoother;
 
@@ -54,9 +58,11 @@ struct SlamSettings
     visit(s.imu, Section{"imu_noise", "how far the IMU is trusted"});
     visit(s.crop, Section{"crop", "the machine's own points, and the ranges that are used"});
     visit(s.scan_cells, Section{"scan_cells", "NDT cells of a scan for the rough alignment"});
+    visit(s.fine_cells, Section{"fine_cells", "NDT cells of a scan for the fine alignment"});
     visit(s.map_cells, Section{"map_cells", "NDT cells of the local map"});
     visit(s.keyframe_cells, Section{"keyframe_cells", "NDT cells of a scan that becomes a keyframe"});
-    visit(s.registration, Section{"registration", "distribution-to-distribution NDT"});
+    visit(s.rough, Section{"rough_registration", "a scan to the local map, from the IMU's prediction"});
+    visit(s.fine, Section{"fine_registration", "the same again from there, with finer cells and a narrower score"});
     visit(s.local_map, Section{"local_map", "the keyframes that a scan is aligned to"});
     visit(s.smoother, Section{"smoother", "the window of states"});
   }
@@ -66,6 +72,13 @@ struct SlamSettings
   {
     NdtOptions options;
     options.cell_size = size;
+    return options;
+  }
+  static RegistrationOptions reach(double d2)
+  {
+    RegistrationOptions options;
+    options.d2 = d2;
+    options.min_overlap = 0.1;
     return options;
   }
 };
