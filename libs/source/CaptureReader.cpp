@@ -112,20 +112,21 @@ bool CaptureReader::nextRecord()
 /** False if the record completes no datagram: something else than UDP, or a fragment that others must follow. */
 bool CaptureReader::readDatagram(Bytes frame, Datagram& datagram)
 {
-  const std::optional<Bytes> packet = ipPacketOf(link_type_, frame);
-  if (!packet) return ++counters_.not_udp, false;
-
   // libpcap gives nanoseconds in the microseconds' place when opened for nanoseconds.
   const Timestamp received{std::chrono::seconds{record_->ts.tv_sec} + Duration{record_->ts.tv_usec}};
-  IpContent content = ipContentOf(*packet);
+  const std::optional<Bytes> packet = ipPacketOf(link_type_, frame);
+  IpContent content = packet ? ipContentOf(*packet) : IpContent{};
   const bool may_be_udp = content.protocol == kUdp || (content.isFragment() && isExtension(content.protocol));
-  if (!may_be_udp) return ++counters_.not_udp, false;
-  if (content.isFragment())
+  if (may_be_udp && content.isFragment())
   {
     if (!joiner_.add(received, content, joined_)) return false;
     content.payload = joined_;
     skipExtensions(content.protocol, content.payload);
-    if (content.protocol != kUdp) return ++counters_.not_udp, false;
+  }
+  if (content.protocol != kUdp)
+  {
+    ++counters_.not_udp;
+    return false;
   }
 
   const UdpContent udp = udpContentOf(content.payload);

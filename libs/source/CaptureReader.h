@@ -11,7 +11,7 @@ struct pcap_pkthdr;
 
 namespace scanloom
 {
-/** Every record is counted once: as part of a datagram, of a lost one, as not_udp, cut_short or malformed. */
+/** What became of the records of a capture. */
 struct CaptureCounters
 {
   std::uint64_t records = 0;
