@@ -4,17 +4,16 @@
 namespace scanloom
 {
 Verb configVerb();
+Verb evaluateVerb();
 Verb infoVerb();
 Verb recordVerb();
+Verb simulateVerb();
 Verb slamVerb();
 
 const std::vector<Verb>& verbs()
 {
   static const std::vector<Verb> table{
-      recordVerb(),
-      infoVerb(),
-      configVerb(),
-      slamVerb(),
+      recordVerb(), infoVerb(), configVerb(), slamVerb(), evaluateVerb(), simulateVerb(),
   };
   return table;
 }

@@ -8,8 +8,8 @@ namespace scanloom
 {
 struct PositionError
 {
-  std::size_t poses = 0;        // that were compared: those within the reference's time
-  double largest = 0;           // m
+  std::size_t poses = 0;  // that were compared: those within the reference's time
+  double largest = 0;     // m
   Timestamp largest_at;
   double root_mean_square = 0;  // m, the APE of evo for positions
   double final = 0;             // m, of the last pose compared

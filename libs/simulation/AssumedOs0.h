@@ -17,7 +17,7 @@ struct Os0Options
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.beams, Field{"beams", "", "lasers of each lidar: 32, 64 or 128", between(8, 128)});
+    visit(o.beams, Field{"beams", "", "lasers of each lidar; real ones have 32, 64 or 128", between(8, 128)});
     visit(o.mode, Field{"mode", "", "columns per turn and turns per second: 512x10, 1024x10, 512x20 ..."});
     visit(o.profile, Field{"profile", "", "layout of the lidar packets, by Ouster's name"});
     visit(o.range_noise, Field{"range_noise", "m", "standard deviation of a range", between(0, 0.2)});
