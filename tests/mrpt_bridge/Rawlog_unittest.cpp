@@ -2,6 +2,7 @@
 #include "mrpt_bridge/RawlogInfo.h"
 #include "mrpt_bridge/RawlogReader.h"
 #include "mrpt_bridge/RawlogWriter.h"
+#include "mrpt_bridge/registerClasses.h"
 #include "someScan.h"
 
 #include <gtest/gtest.h>
@@ -92,6 +93,7 @@ TEST_F(Rawlog, givesBackScansAndSamplesWholeAndInOrder)
 
 TEST_F(Rawlog, isReadByMrptsOwnLoader)
 {
+  registerClasses();  // as the plugin does in the stock applications
   mrpt::obs::CRawlog rawlog;
   ASSERT_TRUE(rawlog.loadFromRawLogFile(written(3).string()));
 
