@@ -6,6 +6,12 @@
 
 namespace scanloom
 {
+namespace
+{
+// Enough for a velocity, few enough that it is still that of the first scan.
+constexpr std::size_t kScansOfFirstPass = 4;
+}  // namespace
+
 LidarInertialSlam::LidarInertialSlam(const SlamSettings& settings, const Rigid& body_T_imu)
   : settings_(settings),
     body_T_imu_(body_T_imu),
@@ -64,12 +70,30 @@ bool LidarInertialSlam::start(bool input_ended)
   if (!initial)
   {
     initial = gravityOnly(samples, body_T_imu_, settings_.start);
+    initial->state.stamp = first;
+    initial->state.velocity = velocityOfFirstScans(*initial);
     initialising_until_ = enough;
   }
   initial->state.stamp = first;
-  last_trusted_ = first;
-  smoother_.emplace(initial->state, initial->covariance, body_T_imu_, settings_.imu, settings_.smoother);
+  begin(*initial);
   return true;
+}
+
+void LidarInertialSlam::begin(const ImuInitialisation& initial)
+{
+  last_trusted_ = initial.state.stamp;
+  smoother_.emplace(initial.state, initial.covariance, body_T_imu_, settings_.imu, settings_.smoother);
+}
+
+/** A first pass over the first scans, as if from rest: what it finds between them is the velocity to start with. */
+Eigen::Vector3d LidarInertialSlam::velocityOfFirstScans(const ImuInitialisation& at_rest) const
+{
+  const std::size_t scans = std::min({waiting_.size(), kScansOfFirstPass, std::size_t(settings_.smoother.window - 1)});
+  LidarInertialSlam trial(settings_, body_T_imu_);
+  trial.imu_ = imu_;
+  trial.begin(at_rest);
+  for (std::size_t i = 0; i < scans; ++i) trial.track(waiting_[i]);
+  return trial.smoother_->states().front().velocity;  // the window still holds the first state
 }
 
 StateEstimate LidarInertialSlam::track(Scan scan)
@@ -141,8 +165,7 @@ void LidarInertialSlam::addKeyframe(const PointCloud& cloud, StateEstimate& esti
                    if (!local_map_.empty())
                    {
                      const NdtMap source(cloud, settings_.keyframe_cells);
-                     const RegistrationResult fine =
-                         align(local_map_.ndt(), source, map_T_body, settings_.fine);
+                     const RegistrationResult fine = align(local_map_.ndt(), source, map_T_body, settings_.fine);
                      if (fine.trustworthy()) map_T_body = fine.target_T_source;
                    }
                    local_map_.add(cloud, map_T_body);

@@ -42,6 +42,8 @@ class LidarInertialSlam
  private:
   std::vector<StateEstimate> processWaiting(bool input_ended);
   bool start(bool input_ended);
+  void begin(const ImuInitialisation&);
+  Eigen::Vector3d velocityOfFirstScans(const ImuInitialisation& at_rest) const;
   bool covered(const Scan&) const;
   StateEstimate track(Scan);
   PointCloud preprocess(Scan, const NavState& at_end, const std::vector<ImuSample>&) const;
