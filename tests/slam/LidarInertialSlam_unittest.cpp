@@ -1,0 +1,203 @@
+#include "slam/LidarInertialSlam.h"
+
+#include <gtest/gtest.h>
+
+#include "StandOfStems.h"
+#include "imu/AnalyticDrive.h"
+
+using namespace scanloom;
+
+namespace
+{
+const Rigid kBodyTImu = Rigid::fromXyzYawPitchRoll(0.2, -0.3, 1.5, 0.5, 0.02, -0.01);
+
+/** The body moves by a formula (the IMU's place is worked out from it); optionally it stands for three seconds first.
+ */
+struct Machine
+{
+  AnalyticDrive drive;  // of the IMU
+  Duration standstill{0};
+
+  NavState imuAt(Timestamp t) const { return drive.stateAt(std::max(t, Timestamp{standstill}) - standstill); }
+  Rigid bodyAt(Timestamp t) const { return imuAt(t).map_T_imu * kBodyTImu.inverse(); }
+
+  ImuSample sampleAt(Timestamp t) const
+  {
+    ImuSample sample = drive.sampleAt(std::max(t, Timestamp{standstill}) - standstill);
+    sample.stamp = t;
+    if (t < Timestamp{standstill})
+    {
+      sample.gyro.setZero();
+      sample.accel = imuAt(t).map_T_imu.rotation.conjugate() * -gravityInMap();
+    }
+    return sample;
+  }
+};
+
+/** About 1 m/s, rolling and pitching gently; every sine begins with rate zero, so that it can follow a standstill. */
+Machine gentleMachine(Duration standstill)
+{
+  Machine machine;
+  machine.standstill = standstill;
+  machine.drive.x = {0, 1.0, -1.0 / 0.9, 0.9, 0};
+  machine.drive.y = {0, 0, 0, 1, 0};
+  machine.drive.z = {1.5, 0, 0, 1, 0};
+  machine.drive.yaw = {-0.5, 0, 0, 1, 0};
+  machine.drive.pitch = {0.0, 0.02, -0.02 / 1.3, 1.3, 0};
+  machine.drive.roll = {0.0, -0.01, 0.01 / 1.1, 1.1, 0};
+  return machine;
+}
+
+struct Driven
+{
+  std::vector<StateEstimate> estimates;
+  std::uint64_t skipped = 0;
+};
+
+using ChangeScan = std::function<void(Scan&)>;
+
+Driven runFor(
+    const Machine& machine, Duration length, SlamSettings settings = {}, const ChangeScan& change = [](Scan&) {})
+{
+  settings.crop.max_x = 3;
+  settings.crop.max_y = 2;
+  settings.crop.min_y = -2;
+  const StandOfStems stand;
+  LidarInertialSlam slam(settings, kBodyTImu);
+  Driven run;
+  const auto keep = [&run](std::vector<StateEstimate> more)
+  { std::move(more.begin(), more.end(), std::back_inserter(run.estimates)); };
+  Timestamp imu{0ms};
+  for (Timestamp start{100ms}; start + 100ms <= Timestamp{length}; start += 100ms)
+  {
+    for (; imu <= start + 105ms; imu += 5ms) slam.addImu(machine.sampleAt(imu));
+    Scan scan = stand.scanAt(start, [&](Timestamp t) { return machine.bodyAt(t); });
+    change(scan);
+    keep(slam.addScan(std::move(scan)));
+  }
+  keep(slam.finish());
+  run.skipped = slam.skippedScans();
+  return run;
+}
+
+double largestError(const Driven& run, const Machine& machine)
+{
+  // The map frame is the body's at the start, levelled: fixed by the first pose.
+  const Rigid world_T_map = machine.bodyAt(run.estimates.front().stamp) * run.estimates.front().map_T_body.inverse();
+  double largest = 0;
+  for (const StateEstimate& e : run.estimates)
+    largest =
+        std::max(largest, ((world_T_map * e.map_T_body).translation - machine.bodyAt(e.stamp).translation).norm());
+  return largest;
+}
+}  // namespace
+
+TEST(LidarInertialSlam, followsAMachineThatStartsFromRest)
+{
+  const Machine machine = gentleMachine(3s);
+  const Driven run = runFor(machine, 12s);
+  ASSERT_EQ(run.estimates.size(), 119u);
+  EXPECT_LT(largestError(run, machine), 0.03);
+  for (const StateEstimate& e : run.estimates) EXPECT_EQ(e.health, Health::Ok);
+}
+
+TEST(LidarInertialSlam, theFirstAttitudeIsLevelledByGravity)
+{
+  Machine machine = gentleMachine(3s);
+  machine.drive.pitch.offset = 0.1;
+  const Driven run = runFor(machine, 3s);
+  const Eigen::Vector3d up_in_body = machine.bodyAt(Timestamp{1s}).rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  EXPECT_LT((run.estimates.back().map_T_body.rotation * up_in_body - Eigen::Vector3d::UnitZ()).norm(), 2e-3);
+  EXPECT_LT(run.estimates.back().map_T_body.translation.norm(), 0.01);
+}
+
+TEST(LidarInertialSlam, aStartWhileMovingIsMarkedAndFollows)
+{
+  Machine machine = gentleMachine(0s);
+  machine.drive.x = {0, 1.5, 0, 1, 0};
+  const Driven run = runFor(machine, 8s);
+  EXPECT_EQ(run.estimates.front().health, Health::Initialising);
+  EXPECT_EQ(run.estimates.back().health, Health::Ok);
+  EXPECT_LT(largestError(run, machine), 0.15);
+}
+
+TEST(LidarInertialSlam, everyStampIsTheEndOfAScan)
+{
+  const Driven run = runFor(gentleMachine(3s), 4s);
+  for (std::size_t i = 0; i < run.estimates.size(); ++i)
+    EXPECT_EQ(run.estimates[i].stamp, Timestamp{200ms} + 100ms * static_cast<std::int64_t>(i));
+}
+
+TEST(LidarInertialSlam, everyNthScanIsEnoughBecauseTheImuRunsOn)
+{
+  SlamSettings settings;
+  settings.slam.every_nth = 10;
+  const Machine machine = gentleMachine(3s);
+  const Driven run = runFor(machine, 12s, settings);
+  EXPECT_EQ(run.estimates.size(), 12u);
+  EXPECT_EQ(run.skipped, 107u);
+  EXPECT_LT(largestError(run, machine), 0.05);
+}
+
+TEST(LidarInertialSlam, posesBetweenScansComeAtTheImusRateAndEndAtTheEstimate)
+{
+  const Driven run = runFor(gentleMachine(3s), 6s);
+  const StateEstimate& e = run.estimates.back();
+  EXPECT_GE(e.since_last.size(), 20u);
+  EXPECT_EQ(e.since_last.back().stamp, e.stamp);
+  EXPECT_LT((e.since_last.back().map_T_body.translation - e.map_T_body.translation).norm(), 1e-9);
+}
+
+TEST(LidarInertialSlam, aKeyframeIsAddedEveryFourMetres)
+{
+  const Driven run = runFor(gentleMachine(3s), 14s);
+  std::vector<Eigen::Vector3d> places;
+  for (const StateEstimate& e : run.estimates)
+    if (e.keyframe) places.push_back(e.keyframe->map_T_body.translation);
+  ASSERT_GE(places.size(), 3u);
+  for (std::size_t i = 1; i < places.size(); ++i) EXPECT_NEAR((places[i] - places[i - 1]).norm(), 4.1, 0.2);
+}
+
+TEST(LidarInertialSlam, blindScansAreCarriedByTheImuAndThenCalledLost)
+{
+  const Machine machine = gentleMachine(3s);
+  const Driven run = runFor(machine, 12s, {},
+                         [](Scan& scan)
+                         {
+                           if (scan.start < Timestamp{6s}) return;
+                           scan.columns.clear();
+                           scan.points.clear();
+                         });
+  ASSERT_EQ(run.estimates.size(), 119u);
+  const auto healthAt = [&run](Duration t) { return run.estimates[static_cast<std::size_t>(t / 100ms - 2)].health; };
+  EXPECT_EQ(healthAt(7s), Health::Degenerate);
+  EXPECT_EQ(healthAt(10s), Health::Lost);
+  EXPECT_LT(largestError(run, machine), 0.5);
+}
+
+TEST(LidarInertialSlam, theSameInputGivesTheSameBits)
+{
+  const Driven a = runFor(gentleMachine(3s), 6s), b = runFor(gentleMachine(3s), 6s);
+  ASSERT_EQ(a.estimates.size(), b.estimates.size());
+  for (std::size_t i = 0; i < a.estimates.size(); ++i)
+  {
+    EXPECT_EQ(a.estimates[i].map_T_body.translation, b.estimates[i].map_T_body.translation);
+    EXPECT_EQ(a.estimates[i].map_T_body.rotation.coeffs(), b.estimates[i].map_T_body.rotation.coeffs());
+  }
+}
+
+TEST(LidarInertialSlam, withoutImuThereIsNoEstimateAndNoCrash)
+{
+  LidarInertialSlam slam(SlamSettings{}, kBodyTImu);
+  const Machine machine = gentleMachine(3s);
+  EXPECT_TRUE(
+      slam.addScan(StandOfStems().scanAt(Timestamp{100ms}, [&](Timestamp t) { return machine.bodyAt(t); })).empty());
+  EXPECT_TRUE(slam.finish().empty());
+}
+
+TEST(LidarInertialSlam, threeScansAreTooFewForAStartButGiveThreePoses)
+{
+  const Driven run = runFor(gentleMachine(0s), 400ms);
+  ASSERT_EQ(run.estimates.size(), 3u);
+  for (const StateEstimate& e : run.estimates) EXPECT_EQ(e.health, Health::Initialising);
+}

@@ -1,0 +1,54 @@
+#include "slam/LocalMap.h"
+
+#include <gtest/gtest.h>
+
+using namespace scanloom;
+
+namespace
+{
+/** A full cube of points around the origin of the body, one cell of the map. */
+PointCloud cube()
+{
+  PointCloud points;
+  points.resize(27);
+  for (std::size_t i = 0; i < 27; ++i)
+  {
+    points.x[i] = 0.3f + 0.2f * static_cast<float>(i % 3);
+    points.y[i] = 0.3f + 0.2f * static_cast<float>(i / 3 % 3);
+    points.z[i] = 0.3f + 0.2f * static_cast<float>(i / 9);
+  }
+  return points;
+}
+
+Rigid at(double x, double yaw_deg = 0) { return Rigid::fromXyzYawPitchRoll(x, 0, 0, yaw_deg * M_PI / 180, 0, 0); }
+}  // namespace
+
+TEST(LocalMap, wantsAKeyframeFirstAndThenAfterTravelOrTurn)
+{
+  LocalMap map({}, {});
+  EXPECT_TRUE(map.wants(at(0)));
+  map.add(cube(), at(0));
+  EXPECT_FALSE(map.wants(at(3.9)));
+  EXPECT_TRUE(map.wants(at(4.0)));
+  EXPECT_FALSE(map.wants(at(0, 19)));
+  EXPECT_TRUE(map.wants(at(0, 21)));
+}
+
+TEST(LocalMap, keepsTheLastThreeKeyframes)
+{
+  LocalMap map({}, {});
+  for (int i = 0; i < 5; ++i) map.add(cube(), at(10 * i));
+  EXPECT_EQ(map.ndt().points(), 3u * 27u);
+  EXPECT_EQ(map.ndt().cellAt({10, 0, 0}), nullptr);
+  ASSERT_NE(map.ndt().cellAt({40, 0, 0}), nullptr);
+  EXPECT_NEAR(map.ndt().cellAt({40, 0, 0})->mean.x(), 40.5, 1e-4);
+}
+
+TEST(LocalMap, keyframesThatOverlapShareCells)
+{
+  LocalMap map({}, {});
+  map.add(cube(), at(0));
+  map.add(cube(), at(0));
+  EXPECT_EQ(map.ndt().cells().size(), 1u);
+  EXPECT_EQ(map.ndt().cells().front().points, 54u);
+}
