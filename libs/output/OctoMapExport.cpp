@@ -1,6 +1,7 @@
 #include "output/OctoMapExport.h"
 
 #include "config/AtomicFile.h"
+#include "output/RayInsertion.h"
 
 #include <fmt/format.h>
 #include <octomap/octomap.h>
@@ -68,29 +69,22 @@ OctoMapBuilder::~OctoMapBuilder() = default;
 
 void OctoMapBuilder::add(const Keyframe& keyframe)
 {
-  constexpr bool kUpdateInnerNodesLater = true;
-  constexpr bool kOneRayPerOccupiedVoxel = true;  // many points share a voxel near the lidar: tens of times faster
-
   const std::vector<octomap::Pointcloud> clouds = splitByLidar(keyframe, body_T_sensor_.size());
   for (std::size_t lidar = 0; lidar < clouds.size(); ++lidar)
   {
     const Rigid map_T_sensor = keyframe.map_T_body * body_T_sensor_[lidar];
-    tree_->insertPointCloud(clouds[lidar], toOctomap(map_T_sensor.translation), options_.max_range,
-                            kUpdateInnerNodesLater, kOneRayPerOccupiedVoxel);
+    insertRays(*tree_, clouds[lidar], toOctomap(map_T_sensor.translation), options_.max_range);
   }
+}
+
+void OctoMapBuilder::write(const std::filesystem::path& binary, const std::filesystem::path& full) &&
+{
   tree_->updateInnerOccupancy();
-}
+  tree_->prune();
+  writeAtomically(full, [&](std::ostream& file) { requireWritten(tree_->write(file), full); });
 
-void OctoMapBuilder::writeBinary(const std::filesystem::path& path) const
-{
-  octomap::OcTree most_likely(*tree_);
-  most_likely.toMaxLikelihood();
-  most_likely.prune();
-  writeAtomically(path, [&](std::ostream& file) { requireWritten(most_likely.writeBinaryConst(file), path); });
-}
-
-void OctoMapBuilder::writeFull(const std::filesystem::path& path) const
-{
-  writeAtomically(path, [&](std::ostream& file) { requireWritten(tree_->write(file), path); });
+  tree_->toMaxLikelihood();
+  tree_->prune();
+  writeAtomically(binary, [&](std::ostream& file) { requireWritten(tree_->writeBinaryConst(file), binary); });
 }
 }  // namespace scanloom

@@ -90,8 +90,7 @@ void SlamFiles::close(RunSummary summary)
                  [&]
                  {
                    simple_map_.write(folder_ / "keyframes.simplemap");
-                   octomap_.writeBinary(folder_ / "map.bt");
-                   octomap_.writeFull(folder_ / "map.ot");
+                   std::move(octomap_).write(folder_ / "map.bt", folder_ / "map.ot");
                    if (!poses_.empty()) picture_.write(folder_ / "map.png", poses_, "map at breast height");
                  });
   summary.path_length = lengthOf(poses_);
