@@ -4,6 +4,7 @@
 #include "output/RayInsertion.h"
 
 #include <fmt/format.h>
+#include <fmt/ostream.h>
 #include <octomap/octomap.h>
 
 #include <array>
@@ -43,6 +44,14 @@ std::vector<octomap::Pointcloud> splitByLidar(const Keyframe& keyframe, std::siz
     clouds[lidar].push_back(toOctomap(keyframe.map_T_body * keyframe.points.position(i).cast<double>().eval()));
   }
   return clouds;
+}
+
+/** As OcTree::writeBinaryConst() writes it, which would also chat on stderr. */
+void writeBinary(std::ostream& file, const octomap::OcTree& tree)
+{
+  fmt::print(file, "# Octomap OcTree binary file\nid {}\nsize {}\nres {}\ndata\n", tree.getTreeType(), tree.size(),
+             tree.getResolution());
+  tree.writeBinaryData(file);
 }
 
 void requireWritten(bool written, const std::filesystem::path& path)
@@ -85,6 +94,6 @@ void OctoMapBuilder::write(const std::filesystem::path& binary, const std::files
 
   tree_->toMaxLikelihood();
   tree_->prune();
-  writeAtomically(binary, [&](std::ostream& file) { requireWritten(tree_->writeBinaryConst(file), binary); });
+  writeAtomically(binary, [&](std::ostream& file) { writeBinary(file, *tree_); });
 }
 }  // namespace scanloom

@@ -1,5 +1,6 @@
 #include "simulation/RecordingFolder.h"
 
+#include "config/Configuration.h"
 #include "lidar/OusterDecoder.h"
 #include "output/Trajectory.h"
 #include "source/CaptureReader.h"
@@ -211,6 +212,15 @@ TEST(RecordingFolder, isReadLikeTheRecordingOfAStranger)
   EXPECT_NEAR(packets[7503], 400, 11);
   EXPECT_NEAR(packets[7505], 400, 11);
   EXPECT_NEAR(gravity / packets[7503], kGravity, 0.4);
+}
+
+TEST(RecordingOptions, ofTheDemonstrationAreTheDefaults)
+{
+  const Configuration demo =
+      Configuration::fromFiles({std::filesystem::path(SCANLOOM_SOURCE_DIR) / "params/simulation/demo.ini"});
+  const Schema schema = schemaOf<SimulationSettings>();
+
+  EXPECT_EQ(toIni(schemaOf(readSettings<SimulationSettings>(demo, schema))), toIni(schema));
 }
 
 TEST(Scene, namesTheOptionThatCannotBe)
