@@ -76,6 +76,13 @@ std::string Progress::line() const
   return fmt::format("{}: {}{:.0f} %, {}/{} {}, {}, {}", what_, drawn, 100 * share, done_, total_, unit_, speed, time);
 }
 
+std::uint64_t megabytesOf(const std::vector<std::filesystem::path>& files)
+{
+  std::uintmax_t bytes = 0;
+  for (const auto& file : files) bytes += std::filesystem::file_size(file);
+  return std::max<std::uint64_t>(1, bytes / 1000000);
+}
+
 std::string timeText(double seconds)
 {
   const auto whole = static_cast<std::int64_t>(std::max(0.0, seconds) + 0.5);

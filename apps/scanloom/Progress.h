@@ -2,8 +2,10 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <string>
+#include <vector>
 
 namespace scanloom
 {
@@ -42,6 +44,9 @@ class Progress
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_at_ = start_;
 };
+
+/** For a bar that counts what was read: the files' sizes together, at least 1. */
+std::uint64_t megabytesOf(const std::vector<std::filesystem::path>& files);
 
 /** `59 s`, `4:07 min`, `2:05 h` */
 std::string timeText(double seconds);

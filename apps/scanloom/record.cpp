@@ -58,13 +58,14 @@ struct Recorded
 
 Recorded record(RigReplay& replay, const Rig& rig, const DriverOptions& driver, RawlogWriter& writer)
 {
-  Progress progress("record", 1000, "permille");
+  const std::uint64_t megabytes = megabytesOf(rig.captures);
+  Progress progress("record", megabytes, "MB");
   Recorded recorded;
   while (const std::optional<SensorEvent> event = replay.next())
   {
     writer.write(*toObservation(*event, rig, driver));
     ++(std::holds_alternative<Scan>(*event) ? recorded.scans : recorded.imu_samples);
-    progress.update(static_cast<std::uint64_t>(1000 * replay.progress()));
+    progress.update(static_cast<std::uint64_t>(replay.progress() * static_cast<double>(megabytes)));
     if (interrupted()) break;
   }
   writer.close();

@@ -24,7 +24,6 @@ struct SlamArguments
   std::filesystem::path rawlog;
   std::vector<std::string> lidars;
   int every_nth = 0;
-  std::string command;
 };
 
 struct SlamVerbSettings : SlamSettings
@@ -41,14 +40,34 @@ struct SlamVerbSettings : SlamSettings
 
 constexpr const char* kConfigurationName = "configuration.ini";
 
-std::unique_ptr<SensorInput> openInput(const SlamArguments& arguments, const Configuration& configuration)
+struct Input
 {
-  if (!arguments.rawlog.empty()) return makeRawlogInput(arguments.rawlog, arguments.lidars);
-  const RigSettings rig = readRigSettings(configuration, rigSection(configuration));
-  if (rig.rig.pcap_input.empty())
-    throw ConfigError(fmt::format("[{}] pcap_input is missing: nothing to read (or give a rawlog by --input)",
-                                  rigSection(configuration)));
-  return makeCaptureInput(makeRig(rig, arguments.lidars));
+  std::unique_ptr<SensorInput> sensors;
+  std::uint64_t megabytes = 0;  // 0: no telling how far it is
+};
+
+Input openInput(const SlamArguments& arguments, const Configuration& configuration)
+{
+  if (!arguments.rawlog.empty()) return {makeRawlogInput(arguments.rawlog, arguments.lidars), 0};
+  const std::string section = rigSection(configuration);
+  Rig rig = makeRig(readRigSettings(configuration, section), arguments.lidars);
+  if (rig.captures.empty())
+    throw ConfigError(
+        fmt::format("[{}] pcap_input is missing: nothing to read (or give a rawlog by --input)", section));
+  const std::uint64_t megabytes = megabytesOf(rig.captures);
+  return {makeCaptureInput(std::move(rig)), megabytes};
+}
+
+/** The line that repeats the run; --every-nth is among the assignments. */
+std::string commandOf(const SlamArguments& arguments)
+{
+  std::string command = "scanloom slam";
+  for (const auto& file : arguments.configuration.files) command += fmt::format(" -c {}", file.string());
+  for (const std::string& assignment : arguments.configuration.assignments)
+    command += fmt::format(" --set {}", assignment);
+  if (!arguments.rawlog.empty()) command += fmt::format(" -i {}", arguments.rawlog.string());
+  if (!arguments.lidars.empty()) command += fmt::format(" --lidars {}", fmt::join(arguments.lidars, ","));
+  return command + fmt::format(" --out-dir {}", arguments.output.folder.string());
 }
 
 void report(const SlamRunResult& result, const std::filesystem::path& folder)
@@ -71,7 +90,7 @@ int run(SlamArguments arguments)
   std::vector<std::string> names = SlamFiles::names();
   names.emplace_back(kConfigurationName);
   refuseExisting(arguments.output, names);
-  const std::unique_ptr<SensorInput> input = openInput(arguments, loaded.configuration);
+  const Input input = openInput(arguments, loaded.configuration);
   if (arguments.configuration.dry_run)
   {
     std::cout << toIni(loaded);
@@ -79,21 +98,26 @@ int run(SlamArguments arguments)
   }
 
   catchInterruption();
-  SlamFiles files(arguments.output.folder, input->header().lidars, loaded.settings.octomap);
+  SlamFiles files(arguments.output.folder, input.sensors->header().lidars, loaded.settings.octomap);
   writeAtomically(arguments.output.folder / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
-  Progress progress("slam", 1000, "permille");
-  SlamRunResult result = runSlam(*input, loaded.settings, files,
-                                 [&progress](double share, std::uint64_t)
-                                 {
-                                   progress.update(static_cast<std::uint64_t>(1000 * share));
-                                   return !interrupted();
-                                 });
-  result.summary.command = arguments.command;
+  SlamRunResult result;
+  {
+    Progress progress("slam", input.megabytes, input.megabytes > 0 ? "MB" : "scans");
+    result = runSlam(*input.sensors, loaded.settings, files,
+                     [&](double share, std::uint64_t scans)
+                     {
+                       progress.update(input.megabytes > 0
+                                           ? static_cast<std::uint64_t>(share * static_cast<double>(input.megabytes))
+                                           : scans);
+                       return !interrupted();
+                     });
+  }
+  result.summary.command = commandOf(arguments);
   result.summary.versions = {{"scanloom", SCANLOOM_VERSION}};
   files.close(result.summary);
 
   report(result, arguments.output.folder);
-  if (const std::string damage = input->damage(); !damage.empty()) fmt::print(stderr, "warning: {}\n", damage);
+  if (const std::string damage = input.sensors->damage(); !damage.empty()) fmt::print(stderr, "warning: {}\n", damage);
   if (interrupted()) return kInterrupted;
   return result.passed ? kDone : kQualityGate;
 }

@@ -112,7 +112,8 @@ RigReplay::RigReplay(const Rig& rig)
     body_imu_(rig.body_imu),
     captures_(rig.captures),
     router_(routesOf(rig)),
-    batcher_(rig.lidars, rig.batcher)
+    batcher_(rig.lidars, rig.batcher),
+    imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms))
 {
 }
 
@@ -124,8 +125,8 @@ std::optional<SensorEvent> RigReplay::next()
       take(datagram_);
     else
     {
-      release(batcher_.finish(), Timestamp::max());
       ended_ = true;
+      release(batcher_.finish(), Timestamp::max());
     }
   }
   if (waiting_.empty()) return std::nullopt;
@@ -156,9 +157,11 @@ void RigReplay::take(const Datagram& datagram)
 
 void RigReplay::release(std::vector<Scan> scans, Timestamp horizon)
 {
-  for (; next_body_imu_ < body_imu_.size() && body_imu_[next_body_imu_].stamp < horizon; ++next_body_imu_)
+  // An IMU packet may be as late as a lidar packet, but nobody waits for it: its place is kept open that much longer.
+  const Timestamp imu_horizon = ended_ ? horizon : horizon - imu_patience_;
+  for (; next_body_imu_ < body_imu_.size() && body_imu_[next_body_imu_].stamp < imu_horizon; ++next_body_imu_)
     imu_order_.add({SensorImu::kBody, body_imu_[next_body_imu_]});
-  for (SensorImu& imu : imu_order_.release(horizon)) waiting_.emplace_back(std::move(imu));
+  for (SensorImu& imu : imu_order_.release(imu_horizon)) waiting_.emplace_back(std::move(imu));
   for (Scan& scan : scans) waiting_.emplace_back(std::move(scan));
 }
 }  // namespace scanloom

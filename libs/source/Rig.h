@@ -32,7 +32,7 @@ struct Rig
  */
 Rig makeRig(const RigSettings&, const std::vector<std::string>& only = {});
 
-/** What a rig yields: IMU samples and scans; a scan comes after all IMU samples known then that precede its end. */
+/** What a rig yields: IMU samples and scans; both in time order, the IMU up to one deadline behind. */
 using SensorEvent = std::variant<Scan, SensorImu>;
 
 /** A rig's captures through the batcher. */
@@ -60,6 +60,7 @@ class RigReplay
   MergedCaptures captures_;
   PacketRouter router_;
   TimeBatcher batcher_;
+  Duration imu_patience_;
   ImuOrder imu_order_;
   Datagram datagram_;
   std::deque<SensorEvent> waiting_;

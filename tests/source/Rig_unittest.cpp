@@ -93,6 +93,7 @@ TEST(RigReplay, weavesBothLidarsOfARecordingWithExactAccounts)
     EXPECT_EQ(c.emitted + c.before_start + c.invalid, sent[i]);
   }
   EXPECT_EQ(columns, replay.batcher().counters(0).emitted + replay.batcher().counters(1).emitted);
+  EXPECT_EQ(replay.lateImuSamples(), 0u);
   EXPECT_TRUE(replay.router().unmatched().empty());
 }
 
