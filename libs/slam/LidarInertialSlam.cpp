@@ -119,9 +119,11 @@ StateEstimate LidarInertialSlam::track(Scan scan)
 
   estimate.map_T_body = bodyAt(state);
   estimate.velocity = state.velocity;
-  estimate.health = healthAt(state.stamp, estimate.registration);
+  estimate.health = healthOf(estimate);
   estimate.since_last = posesBetween(before, state, samples);
-  if (estimate.health != Health::Lost && local_map_.wants(estimate.map_T_body)) addKeyframe(cloud, estimate);
+  const bool placed =
+      local_map_.empty() || (estimate.registration && estimate.registration->outcome != Outcome::LowOverlap);
+  if (placed && estimate.health != Health::Lost && local_map_.wants(estimate.map_T_body)) addKeyframe(cloud, estimate);
   imu_.forgetBefore(state.stamp);
   return estimate;
 }
@@ -173,13 +175,14 @@ void LidarInertialSlam::addKeyframe(const PointCloud& cloud, StateEstimate& esti
                  });
 }
 
-Health LidarInertialSlam::healthAt(Timestamp now, const std::optional<RegistrationResult>& registration)
+Health LidarInertialSlam::healthOf(const StateEstimate& estimate)
 {
-  const bool first = local_map_.empty();
-  if (first || (registration && registration->trustworthy())) last_trusted_ = now;
-  if (now - last_trusted_ > fromSeconds(settings_.slam.lost_after)) return Health::Lost;
-  if (initialising_until_ && now <= *initialising_until_) return Health::Initialising;
-  return last_trusted_ == now ? Health::Ok : Health::Degenerate;
+  const bool opens_the_map = local_map_.empty() && estimate.points > 0;
+  const bool trusted = opens_the_map || (estimate.registration && estimate.registration->trustworthy());
+  if (trusted) last_trusted_ = estimate.stamp;
+  if (estimate.stamp - last_trusted_ > fromSeconds(settings_.slam.lost_after)) return Health::Lost;
+  if (initialising_until_ && estimate.stamp <= *initialising_until_) return Health::Initialising;
+  return trusted ? Health::Ok : Health::Degenerate;
 }
 
 /** The smoother's two states joined by the IMU; what does not close is spread over the time between. */

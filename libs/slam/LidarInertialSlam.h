@@ -49,7 +49,7 @@ class LidarInertialSlam
   PointCloud preprocess(Scan, const NavState& at_end, const std::vector<ImuSample>&) const;
   std::optional<RegistrationResult> registerToMap(const PointCloud&, const Rigid& predicted);
   void addKeyframe(const PointCloud&, StateEstimate&);
-  Health healthAt(Timestamp, const std::optional<RegistrationResult>&);
+  Health healthOf(const StateEstimate&);
   Trajectory posesBetween(const NavState& from, const NavState& to, const std::vector<ImuSample>&) const;
   Rigid bodyAt(const NavState&) const;
 
