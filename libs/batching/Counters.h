@@ -31,4 +31,27 @@ struct LidarCounters
 
   std::uint64_t sent() const { return received + lost; }
 };
+
+/** Calls visit(name, count) for each, under the names of reports. */
+template <typename Visitor>
+void forEachCount(const LidarCounters& c, Visitor&& visit)
+{
+  visit("packets", c.packets);
+  visit("packets_malformed", c.malformed_packets);
+  visit("packets_bad_crc", c.bad_crc_packets);
+  visit("packets_foreign", c.foreign_packets);
+  visit("packets_other", c.other_packets);
+  visit("restarts", c.restarts);
+  visit("blocks_sent", c.sent());
+  visit("blocks_received", c.received);
+  visit("blocks_emitted", c.emitted);
+  visit("blocks_late", c.late);
+  visit("blocks_duplicate", c.duplicate);
+  visit("blocks_invalid", c.invalid);
+  visit("blocks_before_start", c.before_start);
+  visit("blocks_implausible", c.implausible);
+  visit("blocks_dropped", c.dropped);
+  visit("blocks_lost", c.lost);
+  visit("points", c.points);
+}
 }  // namespace scanloom

@@ -42,27 +42,8 @@ std::map<std::string, std::uint64_t> countsOf(const RigReplay& replay)
   std::map<std::string, std::uint64_t> counts;
   const auto& lidars = replay.batcher().lidars();
   for (LidarIndex i = 0; i < lidars.size(); ++i)
-  {
-    const LidarCounters& c = replay.batcher().counters(i);
-    const auto add = [&](const char* fate, std::uint64_t count)
-    { counts[fmt::format("{}.{}", lidars[i].name, fate)] = count; };
-    add("packets", c.packets);
-    add("packets_malformed", c.malformed_packets);
-    add("packets_bad_crc", c.bad_crc_packets);
-    add("packets_foreign", c.foreign_packets);
-    add("packets_other", c.other_packets);
-    add("restarts", c.restarts);
-    add("blocks_sent", c.sent());
-    add("blocks_emitted", c.emitted);
-    add("blocks_lost", c.lost);
-    add("blocks_late", c.late);
-    add("blocks_duplicate", c.duplicate);
-    add("blocks_invalid", c.invalid);
-    add("blocks_before_start", c.before_start);
-    add("blocks_implausible", c.implausible);
-    add("blocks_dropped", c.dropped);
-    add("points", c.points);
-  }
+    forEachCount(replay.batcher().counters(i), [&](const char* fate, std::uint64_t count)
+                 { counts[fmt::format("{}.{}", lidars[i].name, fate)] = count; });
   std::uint64_t strangers = 0;
   for (const auto& [origin, datagrams] : replay.router().unmatched()) strangers += datagrams;
   counts["datagrams_of_no_lidar"] = strangers;
