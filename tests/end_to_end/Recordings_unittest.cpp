@@ -1,0 +1,114 @@
+// The whole line on a stranger's recordings: captures of two lidars and an IMU in, a trajectory out.
+#include <gtest/gtest.h>
+
+#include "evaluation/PositionError.h"
+#include "mrpt_bridge/RawlogWriter.h"
+#include "mrpt_bridge/RigObservations.h"
+#include "output/SlamRun.h"
+#include "support/TemporaryFolder.h"
+#include "support/TestData.h"
+
+using namespace scanloom;
+
+namespace
+{
+Rig rigOf(const std::filesystem::path& recording, const std::vector<std::string>& only = {})
+{
+  const std::string folder = recording.string();
+  const Configuration configuration = Configuration::fromText(
+      "[rig]\ndriver = CMultiLidarSensor\npcap_input = " + folder + "/recording.pcap\nextrinsics = " + folder +
+          "/extrinsics.txt\nimu_csv = " + folder + "/imu.csv\nlidar1_name = left\nlidar1_metadata = " + folder +
+          "/left.json\nlidar2_name = right\nlidar2_metadata = " + folder + "/right.json\n",
+      "test.ini");
+  return makeRig(readRigSettings(configuration, "rig"), only);
+}
+
+RunSummary localise(SensorInput& input, const std::filesystem::path& folder, const SlamSettings& settings = {})
+{
+  OctoMapOptions coarse;  // not what is looked at here
+  coarse.resolution = 1;
+  coarse.max_range = 5;
+  SlamFiles files(folder, input.header().lidars, coarse);
+  SlamRunResult result = runSlam(input, settings, files, [](double, std::uint64_t) { return true; });
+  EXPECT_TRUE(result.passed);
+  files.close(result.summary);
+  return result.summary;
+}
+
+double largestError(const std::filesystem::path& run, const std::filesystem::path& recording)
+{
+  return positionErrorFromFirstPose(readTum(run / "trajectory.tum"), readTum(recording / "groundtruth.tum")).largest;
+}
+
+void expectDrift(const std::filesystem::path& recording, const std::vector<std::string>& lidars, int every_nth,
+                 double limit)
+{
+  const TemporaryFolder folder;
+  SlamSettings settings;
+  settings.slam.every_nth = every_nth;
+  const auto input = makeCaptureInput(rigOf(recording, lidars));
+  localise(*input, folder.path(), settings);
+  const double error = largestError(folder.path(), recording);
+  testing::Test::RecordProperty("largest_error_m", std::to_string(error));
+  EXPECT_LT(error, limit);
+}
+}  // namespace
+
+TEST(Recordings, twoLidarsStayWithinFifteenCentimetresInTheSparseStand)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  expectDrift(recording, {}, 1, 0.15);
+}
+
+TEST(Recordings, twoLidarsStayWithinThirtyCentimetresInTheDenseStand)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/dense");
+  expectDrift(recording, {}, 1, 0.30);
+}
+
+TEST(Recordings, everyFifteenthScanIsEnoughForTwoLidarsInTheDenseStand)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/dense");
+  expectDrift(recording, {}, 15, 0.30);
+}
+
+TEST(Recordings, aSingleLidarIsNotLostInTheDenseStand)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/dense");
+  expectDrift(recording, {"left"}, 1, 0.5);
+}
+
+TEST(Recordings, everyScanGetsAPoseAtItsEndAndASecondRunGivesTheSameBytes)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  const TemporaryFolder first, second;
+  const RunSummary summary = localise(*makeCaptureInput(rigOf(recording)), first.path());
+  localise(*makeCaptureInput(rigOf(recording)), second.path());
+
+  const Trajectory trajectory = readTum(first / "trajectory.tum");
+  EXPECT_EQ(trajectory.size(), summary.counts.at("scans"));
+  for (std::size_t i = 1; i < trajectory.size(); ++i) EXPECT_EQ(trajectory[i].stamp - trajectory[i - 1].stamp, 100ms);
+  for (const char* name :
+       {"trajectory.tum", "trajectory_imu.tum", "trajectory.csv", "map.ply", "map.ot", "keyframes.simplemap"})
+    EXPECT_EQ(contentOf(first / name), contentOf(second / name)) << name;
+}
+
+TEST(Recordings, aRawlogGivesThePosesOfItsCaptureWithinAMillimetre)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  const TemporaryFolder folder;
+  const Rig rig = rigOf(recording);
+  RawlogWriter writer(folder / "dual.rawlog", recordingHeader(rig), {});
+  RigReplay replay(rig);
+  while (const auto event = replay.next()) writer.write(*toObservation(*event, rig, DriverOptions{}));
+  writer.close();
+
+  localise(*makeCaptureInput(rig), folder / "capture");
+  localise(*makeRawlogInput(folder / "dual.rawlog"), folder / "rawlog");
+
+  const Trajectory expected = readTum(folder / "capture/trajectory.tum"),
+                   got = readTum(folder / "rawlog/trajectory.tum");
+  ASSERT_EQ(got.size(), expected.size());
+  for (std::size_t i = 0; i < got.size(); ++i)
+    EXPECT_LT((got[i].map_T_body.translation - expected[i].map_T_body.translation).norm(), 1e-3);
+}
