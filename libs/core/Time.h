@@ -16,7 +16,7 @@ struct SensorClock
   using rep = duration::rep;
   using period = duration::period;
   using time_point = std::chrono::time_point<SensorClock>;
-  static constexpr bool is_steady = false;
+  static constexpr bool is_steady = false;  // NOLINT(readability-identifier-naming): the standard names it
 };
 using Timestamp = SensorClock::time_point;
 
