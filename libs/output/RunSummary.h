@@ -14,7 +14,7 @@ namespace scanloom
 struct RunSummary
 {
   std::string command;                          // the line that repeats the run
-  std::string outcome;                          // "OK", "LOST", "DEGENERATE", "INTERRUPTED"
+  std::string outcome;                          // "OK", "INITIALISING", "DEGENERATE", "LOST", "INTERRUPTED"
   std::map<std::string, std::string> versions;  // program or library -> version
   std::uint64_t seed = 0;                       // 0: nothing was drawn
   std::map<std::string, std::uint64_t> counts;  // "scans", "keyframes", "packets.left", ...

@@ -49,6 +49,7 @@ struct HealthCounts
   {
     if (poses == 0) return "NOTHING";
     if (!passed()) return "LOST";
+    if (last == Health::Initialising) return "INITIALISING";
     return degenerate + lost > 0 ? "DEGENERATE" : "OK";
   }
 };

@@ -13,7 +13,7 @@ using KeepGoing = std::function<bool(double progress, std::uint64_t scans)>;
 
 struct SlamRunResult
 {
-  RunSummary summary;  // counts, stages, outcome: OK, DEGENERATE, LOST, NOTHING or INTERRUPTED
+  RunSummary summary;  // counts, stages, outcome: OK, INITIALISING, DEGENERATE, LOST, NOTHING or INTERRUPTED
   bool passed =
       true;  // false: LOST at the end or for more than 5 % of the scans, or not a single pose; as far as it came
 };
