@@ -44,6 +44,13 @@ class BeamTable
                       (cos_th * d_.col(k) + sin_th * e_.col(k) + f_.col(k));
   }
 
+  /** One beam's point, for sensors whose beams fire one after another and so at an angle each. */
+  Eigen::Vector3f project(Eigen::Index beam, float cos_th, float sin_th, float range_mm) const
+  {
+    return range_mm * (cos_th * a_.row(beam) + sin_th * b_.row(beam) + c_.row(beam)) +
+           (cos_th * d_.row(beam) + sin_th * e_.row(beam) + f_.row(beam));
+  }
+
  private:
   Coordinates a_, b_, c_, d_, e_, f_;
 };

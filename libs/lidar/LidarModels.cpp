@@ -6,6 +6,7 @@
 
 #include "lidar/MetadataKeys.h"
 #include "lidar/OusterDecoder.h"
+#include "lidar/VelodyneDecoder.h"
 
 namespace scanloom
 {
@@ -16,17 +17,26 @@ std::unique_ptr<PacketDecoder> makeOuster(const std::string& text, const std::st
   return std::make_unique<OusterDecoder>(parseOusterMetadata(text, name), body_T_sensor);
 }
 
-/** Any JSON object: what it lacks is said by the parser, key by key. */
+/** Any JSON object, if no other family took it: what it lacks is said by the parser, key by key. */
 bool looksLikeOuster(const std::string& text)
 {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first != std::string::npos && text[first] == '{';
+}
+
+std::unique_ptr<PacketDecoder> makeVelodyne(const std::string& text, const std::string& name,
+                                            const Rigid& body_T_sensor)
+{
+  return std::make_unique<VelodyneDecoder>(parseVelodyneMetadata(text, name), body_T_sensor);
 }
 }  // namespace
 
 const std::vector<LidarFamily>& lidarFamilies()
 {
   static const std::vector<LidarFamily> families{
+      // The first that recognises a file has it; Ouster's says nothing of its maker, so it comes last.
+      {"velodyne", "a JSON file that begins with \"lidar\": \"velodyne\" (params/lidars/)", &looksLikeVelodyne,
+       &makeVelodyne},
       {"ouster", "the JSON text of an Ouster sensor's metadata", &looksLikeOuster, &makeOuster},
   };
   return families;

@@ -13,6 +13,13 @@
 
 namespace scanloom
 {
+/** How a lidar's packets are put in order and missed. */
+enum class Numbering
+{
+  Ids,     // by frame id and measurement id
+  Stamps,  // packets bear no ids: by their stamps alone, at the packets' regular distance
+};
+
 /** What does not change while a lidar runs. */
 struct LidarDescription
 {
@@ -26,13 +33,20 @@ struct LidarDescription
   int returns = 1;                     // points per channel and block at most
   double frame_rate = 0;               // Hz, nominal
   std::uint64_t frame_id_modulus = 0;  // frame ids count modulo this: 65536 or 2^32
+  Numbering numbering = Numbering::Ids;
+  Duration stamp_modulus{0};       // stamps count modulo this (Velodyne: 1 h); 0: they do not wrap
+  Duration fixed_block_period{0};  // where it does not depend on the rotor's speed; 0: a turn's share
   std::uint16_t lidar_port = 0;        // 0 if the metadata has none
   std::uint16_t imu_port = 0;
   Rigid sensor_T_imu;   // the pose of the built-in IMU
   Rigid body_T_sensor;  // the extrinsics folded into the conversion
   std::string clock;    // the sensor's own name for its time source: "TIME_FROM_PTP_1588"; empty if unknown
 
-  Duration blockPeriod() const { return fromSeconds(1.0 / (frame_rate * columns_per_frame)); }
+  Duration blockPeriod() const
+  {
+    return fixed_block_period > Duration{0} ? fixed_block_period
+                                            : fromSeconds(1.0 / (frame_rate * columns_per_frame));
+  }
 };
 
 enum class PacketKind

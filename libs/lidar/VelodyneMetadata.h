@@ -1,0 +1,29 @@
+/** The small file that says which Velodyne sensor it is and where its beams point: params/lidars/velodyne_*.json. */
+#pragma once
+#include "lidar/VelodyneModels.h"
+
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** One value per laser in the order of firing (laser id of the maker's calibration files). */
+struct VelodyneMetadata
+{
+  const VelodyneModel* model = nullptr;  // a row of kVelodyneModels
+  std::uint8_t product_id = 0;           // the packets' last byte; the model's own unless the file says otherwise
+  std::string serial;                    // for reports: packets bear none
+  double rpm = 600;                      // as set in the sensor
+  std::uint16_t lidar_port = 2368;
+  double first_azimuth_deg = 0, last_azimuth_deg = 360;  // field of view as set in the sensor, clockwise; may wrap
+  std::vector<double> vertical_deg;                      // above the plane of rotation
+  std::vector<double> azimuth_offset_deg;                // clockwise, added to the azimuth in the packet
+  std::vector<double> vertical_offset_mm;                // of the ray's origin
+};
+
+/** Whether this is the text of such a file: a JSON object with "lidar": "velodyne". */
+bool looksLikeVelodyne(const std::string& text);
+
+/** Throws std::invalid_argument with `name`, key and what is expected. */
+VelodyneMetadata parseVelodyneMetadata(const std::string& text, const std::string& name);
+}  // namespace scanloom
