@@ -1,0 +1,164 @@
+/**
+ * What a user runs, from packets to scans in the body frame, beside a memcpy of the same packets. One thread.
+ *
+ *   merge/<PROFILE>/<channels>/<sensors>/<kernel>   TimeBatcher::push, all fields; the packets bear no CRC
+ *   merge_crc/...                                   the same, a valid CRC-64 in every packet
+ *   order/...                                       TimeBatcher::push without making points
+ *   decode/...                                      kind, readBlocks and appendPoints, without TimeBatcher
+ *
+ * One turn of packets (64) per sensor is cycled, for 20 ms of work and 20 ms of copies in turn. `us_per_packet` is the
+ * median over turns, `x_memcpy` its ratio to the median of a memcpy of these packets, one by one, into one buffer.
+ */
+#include "RigOfPackets.h"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+using namespace scanloom;
+using namespace scanloom::bench;
+
+namespace
+{
+double median(std::vector<double> values)
+{
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/** Calls `turn`, which returns how many points it made, for a while; a time per turn. */
+template <typename OneTurn>
+std::size_t repeat(Rig& rig, std::vector<double>& micros, OneTurn&& turn)
+{
+  using Clock = std::chrono::steady_clock;
+  std::size_t points = 0;
+  for (Clock::duration spent{0}; spent < 20ms;)
+  {
+    rig.advance();
+    const Clock::time_point begin = Clock::now();
+    points = turn();
+    const Clock::duration time = Clock::now() - begin;
+    micros.push_back(1e6 * seconds(time));
+    spent += time;
+  }
+  return points;
+}
+
+/** Times `work` and a memcpy of the same packets, some turns of the one, some of the other, as hot as either can be. */
+template <typename Work>
+void besideMemcpy(benchmark::State& state, Rig& rig, Work&& work)
+{
+  Packet target(rig.packetBytes());
+  const auto copyIntoTarget = [&target](std::size_t, const Packet& packet, Timestamp)
+  {
+    std::memcpy(target.data(), packet.data(), packet.size());
+    benchmark::DoNotOptimize(target.data());
+    benchmark::ClobberMemory();
+  };
+  const auto copyAll = [&]
+  {
+    rig.forEachPacket(copyIntoTarget);
+    return std::size_t{0};
+  };
+
+  std::vector<double> working, copying;
+  std::size_t points = 0;
+  for (auto _ : state)
+  {
+    points = repeat(rig, working, work);
+    state.PauseTiming();
+    repeat(rig, copying, copyAll);
+    state.ResumeTiming();
+  }
+  const auto packets = static_cast<double>(rig.packets());
+  state.counters["us_per_packet"] = median(working) / packets;
+  state.counters["memcpy_us"] = median(copying) / packets;
+  state.counters["x_memcpy"] = median(working) / median(copying);
+  state.counters["points"] = static_cast<double>(points) / packets;
+}
+
+/** A decoder whose points cost nothing. */
+class PointlessDecoder : public OusterDecoder
+{
+ public:
+  using OusterDecoder::OusterDecoder;
+  void appendPoints(Bytes, std::size_t, std::int32_t, std::uint8_t, PointCloud&) const override {}
+};
+
+template <typename Decoder>
+void merge(benchmark::State& state, const OusterProfile& profile, int channels, int sensors, Crc crc)
+{
+  Rig rig(profile, channels, sensors, crc);
+  TimeBatcher batcher(rig.lidars<Decoder>(), {});
+  const auto oneTurn = [&]
+  {
+    std::size_t points = 0;
+    const auto push = [&](std::size_t lidar, const Packet& packet, Timestamp received)
+    {
+      for (Scan& scan : batcher.push(lidar, packet, received)) points += scan.points.size();
+    };
+    rig.forEachPacket(push);
+    return points;
+  };
+  besideMemcpy(state, rig, oneTurn);
+}
+
+void decode(benchmark::State& state, const OusterProfile& profile, int channels, int sensors, Crc crc)
+{
+  Rig rig(profile, channels, sensors, crc);
+  const std::vector<BatchedLidar> lidars = rig.lidars<OusterDecoder>();
+  PointCloud points;
+  std::vector<MeasurementBlock> blocks;
+  const auto decodePacket = [&](std::size_t lidar, const Packet& packet, Timestamp)
+  {
+    const PacketDecoder& decoder = *lidars[lidar].decoder;
+    if (decoder.kind(packet) != PacketKind::Lidar) return;
+    decoder.readBlocks(packet, blocks);
+    for (const MeasurementBlock& block : blocks)
+      decoder.appendPoints(packet, block.index, 0, static_cast<std::uint8_t>(lidar), points);
+  };
+  const auto oneTurn = [&]
+  {
+    points.clear();
+    rig.forEachPacket(decodePacket);
+    return points.size();
+  };
+  besideMemcpy(state, rig, oneTurn);
+}
+
+using Row = void (*)(benchmark::State&, const OusterProfile&, int channels, int sensors, Crc);
+
+void add(const std::string& name, Row row, const OusterProfile& profile, int channels, int sensors, Crc crc)
+{
+  const std::string full = fmt::format("{}/{}/{}/{}/{}", name, profile.name, channels, sensors, "portable");
+  benchmark::RegisterBenchmark(full.c_str(), row, profile, channels, sensors, crc)->Unit(benchmark::kMillisecond);
+}
+
+/** Measured with 1, 2, 4 and 8 sensors; the other profiles with 2. */
+bool isCommon(const OusterProfile& p)
+{
+  return p.name == "LEGACY" || p.name == "RNG19_RFL8_SIG16_NIR16" || p.name == "RNG15_RFL8_NIR8" ||
+         p.name == "RNG19_RFL8_SIG16_NIR16_DUAL";
+}
+
+const bool kRegistered = []
+{
+  for (const OusterProfile& profile : kOusterProfiles)
+  {
+    const int channels = profile.name == "LEGACY" ? 64 : 128;
+    for (const int sensors : {1, 2, 4, 8})
+    {
+      if (sensors != 2 && !isCommon(profile)) continue;
+      add("merge", merge<OusterDecoder>, profile, channels, sensors, Crc::None);
+      if (isCommon(profile)) add("order", merge<PointlessDecoder>, profile, channels, sensors, Crc::None);
+    }
+    if (!isCommon(profile)) continue;
+    add("merge_crc", merge<OusterDecoder>, profile, channels, 2, Crc::Valid);
+    add("decode", decode, profile, channels, 1, Crc::None);
+  }
+  return true;
+}();
+}  // namespace
