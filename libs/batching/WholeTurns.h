@@ -1,0 +1,93 @@
+/**
+ * Approach A of the paper (figure 1a), for comparison: each lidar is batched by spinning angle, as drivers do it, and
+ * the turns of all lidars are put behind each other. What a scan spans, and which turns meet in it, depends on the
+ * phase of the rotors; see doc/batching.md, "Against whole turns".
+ */
+#pragma once
+#include "batching/TimeBatcher.h"
+#include "batching/TurnCollector.h"
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/** Which turns become one scan. */
+enum class TurnGrouping
+{
+  /**
+   * To each turn of lidar 0 the turn of every other lidar whose middle is nearest, at most once each: what approximate
+   * time synchronisation makes of the lidars' clouds. Waits for a turn under way if that one will be nearer.
+   */
+  Nearest,
+
+  /**
+   * One turn of each, as they come; a lidar's second turn, or one that ends 0.21 s after the first of the scan, begins
+   * the next scan: the rule of the Collator of Ouster SDK 1.0 for sensors without phase lock (frame_set_source_utils),
+   * and, without that time limit, of MOLA's lidar odometry with several lidars. The order in which the lidars were
+   * heard first settles for ever which turns meet.
+   */
+  OneOfEach,
+};
+
+/**
+ * Takes what TimeBatcher takes and gives the same type of scan, with differences that are those of the approach:
+ * start is the stamp of the oldest column, and period reaches past the newest one, so that scans vary in length and
+ * overlap; columns are ordered by lidar, each lidar's in the order of arrival. Every point bears its own time. complete
+ * is false where a lidar gave no turn or not a whole one. Blocks of turns that no scan had a place for are `dropped`.
+ *
+ * Host time plays no role: a lidar that falls silent amid a turn keeps that turn until it is heard again.
+ */
+class WholeTurns
+{
+ public:
+  /** Throws std::invalid_argument without lidars or with more than 256. */
+  explicit WholeTurns(std::vector<BatchedLidar>, TurnGrouping = TurnGrouping::Nearest);
+
+  /** Scans completed by this packet, oldest first. */
+  std::vector<Scan> push(LidarIndex, Bytes packet, Timestamp received);
+
+  /** Time has passed without a packet: nothing follows from it. */
+  std::vector<Scan> advance(Timestamp) { return {}; }
+
+  /** No more packets: what can still become a scan comes out, with turns that the end of input cut. */
+  std::vector<Scan> finish();
+
+  /**
+   * Where packets come in order, no scan to come begins before this stamp; a lidar not heard yet, or silent for four
+   * turns, is not waited for. None at the start.
+   */
+  std::optional<Timestamp> horizon() const;
+
+  const LidarCounters& counters(LidarIndex lidar) const { return lidars_[lidar].counters; }
+  const std::vector<BatchedLidar>& lidars() const { return inputs_; }
+
+ private:
+  struct Lidar
+  {
+    TurnCollector collector;
+    LidarCounters counters;
+    std::deque<Turn> waiting;                    // oldest first
+    std::optional<Timestamp> newest_turn_began;  // given out or waiting
+    Timestamp heard_until = Timestamp::min();
+  };
+  using ChosenTurns = std::vector<std::optional<Turn>>;  // by lidar
+
+  void add(LidarIndex, Turn, std::vector<Scan>&);
+  void releaseNearest(std::vector<Scan>&);
+  bool isChoiceCertain(const Lidar&, const Turn& reference) const;
+  ChosenTurns chooseNearest();
+  void addToSet(LidarIndex, Turn, std::vector<Scan>&);
+  void releaseSet(std::vector<Scan>&);
+  Scan concatenate(ChosenTurns);
+  static void drop(Lidar&);
+
+  std::vector<BatchedLidar> inputs_;
+  TurnGrouping grouping_;
+  std::vector<Lidar> lidars_;
+  ChosenTurns set_;                     // OneOfEach: under collection
+  std::optional<Timestamp> set_began_;  // OneOfEach: end of its first turn
+  bool finished_ = false;
+};
+}  // namespace scanloom
