@@ -4,6 +4,7 @@
 namespace scanloom
 {
 Verb configVerb();
+Verb doctorVerb();
 Verb evaluateVerb();
 Verb infoVerb();
 Verb recordVerb();
@@ -13,7 +14,7 @@ Verb slamVerb();
 const std::vector<Verb>& verbs()
 {
   static const std::vector<Verb> table{
-      recordVerb(), infoVerb(), configVerb(), slamVerb(), evaluateVerb(), simulateVerb(),
+      recordVerb(), infoVerb(), doctorVerb(), configVerb(), slamVerb(), evaluateVerb(), simulateVerb(),
   };
   return table;
 }

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "dataset/DoctorFindings.h"
+
+namespace scanloom
+{
+namespace
+{
+std::string signedSeconds(Duration d)
+{
+  const double s = seconds(d);
+  return std::abs(s) < 1 ? fmt::format("{:+.3f} ms", 1e3 * s) : fmt::format("{:+.6f} s", s);
+}
+
+bool promisesUtc(const std::string& mode) { return mode == "TIME_FROM_PTP_1588" || mode == "TIME_FROM_SYNC_PULSE_IN"; }
+
+Finding kindFinding(const LidarExamination& seen)
+{
+  const std::string mode = seen.lidar.clock.empty() ? "no timestamp_mode in the metadata" : seen.lidar.clock;
+  Finding finding{
+      seen.name, "clock", Verdict::Ok,
+      fmt::format("{}, {}; {} ahead of the computer", mode, toString(*seen.epoch), signedSeconds(*seen.ahead_of_host)),
+      ""};
+  if (*seen.epoch == Epoch::SinceBoot && promisesUtc(seen.lidar.clock))
+  {
+    finding.verdict = Verdict::Warning;
+    finding.mend = "the sensor has not locked: check the PTP master (ptp4l, same domain) or the sync pulse";
+  }
+  if (*seen.epoch == Epoch::Tai || *seen.epoch == Epoch::GpsAsUnix)
+  {
+    finding.verdict = Verdict::Warning;
+    finding.mend = "let the PTP master announce currentUtcOffset (37 s) with its flag set, or set the key time_offset";
+  }
+  return finding;
+}
+
+Finding offsetFinding(const LidarExamination& seen, const std::string& first, std::size_t lidar,
+                      const ClockLimits& limits)
+{
+  const double ms = 1e3 * std::abs(seconds(*seen.ahead_of_first));
+  Finding finding{seen.name, "clock offset", Verdict::Ok,
+                  fmt::format("{} ahead of '{}'", signedSeconds(*seen.ahead_of_first), first), ""};
+  if (ms > limits.offset_warning_ms) finding.verdict = Verdict::Warning;
+  if (ms > limits.offset_not_fit_ms) finding.verdict = Verdict::NotFit;
+  if (finding.verdict != Verdict::Ok)
+    finding.mend = fmt::format("lock both to one PTP master; for this recording set lidar{}_time_offset = {:.4f}",
+                               lidar + 1, -seconds(*seen.ahead_of_first));
+  return finding;
+}
+
+Finding driftFinding(const LidarExamination& seen, const std::string& first, bool is_first, double offset_warning_ms,
+                     const ClockLimits& limits)
+{
+  const std::optional<ClockDrift>& drift = is_first ? seen.drift : seen.drift_to_first;
+  Finding finding{seen.name, "clock drift", Verdict::NotMeasured,
+                  fmt::format("not enough time: needs {:.0f} s", limits.drift_time), ""};
+  if (!drift) return finding;
+  finding.verdict = Verdict::Ok;
+  finding.says = fmt::format("{:+.2f} ppm against {} (standard deviation {:.2f})", drift->ppm,
+                             is_first ? "the computer" : "'" + first + "'", drift->sigma_ppm);
+  const bool drifts = std::abs(drift->ppm) > limits.drift_warning_ppm && std::abs(drift->ppm) > 3 * drift->sigma_ppm;
+  if (is_first || !drifts) return finding;
+  finding.verdict = Verdict::Warning;
+  finding.mend = fmt::format("lock both to one PTP master: they part by {:.0f} ms within {:.0f} s", offset_warning_ms,
+                             1e3 * offset_warning_ms / std::abs(drift->ppm));
+  return finding;
+}
+
+Finding stepsFinding(const LidarExamination& seen)
+{
+  if (seen.steps.empty()) return {seen.name, "clock steps", Verdict::Ok, "none", ""};
+  std::string list;
+  for (std::size_t i = 0; i < std::min<std::size_t>(seen.steps.size(), 3); ++i)
+    list += (i ? ", " : "") + signedSeconds(seen.steps[i].size);
+  return {seen.name, "clock steps", Verdict::NotFit,
+          fmt::format("{}: {}{}", seen.steps.size(), list, seen.steps.size() > 3 ? ", ..." : ""),
+          "start recording after PTP has locked, and let the master slew, not step (ptp4l: step_threshold 0)"};
+}
+
+Finding phaseFinding(const RigExamination& rig, std::size_t lidar)
+{
+  const LidarExamination& seen = rig.lidars[lidar];
+  const RotorPhase& p = *seen.phase;
+  Finding finding{seen.name, "rotor phase", Verdict::Ok, "", ""};
+  finding.says = fmt::format("column 0 at {:.2f} ms of {:.0f}", 1e3 * p.at_end, 1e3 * p.turn);
+  finding.says += p.steady() ? ", steady" : fmt::format(", free: {:+.0f} ppm of nominal", p.rate_error_ppm);
+  const auto& first = rig.lidars.front().phase;
+  if (lidar > 0 && first && first->turn == p.turn)
+  {
+    const double behind = std::remainder(p.at_end - first->at_end, p.turn) / p.turn;
+    finding.says += fmt::format("; {:+.0f} deg of '{}'", 360 * -behind, rig.lidars.front().name);
+  }
+  return finding;
+}
+}  // namespace
+
+Findings clockFindings(const RigExamination& rig, std::size_t lidar, const ClockLimits& limits)
+{
+  const LidarExamination& seen = rig.lidars[lidar];
+  if (!seen.epoch) return {};
+  const std::string& first = rig.lidars.front().name;
+  Findings findings{kindFinding(seen)};
+  if (seen.ahead_of_first) findings.push_back(offsetFinding(seen, first, lidar, limits));
+  findings.push_back(driftFinding(seen, first, lidar == 0, limits.offset_warning_ms, limits));
+  findings.push_back(stepsFinding(seen));
+  if (seen.phase) findings.push_back(phaseFinding(rig, lidar));
+  return findings;
+}
+}  // namespace scanloom

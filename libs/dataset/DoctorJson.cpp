@@ -1,0 +1,110 @@
+#include "dataset/DoctorJson.h"
+
+#include <nlohmann/json.hpp>
+
+namespace scanloom
+{
+namespace
+{
+using nlohmann::json;
+
+json jsonOf(const Delivery& d)
+{
+  json result = {{"packets", d.packets},
+                 {"sent", d.sent()},
+                 {"lost", d.lost},
+                 {"loss_share", d.lossShare()},
+                 {"gaps", d.gaps},
+                 {"longest_gap_packets", d.longest_gap},
+                 {"longest_gap_s", seconds(d.longest_gap_time)},
+                 {"duplicates", d.duplicates},
+                 {"reordered", d.reordered},
+                 {"displacement_packets", d.displacement},
+                 {"displacement_s", seconds(d.displacement_time)},
+                 {"restarts", d.restarts},
+                 {"blocks", d.blocks},
+                 {"valid_share", d.validShare()},
+                 {"nominal_packets_hz", d.nominal_packet_rate},
+                 {"nominal_blocks_hz", d.nominal_block_rate}};
+  if (d.packet_rate) result["packets_hz"] = *d.packet_rate;
+  if (d.block_rate) result["blocks_hz"] = *d.block_rate;
+  return result;
+}
+
+json jsonOf(const SensorFlags& f)
+{
+  return {{"alert_flags", f.alerts},
+          {"alert_packets", f.alert_packets},
+          {"thermal_status", f.worst_thermal_status},
+          {"thermal_packets", f.thermal_packets},
+          {"shot_limiting_status", f.worst_shot_limiting_status},
+          {"shot_limiting_packets", f.shot_limiting_packets}};
+}
+
+json jsonOf(const ClockDrift& d) { return {{"ppm", d.ppm}, {"sigma_ppm", d.sigma_ppm}}; }
+
+json clockOf(const LidarExamination& seen)
+{
+  json result = {{"mode", seen.lidar.clock}, {"steps", json::array()}};
+  if (seen.epoch) result["epoch"] = toString(*seen.epoch);
+  if (seen.ahead_of_host) result["ahead_of_host_s"] = seconds(*seen.ahead_of_host);
+  if (seen.ahead_of_first) result["ahead_of_first_s"] = seconds(*seen.ahead_of_first);
+  if (seen.drift) result["drift"] = jsonOf(*seen.drift);
+  if (seen.drift_to_first) result["drift_to_first"] = jsonOf(*seen.drift_to_first);
+  for (const ClockStep& step : seen.steps)
+    result["steps"].push_back({{"at_ns", nanoseconds(step.at)}, {"size_s", seconds(step.size)}});
+  return result;
+}
+
+json jsonOf(const LidarExamination& seen)
+{
+  json result = {{"name", seen.name},           {"model", seen.lidar.model}, {"serial", seen.lidar.serial},
+                 {"malformed", seen.malformed}, {"bad_crc", seen.bad_crc},   {"delivery", jsonOf(seen.delivery)},
+                 {"flags", jsonOf(seen.flags)}, {"clock", clockOf(seen)}};
+  if (seen.jitter)
+    result["jitter"] = {{"p50_s", seconds(seen.jitter->p50)},
+                        {"p99_s", seconds(seen.jitter->p99)},
+                        {"largest_s", seconds(seen.jitter->largest)},
+                        {"late_share", seen.late_share}};
+  if (seen.phase)
+    result["rotor"] = {{"phase_at_start_s", seen.phase->at_start},
+                       {"phase_at_end_s", seen.phase->at_end},
+                       {"scatter_s", seen.phase->scatter},
+                       {"rate_error_ppm", seen.phase->rate_error_ppm},
+                       {"turn_s", seen.phase->turn}};
+  return result;
+}
+
+std::string keyOf(Verdict verdict)
+{
+  switch (verdict)
+  {
+    case Verdict::Ok:
+      return "ok";
+    case Verdict::NotMeasured:
+      return "not_measured";
+    case Verdict::Warning:
+      return "warning";
+    case Verdict::NotFit:
+      return "not_fit";
+  }
+  return "";
+}
+}  // namespace
+
+std::string toJson(const RigExamination& rig, const Findings& findings)
+{
+  json result = {{"verdict", keyOf(worstOf(findings))}, {"lidars", json::array()}, {"findings", json::array()}};
+  for (const LidarExamination& lidar : rig.lidars) result["lidars"].push_back(jsonOf(lidar));
+  for (const auto& [origin, datagrams] : rig.strangers)
+    result["strangers"].push_back(
+        {{"source", origin.source.text()}, {"port", origin.destination_port}, {"datagrams", datagrams}});
+  for (const Finding& f : findings)
+    result["findings"].push_back({{"about", f.about},
+                                  {"measure", f.measure},
+                                  {"verdict", keyOf(f.verdict)},
+                                  {"says", f.says},
+                                  {"mend", f.mend}});
+  return result.dump(2);
+}
+}  // namespace scanloom

@@ -1,0 +1,63 @@
+/** When `scanloom doctor` warns, and when it calls a rig not fit for SLAM. */
+#pragma once
+#include "core/Field.h"
+
+namespace scanloom
+{
+struct DeliveryLimits
+{
+  double rate_tolerance = 0.02;
+  double loss_warning = 0.001;
+  double loss_not_fit = 0.05;
+  double gap_not_fit = 0.5;
+  double damaged_warning = 0.001;
+  double invalid_warning = 0.02;
+  double invalid_not_fit = 0.5;
+  double late_not_fit = 0.01;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.rate_tolerance, Field{"rate_tolerance", "",
+                                  "packet rate off nominal by more warns: no motor is that far off", between(0, 1)});
+    visit(o.loss_warning,
+          Field{"loss_warning", "", "share of lost packets: a wired network loses none", between(0, 1)});
+    visit(o.loss_not_fit,
+          Field{"loss_not_fit", "", "share of lost packets: turns have holes of many degrees", between(0, 1)});
+    visit(o.gap_not_fit,
+          Field{"gap_not_fit", "s", "longest silence: registration must bridge so much motion", above(0)});
+    visit(o.damaged_warning,
+          Field{"damaged_warning", "", "share of packets of wrong size or CRC: cable or metadata", between(0, 1)});
+    visit(o.invalid_warning,
+          Field{"invalid_warning", "", "share of blocks that the sensor calls invalid", between(0, 1)});
+    visit(o.invalid_not_fit, Field{"invalid_not_fit", "", "the same: half of the turn is missing", between(0, 1)});
+    visit(o.late_not_fit,
+          Field{"late_not_fit", "", "share of packets that come after deadline_ms and are dropped", between(0, 1)});
+  }
+};
+
+struct ClockLimits
+{
+  double offset_warning_ms = 2;
+  double offset_not_fit_ms = 20;
+  double drift_warning_ppm = 5;
+  double drift_time = 5;
+  double step_ms = 1;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.offset_warning_ms,
+          Field{"offset_warning_ms", "ms",
+                "clock against the first lidar's: beyond what packet sizes and switches explain", above(0)});
+    visit(o.offset_not_fit_ms, Field{"offset_not_fit_ms", "ms",
+                                     "the same: at 30 deg/s two lidars see a stem at 10 m 10 cm apart", above(0)});
+    visit(o.drift_warning_ppm,
+          Field{"drift_warning_ppm", "ppm",
+                "clock rate against the first lidar's, if larger than three standard deviations: nobody disciplines it",
+                above(0)});
+    visit(o.drift_time, Field{"drift_time", "s", "no drift is told from less recording", above(0)});
+    visit(o.step_ms, Field{"step_ms", "ms", "a jump of stamps that no rotor makes is the clock's", above(0)});
+  }
+};
+}  // namespace scanloom

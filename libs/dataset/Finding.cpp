@@ -1,0 +1,78 @@
+#include "dataset/Finding.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kVerdictWidth = 9, kMeasureWidth = 15;
+constexpr std::size_t kIndent = 2 + kVerdictWidth + 1 + kMeasureWidth + 1;
+
+/** Breaks at spaces; every line but the first is indented. */
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width)
+{
+  std::string result;
+  std::size_t column = indent;
+  std::istringstream words(text);
+  for (std::string word; words >> word;)
+  {
+    const bool begins = result.empty();
+    if (!begins && column + 1 + word.size() > width)
+    {
+      result += '\n' + std::string(indent, ' ');
+      column = indent;
+    }
+    else if (!begins)
+    {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+  }
+  return result;
+}
+}  // namespace
+
+std::string toString(Verdict verdict)
+{
+  switch (verdict)
+  {
+    case Verdict::Ok:
+      return "ok";
+    case Verdict::NotMeasured:
+      return "-";
+    case Verdict::Warning:
+      return "warning";
+    case Verdict::NotFit:
+      return "NOT FIT";
+  }
+  return "";
+}
+
+Verdict worstOf(const Findings& findings)
+{
+  Verdict worst = Verdict::Ok;
+  for (const Finding& finding : findings) worst = std::max(worst, finding.verdict);
+  return worst;
+}
+
+std::string toText(const Findings& findings, std::size_t width)
+{
+  std::string text, about;
+  for (const Finding& finding : findings)
+  {
+    if (finding.about != about) text += (text.empty() ? "" : "\n") + finding.about + '\n';
+    about = finding.about;
+    text += fmt::format("  {:<{}} {:<{}} {}\n", toString(finding.verdict), kVerdictWidth, finding.measure,
+                        kMeasureWidth, wrapped(finding.says, kIndent, width));
+    if (!finding.mend.empty())
+      text += fmt::format("{}-> {}\n", std::string(kIndent, ' '), wrapped(finding.mend, kIndent + 3, width));
+  }
+  return text;
+}
+}  // namespace scanloom

@@ -1,0 +1,60 @@
+#include "dataset/PacketRuns.h"
+
+#include "batching/Sequencer.h"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace scanloom
+{
+namespace
+{
+constexpr int kTurnsThatReorderingSpans = 4;
+
+/** The value nearest to `newest` that equals `id` modulo `modulus`. */
+std::int64_t unwrap(std::uint32_t id, std::int64_t newest, std::int64_t modulus)
+{
+  std::int64_t ahead = (static_cast<std::int64_t>(id) - newest) % modulus;
+  if (ahead < -modulus / 2) ahead += modulus;
+  if (ahead >= modulus / 2) ahead -= modulus;
+  return newest + ahead;
+}
+
+/** Whether the stamps tell of as many turns as the ids do: a cable was out, but the lidar went on. */
+bool stampsAgree(const PacketTrace& before, const PacketTrace& after, double turns, const LidarDescription& lidar)
+{
+  if (!before.stamp || !after.stamp || turns < 0) return false;
+  const double measured = seconds(*after.stamp - *before.stamp) * lidar.frame_rate;
+  return std::abs(measured - turns) < 1 + 0.01 * turns;
+}
+}  // namespace
+
+std::vector<PacketRun> packetRuns(const std::vector<PacketTrace>& traces, const LidarDescription& lidar)
+{
+  const PacketNumbering numbering(lidar);
+  const auto modulus = static_cast<std::int64_t>(lidar.frame_id_modulus);
+  const std::int64_t columns = lidar.columns_per_frame, most = kTurnsThatReorderingSpans * columns;
+
+  std::vector<PacketRun> runs;
+  NumberedPacket newest;
+  for (const PacketTrace& trace : traces)
+  {
+    const bool first = runs.empty();
+    const std::int64_t frame = first ? trace.frame_id : unwrap(trace.frame_id, newest.block / columns, modulus);
+    NumberedPacket packet{frame * columns + trace.measurement_id, 0, &trace};
+    const std::int64_t jump = packet.block - newest.block;
+    const bool started_again =
+        !first &&
+        (trace.init_id != newest.trace->init_id ||
+         (std::abs(jump) > most &&
+          !stampsAgree(*newest.trace, trace, static_cast<double>(jump) / static_cast<double>(columns), lidar)));
+    if (started_again) packet.block = static_cast<std::int64_t>(trace.frame_id) * columns + trace.measurement_id;
+    if (first || started_again) runs.emplace_back();
+    packet.packet = numbering.sentBefore(packet.block / columns * numbering.packetsPerTurn() +
+                                         trace.measurement_id / lidar.columns_per_packet);
+    if (runs.back().empty() || packet.block > newest.block) newest = packet;
+    runs.back().push_back(packet);
+  }
+  return runs;
+}
+}  // namespace scanloom

@@ -1,0 +1,74 @@
+#include "dataset/RigEvidence.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+std::vector<RoutedLidar> routesOf(const Rig& rig)
+{
+  std::vector<RoutedLidar> routes;
+  for (std::size_t i = 0; i < rig.lidars.size(); ++i)
+    routes.push_back({rig.lidars[i].name, rig.addresses[i], rig.lidars[i].decoder.get()});
+  return routes;
+}
+}  // namespace
+
+RigListener::RigListener(const Rig& rig, bool poses_known)
+  : lidars_(rig.lidars), addresses_(rig.addresses), router_(routesOf(rig))
+{
+  for (const BatchedLidar& lidar : lidars_)
+  {
+    LidarEvidence evidence;
+    evidence.name = lidar.name;
+    evidence.lidar = lidar.decoder->description();
+    evidence_.lidars.push_back(std::move(evidence));
+  }
+  evidence_.poses_known = poses_known;
+  evidence_.body_imu = rig.body_imu;
+  evidence_.body_T_imu = rig.body_T_imu;
+  evidence_.deadline = fromSeconds(1e-3 * rig.batcher.deadline_ms);
+}
+
+void RigListener::add(const Datagram& datagram)
+{
+  const std::optional<Routed> routed = router_.route(datagram);
+  if (!routed) return;
+  const BatchedLidar& lidar = lidars_[routed->lidar];
+  LidarEvidence& evidence = evidence_.lidars[routed->lidar];
+  switch (routed->kind)
+  {
+    case PacketKind::Lidar:
+      evidence.packets.push_back(traceOf(*lidar.decoder, datagram.payload, datagram.received, blocks_));
+      if (auto& stamp = evidence.packets.back().stamp) *stamp += lidar.time_offset;
+      break;
+    case PacketKind::Imu:
+      for (ImuSample& sample : lidar.decoder->imuSamples(datagram.payload))
+      {
+        sample.stamp += lidar.time_offset;
+        evidence.imu.push_back(sample);
+      }
+      break;
+    case PacketKind::Malformed:
+      ++evidence.malformed;
+      break;
+    case PacketKind::BadCrc:
+      ++evidence.bad_crc;
+      break;
+    case PacketKind::Other:
+    case PacketKind::Foreign:
+      break;
+  }
+}
+
+RigEvidence RigListener::finish()
+{
+  for (const auto& [origin, datagrams] : router_.unmatched())
+    if (std::any_of(addresses_.begin(), addresses_.end(),
+                    [port = origin.destination_port](const LidarAddress& address)
+                    { return port == address.lidar_port || port == address.imu_port; }))
+      evidence_.strangers[origin] = datagrams;
+  return std::move(evidence_);
+}
+}  // namespace scanloom

@@ -1,0 +1,50 @@
+/** What a rig's datagrams tell, kept as far as the measures of `scanloom doctor` need it. */
+#pragma once
+#include "dataset/PacketTrace.h"
+#include "source/Rig.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+struct LidarEvidence
+{
+  std::string name;
+  LidarDescription lidar;
+  std::vector<PacketTrace> packets;  // in the order of arrival
+  std::uint64_t malformed = 0, bad_crc = 0;
+  std::vector<ImuSample> imu;  // of the built-in one, in its own frame
+};
+
+struct RigEvidence
+{
+  std::vector<LidarEvidence> lidars;
+  std::map<Origin, std::uint64_t> strangers;  // datagrams that are no lidar's, though they came to our ports
+  bool poses_known = false;                   // else every sensor frame is taken for the body's
+  std::vector<ImuSample> body_imu;            // empty if there is none
+  Rigid body_T_imu;
+  Duration deadline{0};  // that the batcher is configured with
+};
+
+/** Listens to a rig: datagrams in the order of arrival, from a capture or live; 56 bytes stay of each lidar packet. */
+class RigListener
+{
+ public:
+  /** Time offsets of the configuration are applied as the batcher does. Throws what PacketRouter throws. */
+  RigListener(const Rig&, bool poses_known);
+
+  /** Throws what PacketRouter::route throws. */
+  void add(const Datagram&);
+
+  RigEvidence finish();
+
+ private:
+  std::vector<BatchedLidar> lidars_;
+  std::vector<LidarAddress> addresses_;
+  PacketRouter router_;
+  std::vector<MeasurementBlock> blocks_;
+  RigEvidence evidence_;
+};
+}  // namespace scanloom

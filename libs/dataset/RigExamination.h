@@ -1,0 +1,46 @@
+/** Every measure of `scanloom doctor`, taken on one rig. */
+#pragma once
+#include "dataset/ClockDrift.h"
+#include "dataset/ClockKind.h"
+#include "dataset/Delivery.h"
+#include "dataset/DoctorLimits.h"
+#include "dataset/RigEvidence.h"
+#include "dataset/RotorPhase.h"
+#include "dataset/SensorFlags.h"
+
+namespace scanloom
+{
+struct LidarExamination
+{
+  std::string name;
+  LidarDescription lidar;
+  Delivery delivery;
+  std::uint64_t malformed = 0, bad_crc = 0;
+  SensorFlags flags;
+
+  std::optional<Epoch> epoch;
+  std::vector<ClockStep> steps;
+  std::optional<ArrivalJitter> jitter;
+  double late_share = 0;                   // of packets, beyond the configured deadline
+  std::optional<ClockDrift> drift;         // against the recording computer
+  std::optional<Duration> ahead_of_host;   // the clock, by its fastest packets of the last 2 s
+  std::optional<Duration> ahead_of_first;  // against the first lidar's; not of the first itself
+  std::optional<ClockDrift> drift_to_first;
+  std::optional<RotorPhase> phase;
+};
+
+struct RigExamination
+{
+  std::vector<LidarExamination> lidars;
+  std::map<Origin, std::uint64_t> strangers;
+  Duration deadline{0};
+};
+
+struct DoctorLimits
+{
+  DeliveryLimits delivery;
+  ClockLimits clocks;
+};
+
+RigExamination examine(const RigEvidence&, const DoctorLimits&);
+}  // namespace scanloom
