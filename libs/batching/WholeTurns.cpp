@@ -28,14 +28,55 @@ WholeTurns::WholeTurns(std::vector<BatchedLidar> lidars, TurnGrouping grouping)
   if (inputs_.empty() || inputs_.size() > 256)
     throw std::invalid_argument(fmt::format("{} lidars: 1 to 256 can be batched", inputs_.size()));
   for (LidarIndex i = 0; i < inputs_.size(); ++i)
-    lidars_.push_back({{inputs_[i].decoder, inputs_[i].time_offset, static_cast<std::uint8_t>(i)}, {}, {}, {}});
+  {
+    const LidarDescription& description = inputs_[i].decoder->description();
+    const auto make = description.numbering == Numbering::Ids ? makeFrameIdTurns : makeAzimuthTurns;
+    lidars_.push_back({make(inputs_[i].decoder, inputs_[i].time_offset, static_cast<std::uint8_t>(i)),
+                       fromSeconds(1 / description.frame_rate),
+                       {},
+                       {},
+                       {}});
+  }
 }
 
-std::vector<Scan> WholeTurns::push(LidarIndex index, Bytes packet, Timestamp)
+std::vector<Scan> WholeTurns::push(LidarIndex index, Bytes packet, Timestamp received)
 {
+  Lidar& lidar = lidars_[index];
   std::vector<Scan> scans;
-  for (Turn& turn : lidars_[index].collector.push(packet, lidars_[index].counters)) add(index, std::move(turn), scans);
+  if (!accepts(index, packet)) return scans;
+  for (Turn& turn : lidar.turns->push(packet, blocks_, received, lidar.counters)) add(index, std::move(turn), scans);
   return scans;
+}
+
+/** Whether it is a lidar packet with blocks, which then are in hand; if not, it is counted for what it is. */
+bool WholeTurns::accepts(LidarIndex index, Bytes packet)
+{
+  const PacketDecoder& decoder = *inputs_[index].decoder;
+  LidarCounters& count = lidars_[index].counters;
+  switch (decoder.kind(packet))
+  {
+    case PacketKind::Lidar:
+      break;
+    case PacketKind::Malformed:
+      ++count.malformed_packets;
+      return false;
+    case PacketKind::BadCrc:
+      ++count.bad_crc_packets;
+      return false;
+    case PacketKind::Foreign:
+      ++count.foreign_packets;
+      return false;
+    case PacketKind::Imu:
+    case PacketKind::Other:
+      ++count.other_packets;
+      return false;
+  }
+  decoder.readBlocks(packet, blocks_);
+  if (blocks_.empty()) return false;
+  ++count.packets;
+  count.received += blocks_.size();
+  for (const MeasurementBlock& block : blocks_) count.invalid += !block.valid;
+  return true;
 }
 
 std::vector<Scan> WholeTurns::finish()
@@ -43,7 +84,7 @@ std::vector<Scan> WholeTurns::finish()
   finished_ = true;
   std::vector<Scan> scans;
   for (LidarIndex i = 0; i < lidars_.size(); ++i)
-    for (Turn& turn : lidars_[i].collector.finish(lidars_[i].counters)) add(i, std::move(turn), scans);
+    for (Turn& turn : lidars_[i].turns->finish(lidars_[i].counters)) add(i, std::move(turn), scans);
   if (grouping_ == TurnGrouping::Nearest)
     releaseNearest(scans);
   else
@@ -83,8 +124,8 @@ bool WholeTurns::isChoiceCertain(const Lidar& lidar, const Turn& reference) cons
   if (!lidar.newest_turn_began) return false;
   if (!lidar.waiting.empty() && lidar.waiting.back().middle() >= reference.middle()) return true;
 
-  const Duration period = lidar.collector.period();
-  const Timestamp next_begins = lidar.collector.underWaySince().value_or(*lidar.newest_turn_began + period);
+  const Duration period = lidar.period;
+  const Timestamp next_begins = lidar.turns->underWaySince().value_or(*lidar.newest_turn_began + period);
   const Duration next_distance = next_begins + period / 2 - reference.middle();
   return !lidar.waiting.empty() && next_distance >= distance(lidar.waiting.back(), reference);
 }
@@ -106,7 +147,7 @@ WholeTurns::ChosenTurns WholeTurns::chooseNearest()
     const auto nearest =
         std::min_element(lidar.waiting.begin(), lidar.waiting.end(),
                          [&](const Turn& a, const Turn& b) { return distance(a, reference) < distance(b, reference); });
-    const Duration longest = std::max(lidar.collector.period(), lidars_[0].collector.period());
+    const Duration longest = std::max(lidar.period, lidars_[0].period);
     const bool near =
         nearest != lidar.waiting.end() && seconds(distance(*nearest, reference)) <= kNearestAtMost * seconds(longest);
     const Timestamp older_than = near ? nearest->middle() : reference.middle();
@@ -181,10 +222,10 @@ std::optional<Timestamp> WholeTurns::horizon() const
   for (LidarIndex i = 0; i < lidars_.size(); ++i)
   {
     const Lidar& lidar = lidars_[i];
-    const std::optional<Timestamp> under_way = lidar.collector.underWaySince();
+    const std::optional<Timestamp> under_way = lidar.turns->underWaySince();
     if (!under_way && !lidar.newest_turn_began) continue;
     newest = std::max(newest, under_way.value_or(lidar.heard_until));
-    longest = std::max(longest, lidar.collector.period());
+    longest = std::max(longest, lidar.period);
     oldest = std::min(oldest, under_way.value_or(lidar.heard_until));
     if (!lidar.waiting.empty()) oldest = std::min(oldest, lidar.waiting.front().first);
     if (set_[i]) oldest = std::min(oldest, set_[i]->first);

@@ -8,6 +8,7 @@
 #include "batching/TurnCollector.h"
 
 #include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -66,7 +67,8 @@ class WholeTurns
  private:
   struct Lidar
   {
-    TurnCollector collector;
+    std::unique_ptr<TurnCollector> turns;
+    Duration period;  // nominal, of a turn
     LidarCounters counters;
     std::deque<Turn> waiting;                    // oldest first
     std::optional<Timestamp> newest_turn_began;  // given out or waiting
@@ -74,6 +76,7 @@ class WholeTurns
   };
   using ChosenTurns = std::vector<std::optional<Turn>>;  // by lidar
 
+  bool accepts(LidarIndex, Bytes packet);
   void add(LidarIndex, Turn, std::vector<Scan>&);
   void releaseNearest(std::vector<Scan>&);
   bool isChoiceCertain(const Lidar&, const Turn& reference) const;
@@ -86,8 +89,9 @@ class WholeTurns
   std::vector<BatchedLidar> inputs_;
   TurnGrouping grouping_;
   std::vector<Lidar> lidars_;
-  ChosenTurns set_;                     // OneOfEach: under collection
-  std::optional<Timestamp> set_began_;  // OneOfEach: end of its first turn
+  ChosenTurns set_;                       // OneOfEach: under collection
+  std::optional<Timestamp> set_began_;    // OneOfEach: end of its first turn
+  std::vector<MeasurementBlock> blocks_;  // of the packet in hand; kept for its memory
   bool finished_ = false;
 };
 }  // namespace scanloom

@@ -76,6 +76,36 @@ void expectAccountsAreClosed(const WholeTurns& batcher)
 }
 
 constexpr int kPacketsPerTurn = 8;
+
+/** Packets without frame ids whose stamps count modulo one second. */
+class StampedLidar : public FakeLidar
+{
+ public:
+  explicit StampedLidar(const FakeLidarOptions& options = {})
+    : FakeLidar(options), description_(FakeLidar::description())
+  {
+    description_.numbering = Numbering::Stamps;
+    description_.stamp_modulus = 1s;
+  }
+  const LidarDescription& description() const override { return description_; }
+  void readBlocks(Bytes packet, std::vector<MeasurementBlock>& blocks) const override
+  {
+    FakeLidar::readBlocks(packet, blocks);
+    for (MeasurementBlock& block : blocks)
+    {
+      block.stamp = Timestamp{block.stamp.time_since_epoch() % 1s};
+      block.frame_id = 0;
+    }
+  }
+
+ private:
+  LidarDescription description_;
+};
+
+WholeTurns stampedLidar(const FakeLidarOptions& options = {})
+{
+  return WholeTurns({{"lidar", std::make_shared<StampedLidar>(options)}});
+}
 }  // namespace
 
 TEST(WholeTurns, aTurnOfOneLidarIsOutWithItsLastPacket)
@@ -260,6 +290,89 @@ TEST(WholeTurns, ofALidarTwiceAsFastEverySecondTurnIsDropped)
   EXPECT_EQ(batcher.counters(0).dropped, 0u);
   EXPECT_EQ(batcher.counters(1).emitted, 10u * 64);
   EXPECT_EQ(batcher.counters(1).dropped, 10u * 64);
+}
+
+TEST(WholeTurns, withoutFrameIdsATurnIsOutWhenTheAzimuthComesRound)
+{
+  WholeTurns batcher = stampedLidar();
+  const auto arrivals = turning({950ms}, 4);
+  const auto released = feed(batcher, arrivals);
+
+  ASSERT_EQ(released.size(), 4u);
+  EXPECT_EQ(released[1].at, arrivals[2 * kPacketsPerTurn].received);
+  EXPECT_EQ(released[1].scan.start, Timestamp{1050ms});
+  EXPECT_EQ(released[1].scan.columns.size(), 64u);
+  EXPECT_FALSE(released[0].scan.complete);  // it may have begun before we listened
+  EXPECT_TRUE(released[1].scan.complete);
+  EXPECT_FALSE(released[3].scan.complete);  // cut
+  EXPECT_EQ(batcher.counters(0).lost, 0u);
+}
+
+TEST(WholeTurns, withoutFrameIdsAGapInTheStampsIsLoss)
+{
+  WholeTurns batcher = stampedLidar();
+  auto arrivals = turning({0ms}, 4);
+  arrivals.erase(arrivals.begin() + kPacketsPerTurn + 3);
+  const auto released = feed(batcher, arrivals);
+
+  ASSERT_EQ(released.size(), 4u);
+  EXPECT_FALSE(released[1].scan.complete);
+  EXPECT_TRUE(released[2].scan.complete);
+  EXPECT_EQ(batcher.counters(0).lost, 8u);
+}
+
+TEST(WholeTurns, withoutFrameIdsAnAzimuthWindowIsNoLoss)
+{
+  FakeLidarOptions window;
+  window.first_column = 20;
+  window.last_column = 35;
+  WholeTurns batcher = stampedLidar(window);
+  const auto released = feed(batcher, turning({0ms}, 4, window));
+
+  ASSERT_EQ(released.size(), 4u);
+  EXPECT_EQ(released[2].scan.columns.size(), 16u);
+  EXPECT_EQ(batcher.counters(0).lost, 0u);
+}
+
+TEST(WholeTurns, withoutFrameIdsWhatIsNotLaterThanTheNewestIsLate)
+{
+  WholeTurns batcher = stampedLidar();
+  auto arrivals = turning({0ms}, 4);
+  arrivals.insert(arrivals.begin() + 12, arrivals[11]);
+  std::swap(arrivals[20], arrivals[21]);
+  feed(batcher, arrivals);
+
+  EXPECT_EQ(batcher.counters(0).late, 16u);
+  EXPECT_EQ(batcher.counters(0).lost, 8u);
+  expectAccountsAreClosed(batcher);
+}
+
+TEST(WholeTurns, withoutFrameIdsAJumpOfTheStampsIsARestart)
+{
+  WholeTurns batcher = stampedLidar();
+  auto arrivals = turning({450ms}, 2);
+  for (Arrival& later : turning({2100ms}, 2))  // five turns from where they should be, modulo a second
+    arrivals.push_back(later);
+  const auto released = feed(batcher, arrivals);
+
+  ASSERT_EQ(released.size(), 4u);
+  EXPECT_EQ(released[2].scan.start, Timestamp{2100ms});
+  EXPECT_EQ(batcher.counters(0).restarts, 1u);
+  EXPECT_EQ(batcher.counters(0).late, 0u);
+}
+
+TEST(WholeTurns, aRotorThatStandsStillMakesNoEndlessTurn)
+{
+  WholeTurns batcher = stampedLidar();
+  std::size_t longest = 0;
+  for (Arrival& arrival : turning({0ms}, 30))
+  {
+    for (std::size_t at = 12; at < arrival.packet.size(); at += FakeLidar::kBlockSize)
+      store<std::uint16_t>(arrival.packet, at, 7);
+    for (const Scan& scan : batcher.push(0, arrival.packet, arrival.received))
+      longest = std::max(longest, scan.columns.size());
+  }
+  EXPECT_EQ(longest, 2u * 64 + 1);
 }
 
 TEST(WholeTurns, aLidarThatStartsAgainBeginsAnotherTurn)

@@ -1,0 +1,136 @@
+#include "batching/TurnCollector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+// A lidar whose rotor stands still never comes round: this many nominal turns are one.
+constexpr int kLongestTurn = 2;
+
+// More turns than this are never reordered, and hardly lost.
+constexpr int kTurnsRemembered = 4;
+
+// The edges of a window are rounded to columns.
+constexpr std::int64_t kWindowTolerance = 2;
+
+class AzimuthTurns : public TurnCollector
+{
+ public:
+  AzimuthTurns(std::shared_ptr<const PacketDecoder> decoder, Duration time_offset, std::uint8_t sensor_id)
+    : decoder_(std::move(decoder)), time_offset_(time_offset), sensor_id_(sensor_id)
+  {
+  }
+
+  std::vector<Turn> push(Bytes packet, const std::vector<MeasurementBlock>& blocks, Timestamp received,
+                         LidarCounters& count) override
+  {
+    std::vector<Turn> over;
+    for (MeasurementBlock block : blocks)
+    {
+      if (!block.valid) continue;
+      restartAfterJump(block.stamp, received, over, count);
+      block.stamp = unwrapped(block.stamp, received);
+      if (newest_ && block.stamp <= newest_->stamp)
+      {
+        ++count.late;
+        continue;
+      }
+      const std::uint64_t missing = newest_ ? missingBefore(block) : 0;
+      count.lost += missing;
+      if (!newest_) turn_.whole = false;  // who knows what went out before we listened
+      if (newest_ && isNextTurn(block)) giveOut(missing == 0, over);
+      turn_.whole = turn_.whole && missing == 0;
+      turn_.add(*decoder_, packet, block, sensor_id_);
+      newest_ = block;
+    }
+    return over;
+  }
+
+  std::vector<Turn> finish(LidarCounters&) override
+  {
+    std::vector<Turn> over;
+    if (!turn_.columns.empty()) giveOut(false, over);
+    return over;
+  }
+
+  std::optional<Timestamp> underWaySince() const override
+  {
+    if (turn_.columns.empty()) return std::nullopt;
+    return turn_.first;
+  }
+
+ private:
+  const LidarDescription& lidar() const { return decoder_->description(); }
+
+  /** A stamp many turns away from the newest is of another clock: the lidar has started again. */
+  void restartAfterJump(Timestamp raw_stamp, Timestamp received, std::vector<Turn>& over, LidarCounters& count)
+  {
+    if (!newest_) return;
+    const Duration jump = std::chrono::abs(unwrapped(raw_stamp, received) - newest_->stamp);
+    if (seconds(jump) * lidar().frame_rate <= kTurnsRemembered) return;
+    ++count.restarts;
+    newest_.reset();
+    if (!turn_.columns.empty()) giveOut(false, over);
+  }
+
+  Timestamp unwrapped(Timestamp stamp, Timestamp received) const
+  {
+    stamp += time_offset_;
+    const Duration modulus = lidar().stamp_modulus;
+    if (modulus == Duration{0}) return stamp;
+    const Duration away = (newest_ ? newest_->stamp : received) - stamp;
+    return stamp + std::llround(seconds(away) / seconds(modulus)) * modulus;
+  }
+
+  /** How many blocks have room between the newest and this one, those outside of the azimuth window apart. */
+  std::uint64_t missingBefore(const MeasurementBlock& block) const
+  {
+    const double periods = seconds(block.stamp - newest_->stamp) / seconds(lidar().blockPeriod());
+    const std::int64_t missing = std::llround(periods) - 1;
+    if (missing <= 0) return 0;
+    std::int64_t outside = 0;
+    const int columns = lidar().columns_per_frame;
+    for (int id = (newest_->measurement_id + 1) % columns; id != block.measurement_id; id = (id + 1) % columns)
+      outside += !inWindow(id);
+    const std::int64_t tolerance = outside > 0 ? kWindowTolerance : 0;
+    return static_cast<std::uint64_t>(missing <= outside + tolerance ? 0 : missing - outside);
+  }
+
+  bool inWindow(int id) const
+  {
+    const int first = lidar().first_column, last = lidar().last_column;
+    return first <= last ? id >= first && id <= last : id >= first || id <= last;
+  }
+
+  bool isNextTurn(const MeasurementBlock& block) const
+  {
+    const bool zero_in_window = lidar().first_column > lidar().last_column;
+    const int ids = zero_in_window ? lidar().columns_per_frame : lidar().last_column - lidar().first_column + 1;
+    return newest_->measurement_id - block.measurement_id > ids / 2 ||
+           seconds(block.stamp - turn_.first) * lidar().frame_rate > kLongestTurn;
+  }
+
+  void giveOut(bool ended, std::vector<Turn>& over)
+  {
+    turn_.whole = turn_.whole && ended;
+    over.push_back(std::move(turn_));
+    turn_ = Turn{};
+  }
+
+  std::shared_ptr<const PacketDecoder> decoder_;
+  Duration time_offset_;
+  std::uint8_t sensor_id_;
+  std::optional<MeasurementBlock> newest_;
+  Turn turn_;  // under way, if it has columns
+};
+}  // namespace
+
+std::unique_ptr<TurnCollector> makeAzimuthTurns(std::shared_ptr<const PacketDecoder> decoder, Duration time_offset,
+                                                std::uint8_t sensor_id)
+{
+  return std::make_unique<AzimuthTurns>(std::move(decoder), time_offset, sensor_id);
+}
+}  // namespace scanloom
