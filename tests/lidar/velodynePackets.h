@@ -69,4 +69,17 @@ inline PointCloud pointsOf(const PacketDecoder& decoder, Bytes packet, std::size
   decoder.appendPoints(packet, block, 0, 0, points);
   return points;
 }
+
+/** What a sensor sees in these packets, in its own frame. */
+inline std::vector<Eigen::Vector3f> everyPoint(const VelodyneDecoder& decoder,
+                                               const std::vector<std::vector<std::uint8_t>>& packets)
+{
+  PointCloud cloud;
+  for (const auto& packet : packets)
+    for (const MeasurementBlock& block : blocksOf(decoder, packet))
+      decoder.appendPoints(packet, block.index, 0, 0, cloud);
+  std::vector<Eigen::Vector3f> points;
+  for (std::size_t i = 0; i < cloud.size(); ++i) points.push_back(cloud.position(i));
+  return points;
+}
 }  // namespace scanloom

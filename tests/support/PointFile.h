@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -67,6 +68,25 @@ inline std::vector<Eigen::Vector3f> readPcd(const std::filesystem::path& path)
   std::vector<Eigen::Vector3f> cloud(points);
   for (std::size_t i = 0; i < points; ++i)
     for (std::size_t axis = 0; axis < 3; ++axis) std::memcpy(&cloud[i][axis], &bytes.at((axis * points + i) * 4), 4);
+  return cloud;
+}
+
+/** Uncompressed binary PCD whose first three fields are float x, y, z: stored point by point. */
+inline std::vector<Eigen::Vector3f> readPlainPcd(const std::filesystem::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::size_t points = 0, bytes_of_point = 0;
+  for (std::string line; std::getline(file, line) && line != "DATA binary";)
+  {
+    if (line.rfind("POINTS ", 0) == 0) points = std::stoul(line.substr(7));
+    std::istringstream sizes(line.rfind("SIZE ", 0) == 0 ? line.substr(5) : "");
+    for (std::size_t size = 0; sizes >> size;) bytes_of_point += size;
+  }
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (bytes.size() < points * bytes_of_point || bytes_of_point < sizeof(Eigen::Vector3f))
+    throw std::runtime_error(path.string() + ": shorter than its header says");
+  std::vector<Eigen::Vector3f> cloud(points);
+  for (std::size_t i = 0; i < points; ++i) std::memcpy(cloud[i].data(), &bytes[i * bytes_of_point], sizeof cloud[i]);
   return cloud;
 }
 }  // namespace scanloom
