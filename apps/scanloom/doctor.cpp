@@ -35,6 +35,7 @@ struct DoctorSettings : DoctorLimits
     const std::string meaning = "when doctor warns, and when it calls a rig not fit for SLAM (share: 0 to 1)";
     visit(s.delivery, Section{"doctor", meaning});
     visit(s.clocks, Section{"doctor", meaning});
+    visit(s.imu, Section{"doctor", meaning});
   }
 };
 

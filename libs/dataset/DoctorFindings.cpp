@@ -26,6 +26,7 @@ Findings findingsOf(const RigExamination& rig, const DoctorLimits& limits)
     if (rig.lidars[i].jitter) findings.push_back(jitterFinding(rig.lidars[i], rig.deadline, limits.delivery));
     append(findings, clockFindings(rig, i, limits.clocks));
   }
+  for (std::size_t i = 0; i < rig.imus.size(); ++i) append(findings, imuFindings(rig, i, limits.imu));
   for (const auto& [origin, datagrams] : rig.strangers) findings.push_back(strangersFinding(origin, datagrams));
   return findings;
 }

@@ -11,5 +11,6 @@ Findings findingsOf(const RigExamination&, const DoctorLimits&);
 // The parts of it.
 Findings deliveryFindings(const LidarExamination&, const DeliveryLimits&);
 Findings clockFindings(const RigExamination&, std::size_t lidar, const ClockLimits&);
+Findings imuFindings(const RigExamination&, std::size_t imu, const ImuLimits&);
 Finding jitterFinding(const LidarExamination&, Duration deadline, const DeliveryLimits&);
 }  // namespace scanloom

@@ -75,6 +75,32 @@ json jsonOf(const LidarExamination& seen)
   return result;
 }
 
+json jsonOf(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+json jsonOf(const ImuExamination& imu)
+{
+  const ImuTiming& t = imu.timing;
+  json result = {{"name", imu.name},
+                 {"samples", t.samples},
+                 {"gaps", t.gaps},
+                 {"lost", t.lost},
+                 {"longest_gap_s", seconds(t.longest_gap)},
+                 {"backwards", t.backwards},
+                 {"mean_force_in_body", jsonOf(imu.force_in_body)},
+                 {"tilt_deg", degreesBetween(imu.force_in_body, Eigen::Vector3d::UnitZ())}};
+  if (t.rate) result["rate_hz"] = *t.rate;
+  if (imu.lidar_share) result["lidar_time_covered"] = *imu.lidar_share;
+  if (imu.gyro_scale)
+    result["gyro_scale"] = {
+        {"scale", imu.gyro_scale->scale}, {"sigma", imu.gyro_scale->sigma}, {"tilt_rate", imu.gyro_scale->tilt_rate}};
+  if (imu.to_first)
+    result["gyro_to_first"] = {{"rotation_rad", jsonOf(imu.to_first->rotation)},
+                               {"sigma_rad", imu.to_first->sigma},
+                               {"scale", imu.to_first->scale},
+                               {"lag_s", seconds(imu.to_first->lag)}};
+  return result;
+}
+
 std::string keyOf(Verdict verdict)
 {
   switch (verdict)
@@ -96,6 +122,8 @@ std::string toJson(const RigExamination& rig, const Findings& findings)
 {
   json result = {{"verdict", keyOf(worstOf(findings))}, {"lidars", json::array()}, {"findings", json::array()}};
   for (const LidarExamination& lidar : rig.lidars) result["lidars"].push_back(jsonOf(lidar));
+  result["imus"] = json::array();
+  for (const ImuExamination& imu : rig.imus) result["imus"].push_back(jsonOf(imu));
   for (const auto& [origin, datagrams] : rig.strangers)
     result["strangers"].push_back(
         {{"source", origin.source.text()}, {"port", origin.destination_port}, {"datagrams", datagrams}});

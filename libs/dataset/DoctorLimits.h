@@ -60,4 +60,40 @@ struct ClockLimits
     visit(o.step_ms, Field{"step_ms", "ms", "a jump of stamps that no rotor makes is the clock's", above(0)});
   }
 };
+
+struct ImuLimits
+{
+  double gravity_warning = 0.5;
+  double tilt_warning_deg = 15;
+  double tilt_not_fit_deg = 45;
+  double gyro_scale_factor = 2;
+  double gyro_angle_warning_deg = 3;
+  double gyro_angle_not_fit_deg = 15;
+  double imu_lag_warning_ms = 20;
+  double imu_gap_not_fit = 0.5;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.gravity_warning,
+          Field{"gravity_warning", "m/s2", "mean specific force off 9.81: ten times the bias of a good accelerometer",
+                above(0)});
+    visit(o.tilt_warning_deg,
+          Field{"tilt_warning_deg", "deg", "up against the body's z: steeper than most forest roads", above(0)});
+    visit(o.tilt_not_fit_deg, Field{"tilt_not_fit_deg", "deg", "the same: no machine stands like that", above(0)});
+    visit(o.gyro_scale_factor,
+          Field{"gyro_scale_factor", "",
+                "gravity turns so many times more or less than the gyroscope tells, beyond three standard deviations: "
+                "no calibration is that wrong, a unit is",
+                above(1)});
+    visit(o.gyro_angle_warning_deg,
+          Field{"gyro_angle_warning_deg", "deg", "between two IMUs on one body: more than a bracket is off", above(0)});
+    visit(o.gyro_angle_not_fit_deg, Field{"gyro_angle_not_fit_deg", "deg",
+                                          "the same: deskewing with that IMU turns scans the wrong way", above(0)});
+    visit(o.imu_lag_warning_ms,
+          Field{"imu_lag_warning_ms", "ms", "between two IMUs: at 30 deg/s an attitude error of 0.6 deg", above(0)});
+    visit(o.imu_gap_not_fit,
+          Field{"imu_gap_not_fit", "s", "longest gap: the motion of several scans is unknown", above(0)});
+  }
+};
 }  // namespace scanloom

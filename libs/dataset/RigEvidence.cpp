@@ -18,16 +18,14 @@ std::vector<RoutedLidar> routesOf(const Rig& rig)
 RigListener::RigListener(const Rig& rig, bool poses_known)
   : lidars_(rig.lidars), addresses_(rig.addresses), router_(routesOf(rig))
 {
+  evidence_.imus.push_back({"imu", rig.body_imu, rig.body_T_imu});
   for (const BatchedLidar& lidar : lidars_)
   {
-    LidarEvidence evidence;
-    evidence.name = lidar.name;
-    evidence.lidar = lidar.decoder->description();
-    evidence_.lidars.push_back(std::move(evidence));
+    const LidarDescription& description = lidar.decoder->description();
+    evidence_.lidars.push_back({lidar.name, description, {}, 0, 0});
+    evidence_.imus.push_back({"imu_" + lidar.name, {}, description.body_T_sensor * description.sensor_T_imu});
   }
   evidence_.poses_known = poses_known;
-  evidence_.body_imu = rig.body_imu;
-  evidence_.body_T_imu = rig.body_T_imu;
   evidence_.deadline = fromSeconds(1e-3 * rig.batcher.deadline_ms);
 }
 
@@ -47,7 +45,7 @@ void RigListener::add(const Datagram& datagram)
       for (ImuSample& sample : lidar.decoder->imuSamples(datagram.payload))
       {
         sample.stamp += lidar.time_offset;
-        evidence.imu.push_back(sample);
+        evidence_.imus[1 + routed->lidar].samples.push_back(sample);
       }
       break;
     case PacketKind::Malformed:
@@ -69,6 +67,9 @@ RigEvidence RigListener::finish()
                     [port = origin.destination_port](const LidarAddress& address)
                     { return port == address.lidar_port || port == address.imu_port; }))
       evidence_.strangers[origin] = datagrams;
+  auto& imus = evidence_.imus;
+  imus.erase(std::remove_if(imus.begin(), imus.end(), [](const ImuEvidence& imu) { return imu.samples.empty(); }),
+             imus.end());
   return std::move(evidence_);
 }
 }  // namespace scanloom

@@ -15,7 +15,13 @@ struct LidarEvidence
   LidarDescription lidar;
   std::vector<PacketTrace> packets;  // in the order of arrival
   std::uint64_t malformed = 0, bad_crc = 0;
-  std::vector<ImuSample> imu;  // of the built-in one, in its own frame
+};
+
+struct ImuEvidence
+{
+  std::string name;  // "imu" on the body, "imu_left" in the lidar 'left'
+  std::vector<ImuSample> samples;
+  Rigid body_T_imu;
 };
 
 struct RigEvidence
@@ -23,9 +29,8 @@ struct RigEvidence
   std::vector<LidarEvidence> lidars;
   std::map<Origin, std::uint64_t> strangers;  // datagrams that are no lidar's, though they came to our ports
   bool poses_known = false;                   // else every sensor frame is taken for the body's
-  std::vector<ImuSample> body_imu;            // empty if there is none
-  Rigid body_T_imu;
-  Duration deadline{0};  // that the batcher is configured with
+  std::vector<ImuEvidence> imus;              // those of which samples came, the body's first
+  Duration deadline{0};                       // that the batcher is configured with
 };
 
 /** Listens to a rig: datagrams in the order of arrival, from a capture or live; 56 bytes stay of each lidar packet. */

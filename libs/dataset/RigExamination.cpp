@@ -39,6 +39,39 @@ LidarExamination examineLidar(const LidarEvidence& evidence, Duration deadline, 
   seen.ahead_of_host = -leastDelayLately(arrivals);
   return seen;
 }
+/** From the first stamp of any lidar to the last. */
+struct TimeSpan
+{
+  Timestamp first = Timestamp::max(), last = Timestamp::min();
+};
+
+TimeSpan spanOf(const std::vector<LidarEvidence>& lidars)
+{
+  TimeSpan span;
+  for (const LidarEvidence& lidar : lidars)
+    for (const PacketTrace& packet : lidar.packets)
+    {
+      if (!packet.stamp) continue;
+      span.first = std::min(span.first, *packet.stamp);
+      span.last = std::max(span.last, *packet.stamp);
+    }
+  return span;
+}
+
+ImuExamination examineImu(const ImuEvidence& imu, const ImuEvidence& first, const TimeSpan& lidars)
+{
+  ImuExamination seen;
+  seen.name = imu.name;
+  seen.timing = imuTiming(imu.samples);
+  if (const auto force = meanForce(imu.samples)) seen.force_in_body = imu.body_T_imu.rotation * *force;
+  seen.gyro_scale = gyroScale(imu.samples);
+  if (&imu != &first) seen.to_first = gyroAgreement({first.samples, first.body_T_imu}, {imu.samples, imu.body_T_imu});
+  if (lidars.first < lidars.last)
+    seen.lidar_share =
+        std::max(0.0, seconds(std::min(lidars.last, seen.timing.last) - std::max(lidars.first, seen.timing.first)) /
+                          seconds(lidars.last - lidars.first));
+  return seen;
+}
 }  // namespace
 
 RigExamination examine(const RigEvidence& evidence, const DoctorLimits& limits)
@@ -48,6 +81,9 @@ RigExamination examine(const RigEvidence& evidence, const DoctorLimits& limits)
   rig.deadline = evidence.deadline;
   for (const LidarEvidence& lidar : evidence.lidars)
     rig.lidars.push_back(examineLidar(lidar, evidence.deadline, limits.clocks));
+  rig.poses_known = evidence.poses_known;
+  const TimeSpan span = spanOf(evidence.lidars);
+  for (const ImuEvidence& imu : evidence.imus) rig.imus.push_back(examineImu(imu, evidence.imus.front(), span));
 
   for (std::size_t i = 1; i < rig.lidars.size(); ++i)
   {

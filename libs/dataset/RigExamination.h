@@ -4,6 +4,10 @@
 #include "dataset/ClockKind.h"
 #include "dataset/Delivery.h"
 #include "dataset/DoctorLimits.h"
+#include "dataset/GyroAgreement.h"
+#include "dataset/GyroScale.h"
+#include "dataset/ImuTiming.h"
+#include "dataset/MeanForce.h"
 #include "dataset/RigEvidence.h"
 #include "dataset/RotorPhase.h"
 #include "dataset/SensorFlags.h"
@@ -29,9 +33,21 @@ struct LidarExamination
   std::optional<RotorPhase> phase;
 };
 
+struct ImuExamination
+{
+  std::string name;
+  ImuTiming timing;
+  Eigen::Vector3d force_in_body = Eigen::Vector3d::Zero();  // mean specific force
+  std::optional<GyroScale> gyro_scale;
+  std::optional<GyroAgreement> to_first;  // against the first IMU's gyroscope; not of the first itself
+  std::optional<double> lidar_share;      // of the lidars' time that its samples cover
+};
+
 struct RigExamination
 {
   std::vector<LidarExamination> lidars;
+  std::vector<ImuExamination> imus;
+  bool poses_known = false;
   std::map<Origin, std::uint64_t> strangers;
   Duration deadline{0};
 };
@@ -40,6 +56,7 @@ struct DoctorLimits
 {
   DeliveryLimits delivery;
   ClockLimits clocks;
+  ImuLimits imu;
 };
 
 RigExamination examine(const RigEvidence&, const DoctorLimits&);

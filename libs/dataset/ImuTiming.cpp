@@ -1,0 +1,40 @@
+#include "dataset/ImuTiming.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dataset/Statistics.h"
+
+namespace scanloom
+{
+ImuTiming imuTiming(const std::vector<ImuSample>& samples)
+{
+  ImuTiming timing;
+  timing.samples = samples.size();
+  if (samples.empty()) return timing;
+
+  timing.first = timing.last = samples.front().stamp;
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+  {
+    const Duration interval = samples[i].stamp - samples[i - 1].stamp;
+    timing.first = std::min(timing.first, samples[i].stamp);
+    timing.last = std::max(timing.last, samples[i].stamp);
+    timing.longest_gap = std::max(timing.longest_gap, interval);
+    if (interval <= Duration{0})
+      ++timing.backwards;
+    else
+      intervals.push_back(seconds(interval));
+  }
+  if (intervals.empty()) return timing;
+  const double usual = median(intervals);
+  timing.rate = 1 / usual;
+  for (const double interval : intervals)
+  {
+    if (interval <= 2.5 * usual) continue;
+    ++timing.gaps;
+    timing.lost += static_cast<std::uint64_t>(std::lround(interval / usual)) - 1;
+  }
+  return timing;
+}
+}  // namespace scanloom
