@@ -6,7 +6,7 @@ namespace scanloom
 /**
  * What became of everything that one lidar sent. Blocks, once input has ended:
  *
- *   received = emitted + late + duplicate + invalid + before_start + implausible + dropped
+ *   received = emitted + late + duplicate + invalid + before_start + implausible + quarantined + dropped
  *   sent     = received + lost
  */
 struct LidarCounters
@@ -14,9 +14,13 @@ struct LidarCounters
   std::uint64_t packets = 0;            // lidar packets that were taken
   std::uint64_t malformed_packets = 0;  // size or type fits nothing
   std::uint64_t bad_crc_packets = 0;
-  std::uint64_t foreign_packets = 0;  // another sensor's
-  std::uint64_t other_packets = 0;    // not of use here
+  std::uint64_t foreign_packets = 0;   // another sensor's
+  std::uint64_t other_packets = 0;     // not of use here
+  std::uint64_t doubtful_packets = 0;  // contradict those before and after them by ids or stamps: damaged
   std::uint64_t restarts = 0;
+  std::uint64_t clock_steps = 0;
+  std::uint64_t alert_packets = 0;  // with alert flags, heat or shot limiting
+  std::uint64_t missed_scans = 0;   // closed without waiting for it any longer
 
   std::uint64_t received = 0;  // blocks in the packets taken
   std::uint64_t emitted = 0;   // blocks that became columns
@@ -24,7 +28,8 @@ struct LidarCounters
   std::uint64_t duplicate = 0;
   std::uint64_t invalid = 0;       // marked so by the sensor (edge of an azimuth window, start of the motor)
   std::uint64_t before_start = 0;  // older than the start of the first scan, eq. (1)
-  std::uint64_t implausible = 0;   // stamp contradicts the arrival time or its own packet
+  std::uint64_t implausible = 0;   // ids or stamp contradict the other blocks of their packet
+  std::uint64_t quarantined = 0;   // of another clock than the others, which the configuration refuses
   std::uint64_t dropped = 0;       // queue full
   std::uint64_t lost = 0;          // never arrived: gaps in the measurement ids that no packet filled in time
   std::uint64_t points = 0;
@@ -41,7 +46,11 @@ void forEachCount(const LidarCounters& c, Visitor&& visit)
   visit("packets_bad_crc", c.bad_crc_packets);
   visit("packets_foreign", c.foreign_packets);
   visit("packets_other", c.other_packets);
+  visit("packets_doubtful", c.doubtful_packets);
   visit("restarts", c.restarts);
+  visit("clock_steps", c.clock_steps);
+  visit("packets_alert", c.alert_packets);
+  visit("scans_missed", c.missed_scans);
   visit("blocks_sent", c.sent());
   visit("blocks_received", c.received);
   visit("blocks_emitted", c.emitted);
@@ -50,6 +59,7 @@ void forEachCount(const LidarCounters& c, Visitor&& visit)
   visit("blocks_invalid", c.invalid);
   visit("blocks_before_start", c.before_start);
   visit("blocks_implausible", c.implausible);
+  visit("blocks_quarantined", c.quarantined);
   visit("blocks_dropped", c.dropped);
   visit("blocks_lost", c.lost);
   visit("points", c.points);

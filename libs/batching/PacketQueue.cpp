@@ -4,7 +4,7 @@
 
 namespace scanloom
 {
-std::size_t PacketQueue::push(Bytes packet, const std::vector<MeasurementBlock>& blocks)
+std::size_t PacketQueue::push(Bytes packet, const std::vector<MeasurementBlock>& blocks, const Decoder& decoder)
 {
   std::size_t dropped = 0;
   if (packets_.size() >= capacity_)
@@ -22,6 +22,7 @@ std::size_t PacketQueue::push(Bytes packet, const std::vector<MeasurementBlock>&
   }
   waiting.bytes.assign(packet.begin(), packet.end());
   waiting.blocks = blocks;
+  waiting.decoder = decoder;
   waiting.next = 0;
 
   // Nearly always the end; a reordered packet goes where its first block belongs.
@@ -38,5 +39,22 @@ void PacketQueue::pop()
   if (++front.next < front.blocks.size()) return;
   spare_.push_back(std::move(front));
   packets_.pop_front();
+}
+
+void PacketQueue::shift(Duration by)
+{
+  for (Waiting& waiting : packets_)
+    for (MeasurementBlock& block : waiting.blocks) block.stamp += by;
+}
+
+std::size_t PacketQueue::clear()
+{
+  std::size_t blocks = 0;
+  for (; !packets_.empty(); packets_.pop_front())
+  {
+    blocks += packets_.front().blocks.size() - packets_.front().next;
+    spare_.push_back(std::move(packets_.front()));
+  }
+  return blocks;
 }
 }  // namespace scanloom

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <vector>
 
 namespace scanloom
@@ -12,11 +13,13 @@ namespace scanloom
 class PacketQueue
 {
  public:
+  using Decoder = std::shared_ptr<const PacketDecoder>;
+
   explicit PacketQueue(std::size_t capacity) : capacity_(capacity) {}
 
   /** Copies the packet; `blocks` are its usable ones in time order, at least one. Returns the blocks dropped for it
    * when full. */
-  std::size_t push(Bytes packet, const std::vector<MeasurementBlock>& blocks);
+  std::size_t push(Bytes packet, const std::vector<MeasurementBlock>& blocks, const Decoder&);
 
   bool empty() const { return packets_.empty(); }
   std::size_t packets() const { return packets_.size(); }
@@ -24,13 +27,21 @@ class PacketQueue
   /** The oldest block; the queue must not be empty. */
   const MeasurementBlock& front() const { return packets_.front().blocks[packets_.front().next]; }
   Bytes frontPacket() const { return packets_.front().bytes; }
+  const PacketDecoder& frontDecoder() const { return *packets_.front().decoder; }
   void pop();
+
+  /** Adds to every stamp. */
+  void shift(Duration);
+
+  /** Takes everything out; returns how many blocks that were. */
+  std::size_t clear();
 
  private:
   struct Waiting
   {
     std::vector<std::uint8_t> bytes;
     std::vector<MeasurementBlock> blocks;
+    Decoder decoder;
     std::size_t next = 0;
   };
 

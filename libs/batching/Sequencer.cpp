@@ -1,6 +1,9 @@
 #include "batching/Sequencer.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "batching/Continuity.h"
 
 namespace scanloom
 {
@@ -9,120 +12,97 @@ namespace
 // A rotor keeps its speed to a small part of this; a prediction over a closed window must stay a lower bound.
 constexpr double kRotorTolerance = 0.005;
 
-// A packet that is further back than this many turns is no reordered one: the lidar has started again.
-constexpr int kTurnsRemembered = 4;
+// How far back a duplicate is recognised.
+constexpr std::size_t kTurnsRemembered = 4;
+
+constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
 }  // namespace
 
-PacketNumbering::PacketNumbering(const LidarDescription& lidar)
-{
-  const int columns = lidar.columns_per_frame;
-  const auto inWindow = [&lidar](int column)
-  {
-    return lidar.first_column <= lidar.last_column ? column >= lidar.first_column && column <= lidar.last_column
-                                                   : column >= lidar.first_column || column <= lidar.last_column;
-  };
-  sent_before_.push_back(0);
-  for (int first = 0; first < columns; first += lidar.columns_per_packet)
-  {
-    bool sent = false;
-    for (int c = first; c < std::min(first + lidar.columns_per_packet, columns); ++c) sent |= inWindow(c);
-    sent_before_.push_back(sent_before_.back() + (sent ? 1 : 0));
-  }
-  for (int column = 0; column < columns; ++column)
-  {
-    int blocks = 1;
-    while (blocks < columns && !inWindow((column + blocks) % columns)) ++blocks;
-    blocks_to_next_.push_back(blocks);
-  }
-}
-
-std::int64_t PacketNumbering::sentBefore(std::int64_t number) const
-{
-  const std::int64_t turn = number >= 0 ? number / packetsPerTurn() : (number + 1) / packetsPerTurn() - 1;
-  return turn * sent_before_.back() + sent_before_[static_cast<std::size_t>(number - turn * packetsPerTurn())];
-}
-
 Sequencer::Sequencer(const LidarDescription& lidar, Duration deadline)
-  : numbering_(lidar),
-    block_period_(lidar.blockPeriod()),
+  : numbering_(numberedTurn(lidar)),
     deadline_(deadline),
-    frame_id_modulus_(lidar.frame_id_modulus),
-    columns_per_packet_(lidar.columns_per_packet)
+    recent_(kTurnsRemembered * static_cast<std::size_t>(numbering_.packetsPerTurn()), kNone)
 {
 }
 
-Sequencer::Verdict Sequencer::accept(const PacketHeader& header, const MeasurementBlock& last, Timestamp received)
+Sequencer::Verdict Sequencer::accept(const Place& place, Timestamp received)
 {
-  const bool other_run = header.init_id && init_id_ && *header.init_id != *init_id_;
-  if (header.init_id) init_id_ = header.init_id;
+  const std::int64_t packet = numbering_.packetOf(place.block);
+  if (!newest_) restart(place.block);
+  if (isRepeated(packet)) return Verdict::Duplicate;
+  if (packet <= *newest_) return packet >= first_ ? Verdict::Recovered : Verdict::New;
 
-  const std::int64_t packets_per_turn = numbering_.packetsPerTurn();
-  const std::int64_t in_turn = last.measurement_id / columns_per_packet_;
-  const std::int64_t frame = newest_ ? unwrap(last.frame_id) : last.frame_id;
-  const std::int64_t number = frame * packets_per_turn + in_turn;
-  const bool far_away = newest_ && std::abs(number - *newest_) > kTurnsRemembered * packets_per_turn;
-  const Arrived arrived{earliestAfter(last), received};
-
-  if (!newest_ || other_run || far_away)
+  const Arrived arrived{earliestAfter(place), received};
+  if (after_gap_.empty() && missingBefore(packet) <= 0)
+    goOnAfter(packet, arrived);
+  else
   {
-    const bool first_ever = !newest_;
-    const std::int64_t restarted_at = last.frame_id * packets_per_turn + in_turn;
-    restart(restarted_at, last.frame_id);
-    after_gap_[restarted_at] = arrived;
-    recent_.insert(restarted_at);
-    advance(std::nullopt);
-    return first_ever ? Verdict::New : Verdict::Restarted;
+    after_gap_[packet] = arrived;
+    advance(Timestamp::min());
   }
-  if (!recent_.insert(number).second) return Verdict::Duplicate;
-  recent_.erase(recent_.begin(), recent_.lower_bound(*newest_ - kTurnsRemembered * packets_per_turn));
-  newest_frame_ = std::max(newest_frame_, frame);
-  if (number <= *newest_) return number >= first_ ? Verdict::Recovered : Verdict::New;
-  after_gap_[number] = arrived;
-  advance(std::nullopt);
   return Verdict::New;
 }
 
-Timestamp Sequencer::earliestAfter(const MeasurementBlock& last) const
+bool Sequencer::isRepeated(std::int64_t packet)
 {
-  if (last.stamp == Timestamp::min()) return last.stamp;
-  return last.stamp + fromSeconds((numbering_.blocksToNext(last.measurement_id) - 0.5) * (1 - kRotorTolerance) *
-                                  seconds(block_period_));
+  const auto size = static_cast<std::int64_t>(recent_.size());
+  std::int64_t& slot = recent_[static_cast<std::size_t>(((packet % size) + size) % size)];
+  if (slot == packet) return true;
+  // Older than anything remembered: whether it was seen is not known, so it is not taken.
+  if (slot != kNone && slot > packet) return true;
+  slot = packet;
+  return false;
 }
 
-void Sequencer::restart(std::int64_t number, std::uint32_t frame_id)
+std::optional<Timestamp> Sequencer::earliestAfter(const Place& place) const
 {
-  after_gap_.clear();
-  recent_.clear();
+  if (!place.stamp) return std::nullopt;
+  const double blocks = (numbering_.blocksToNext(place.block) - 0.5) * (1 - kRotorTolerance);
+  return *place.stamp + fromSeconds(blocks * seconds(place.block_period));
+}
+
+std::uint64_t Sequencer::restart(std::int64_t block)
+{
+  const std::uint64_t lost = finish();
+  std::fill(recent_.begin(), recent_.end(), kNone);
   watermark_.reset();
-  newest_frame_ = frame_id;
-  newest_ = number - 1;
-  first_ = number;
+  first_ = numbering_.packetOf(block);
+  newest_ = first_ - 1;
+  return lost;
 }
 
-std::int64_t Sequencer::unwrap(std::uint32_t frame_id) const
+void Sequencer::shift(Duration step)
 {
-  const auto modulus = static_cast<std::int64_t>(frame_id_modulus_);
-  std::int64_t ahead = (static_cast<std::int64_t>(frame_id) - newest_frame_) % modulus;
-  if (ahead < -modulus / 2) ahead += modulus;
-  if (ahead >= modulus / 2) ahead -= modulus;
-  return newest_frame_ + ahead;
+  if (watermark_) *watermark_ += step;
+  for (auto& [packet, arrived] : after_gap_)
+    if (arrived.earliest_next) *arrived.earliest_next += step;
 }
 
-std::uint64_t Sequencer::giveUpGaps(Timestamp now) { return advance(now - deadline_); }
+std::uint64_t Sequencer::giveUpGaps(Timestamp now) { return after_gap_.empty() ? 0 : advance(now - deadline_); }
 
 std::uint64_t Sequencer::finish() { return advance(Timestamp::max()); }
 
-std::uint64_t Sequencer::advance(std::optional<Timestamp> give_up_shown_until)
+std::int64_t Sequencer::missingBefore(std::int64_t packet) const
+{
+  return numbering_.sentBefore(packet) - numbering_.sentBefore(*newest_ + 1);
+}
+
+void Sequencer::goOnAfter(std::int64_t packet, const Arrived& arrived)
+{
+  newest_ = packet;
+  if (arrived.earliest_next) watermark_ = std::max(watermark_.value_or(Timestamp::min()), *arrived.earliest_next);
+}
+
+std::uint64_t Sequencer::advance(Timestamp give_up_shown_until)
 {
   std::uint64_t lost = 0;
   while (!after_gap_.empty())
   {
-    const auto [number, arrived] = *after_gap_.begin();
-    const std::int64_t missing = numbering_.sentBefore(number) - numbering_.sentBefore(*newest_ + 1);
-    if (missing > 0 && !(give_up_shown_until && arrived.received <= *give_up_shown_until)) break;
+    const auto [packet, arrived] = *after_gap_.begin();
+    const std::int64_t missing = missingBefore(packet);
+    if (missing > 0 && arrived.received > give_up_shown_until) break;
     lost += static_cast<std::uint64_t>(std::max<std::int64_t>(missing, 0));
-    newest_ = number;
-    watermark_ = std::max(watermark_.value_or(Timestamp::min()), arrived.earliest_next);
+    goOnAfter(packet, arrived);
     after_gap_.erase(after_gap_.begin());
   }
   return lost;

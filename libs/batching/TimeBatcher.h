@@ -3,65 +3,34 @@
  * EuroCOW 2025, section 2.1. Where the paper waits for every lidar, watermarks with deadlines bound the wait.
  */
 #pragma once
-#include "batching/Counters.h"
-#include "batching/PacketQueue.h"
+#include "batching/BatcherOptions.h"
+#include "batching/LidarInput.h"
+#include "batching/Notice.h"
 #include "batching/Scan.h"
-#include "batching/Sequencer.h"
-#include "core/Field.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace scanloom
 {
-using LidarIndex = std::size_t;
-
-struct BatcherOptions
-{
-  double scan_rate = 10.0;
-  double scan_phase_ms = 0.0;
-  double deadline_ms = 5.0;
-  double max_clock_skew = 1.0;
-  int queue_packets = 1024;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.scan_rate,
-          Field{"scan_rate", "Hz", "scans per second, whatever the lidars' own rates are", between(0.1, 1000)});
-    visit(o.scan_phase_ms,
-          Field{"scan_phase_ms", "ms", "scans start at multiples of the period plus this", between(0, 10000)});
-    visit(o.deadline_ms,
-          Field{"deadline_ms", "ms", "how much later than its fastest packets a lidar may deliver", between(0, 10000)});
-    visit(o.max_clock_skew, Field{"max_clock_skew", "s", "lidars whose clocks differ by more are refused", above(0)});
-    visit(o.queue_packets,
-          Field{"queue_packets", "", "packets that wait per lidar at most; the oldest is dropped", atLeast(2)});
-  }
-};
-
-/** A lidar as the batcher sees it. Its index in the list is the sensor_id of its points (at most 256 lidars). */
-struct BatchedLidar
-{
-  std::string name;
-  std::shared_ptr<const PacketDecoder> decoder;
-  Duration time_offset{0};  // added to its stamps
-};
-
 /**
  * Packets in, scans out, in one total order (stamp, sensor_id, measurement_id). The result depends on the packets and
- * their record times alone: any arrival order within the deadline gives the same bits.
+ * their record times alone; where all lidars share a clock, any arrival order within the deadline gives the same bits.
  */
 class TimeBatcher
 {
  public:
-  /** Throws std::invalid_argument without lidars or with more than 256. */
-  TimeBatcher(std::vector<BatchedLidar>, const BatcherOptions&);
+  using SliceSink = std::function<void(const ScanSlice&)>;
+
+  /** Throws std::invalid_argument without lidars, with more than 256, or for an unknown other_clock. */
+  TimeBatcher(const std::vector<BatchedLidar>&, const BatcherOptions&);
 
   /**
    * Scans completed by this packet, oldest first. `received` is the host's (or the capture's record) time; it moves
-   * the deadlines. IMU packets are not for here: see ImuOrder. Throws std::runtime_error if the lidars' clocks
-   * differ by more than max_clock_skew at the start.
+   * the deadlines. IMU packets are not for here: see ImuOrder. With other_clock = refuse, throws std::runtime_error if
+   * the lidars' clocks differ by more than max_clock_skew at the start.
    */
   std::vector<Scan> push(LidarIndex, Bytes packet, Timestamp received);
 
@@ -71,47 +40,71 @@ class TimeBatcher
   /** No more packets: everything that waits comes out; the scan that is cut by the end is marked incomplete. */
   std::vector<Scan> finish();
 
+  /** Called in push, advance and finish for each slice as soon as it is complete: see ScanSlice. */
+  void onSlice(SliceSink sink) { on_slice_ = std::move(sink); }
+
+  /** The lidar is another one from here on, or is known at last; what waits is still read by the old decoder. */
+  void replace(LidarIndex, std::shared_ptr<const PacketDecoder>);
+
+  /** The memory of a scan that nobody needs any more, for those to come. */
+  void recycle(Scan&&);
+
   /** Everything before this stamp has been given out. */
   std::optional<Timestamp> horizon() const;
 
-  const LidarCounters& counters(LidarIndex lidar) const { return lidars_[lidar].counters; }
-  const std::vector<BatchedLidar>& lidars() const { return inputs_; }
+  /** What is added to this lidar's stamps at present, its IMU's included. */
+  Duration timeOffset(LidarIndex lidar) const { return inputs_[lidar].clock.offset(); }
+
+  /** What a person should hear of, since the last call. */
+  std::vector<Notice> takeNotices();
+
+  const LidarCounters& counters(LidarIndex lidar) const { return inputs_[lidar].counters; }
+  const LidarClock& clock(LidarIndex lidar) const { return inputs_[lidar].clock; }
+  const std::vector<BatchedLidar>& lidars() const { return lidars_; }
 
  private:
-  struct Lidar
-  {
-    PacketQueue queue;
-    Sequencer sequencer;
-    LidarCounters counters;
-    std::optional<Timestamp> first_stamp;    // t_0 of eq. (1), the smallest before the start
-    std::optional<Duration> least_delay;     // arrival minus the packet's last stamp
-    std::optional<Timestamp> sequence_mark;  // the sequencer's watermark on the common clock
-    Timestamp deadline_mark = Timestamp::min();
-  };
+  void take(LidarIndex, Bytes packet, Timestamp received);
+  void note(LidarIndex, Notice::Kind, Duration = Duration{0});
+  void noteNews(LidarIndex, const std::vector<Notice::Kind>&);
 
-  bool take(LidarIndex, Bytes packet, Timestamp received);
-  std::vector<MeasurementBlock> usableBlocks(LidarIndex, Timestamp received);
-  void raiseDeadlines();
-  Timestamp watermark(const Lidar&) const;
+  std::optional<LidarIndex> clockReference(LidarIndex) const;
+  void settleClock(LidarIndex, const std::vector<Notice::Kind>& news);
+  void watchClock(LidarIndex);
+
   std::optional<Timestamp> latestFirstStamp() const;
+  std::vector<std::optional<Duration>> skewsAtStart() const;
   void startAfter(Timestamp latest_first_stamp);
-  std::vector<Scan> release();
-  std::optional<LidarIndex> oldest() const;
-  void appendOldest(LidarIndex);
-  Scan closeScan();
-  Scan emptyScan(Timestamp start) const;
-  void refuseDifferentClocks() const;
+  void settleClocksAtStart();
 
-  std::vector<BatchedLidar> inputs_;
+  std::vector<Scan> release();
+  void raiseDeadlines();
+  Timestamp watermark(const LidarInput&) const;
+  std::optional<LidarIndex> oldest() const;
+  void pass(Timestamp, std::vector<Scan>& closed);
+  void append(LidarIndex);
+  void giveSlice();
+  Timestamp sliceEnd() const;
+  Scan closeScan();
+  void markMissing(Scan&);
+  Scan emptyScan(Timestamp start);
+
+  std::vector<BatchedLidar> lidars_;
   BatcherOptions options_;
-  Duration period_, phase_, deadline_;
-  std::vector<Lidar> lidars_;
-  std::vector<MeasurementBlock> blocks_;  // of the packet in hand; kept for its memory
+  OtherClock other_clock_;
+  Duration period_, phase_, max_clock_skew_;
+  std::vector<LidarInput> inputs_;
 
   Timestamp now_ = Timestamp::min();
   Timestamp first_start_ = Timestamp::min();  // t_init of eq. (1)
-  std::optional<Scan> scan_;                  // under construction; none before the start
-  std::optional<Column> last_;                // the newest column given out
+  Timestamp horizon_ = Timestamp::min();
+  std::optional<Scan> scan_;    // under construction; none before the start
+  std::optional<Column> last_;  // the newest column given out
+  SensorMask silent_;           // those that a notice called so
+  int slices_given_ = 0;        // of scan_
+  std::size_t columns_given_ = 0;
+  SliceSink on_slice_;
+  std::vector<Scan> spare_;
+  std::vector<Notice> notices_;
   bool finished_ = false;
 };
 }  // namespace scanloom

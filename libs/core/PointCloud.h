@@ -23,6 +23,7 @@ struct PointCloud
 
   std::size_t size() const { return x.size(); }
   bool empty() const { return x.empty(); }
+  std::size_t capacity() const { return x.capacity(); }
   Eigen::Vector3f position(std::size_t i) const { return {x[i], y[i], z[i]}; }
 
   void resize(std::size_t);

@@ -50,7 +50,9 @@ namespace scanloom
  *   #scan_rate      = 10       // Hz, whatever the lidars' own rates are
  *   #scan_phase_ms  = 0        // scans start at multiples of the period plus this
  *   #deadline_ms    = 5        // how much later than its fastest packets a lidar may deliver
- *   #max_clock_skew = 1        // s, lidars whose clocks differ by more are refused
+ *   #max_clock_skew = 0.1      // s, lidars whose packets arrive so much apart by their stamps share no clock
+ *   #other_clock    = align    // such a lidar is aligned by times of arrival; or quarantine, or refuse
+ *   #slices         = 1        // parts of a scan that are given out as they are complete
  *   #queue_packets  = 1024     // packets that wait per lidar at most
  *  \endcode
  *

@@ -100,7 +100,7 @@ StateEstimate LidarInertialSlam::track(Scan scan)
 {
   StateEstimate estimate;
   estimate.stamp = scan.end();
-  estimate.scan_complete = scan.complete;
+  estimate.scan_complete = scan.complete();
 
   const NavState before = smoother_->newest();
   estimate.imu_complete = imu_.covers(before.stamp, scan.end());

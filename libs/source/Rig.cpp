@@ -144,7 +144,7 @@ void RigReplay::take(const Datagram& datagram)
     const BatchedLidar& lidar = lidars_[routed->lidar];
     for (ImuSample sample : lidar.decoder->imuSamples(datagram.payload))
     {
-      sample.stamp += lidar.time_offset;
+      sample.stamp += batcher_.timeOffset(routed->lidar);
       imu_order_.add({static_cast<int>(routed->lidar), sample});
     }
     scans = batcher_.advance(datagram.received);

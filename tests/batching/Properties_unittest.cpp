@@ -104,7 +104,7 @@ bool sameBits(const Scan& l, const Scan& r)
 {
   return l.start == r.start && l.points.x == r.points.x && l.points.t == r.points.t &&
          l.points.column == r.points.column && l.points.sensor_id == r.points.sensor_id &&
-         l.points.ring == r.points.ring && l.columns_of == r.columns_of && l.complete == r.complete;
+         l.points.ring == r.points.ring && l.columns_of == r.columns_of && l.missing == r.missing;
 }
 
 #define CHECK_PROPERTY(...) EXPECT_TRUE(rc::check(__VA_ARGS__))
@@ -157,7 +157,7 @@ TEST(BatchingProperties, anyInterleavingGivesTheSameScansToTheBit)
                    {
                      RC_ASSERT(scans[k].start == again[k].start);
                      RC_ASSERT(scans[k].columns_of == again[k].columns_of);
-                     RC_ASSERT(scans[k].complete == again[k].complete);
+                     RC_ASSERT(scans[k].missing == again[k].missing);
                      RC_ASSERT(sameBits(scans[k], again[k]));
                    }
                  });

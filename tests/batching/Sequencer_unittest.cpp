@@ -18,14 +18,10 @@ LidarDescription lidar(int first_column = 0, int last_column = 63)
   return d;
 }
 
-MeasurementBlock block(std::uint32_t frame, std::uint16_t column, Timestamp stamp)
+/** By its last column, which is read at `stamp`. */
+Sequencer::Place packet(std::int64_t frame, std::int64_t column, Duration stamp)
 {
-  MeasurementBlock b;
-  b.frame_id = frame;
-  b.measurement_id = column;
-  b.stamp = stamp;
-  b.valid = true;
-  return b;
+  return {frame * 64 + column, Timestamp{stamp}, 1562500ns};
 }
 }  // namespace
 
@@ -48,55 +44,55 @@ TEST(PacketNumbering, aWindowMayWrapAroundZero)
 TEST(Sequencer, theWatermarkWaitsAtAGapUntilTheMissingPacketComes)
 {
   Sequencer sequencer(lidar(), 5ms);
-  sequencer.accept({}, block(7, 15, Timestamp{25ms}), Timestamp{25ms});
-  sequencer.accept({}, block(7, 47, Timestamp{75ms}), Timestamp{75ms});
+  sequencer.accept(packet(7, 15, 25ms), Timestamp{25ms});
+  sequencer.accept(packet(7, 47, 75ms), Timestamp{75ms});
   EXPECT_LT(*sequencer.watermark(), Timestamp{27ms});
-  EXPECT_EQ(sequencer.accept({}, block(7, 31, Timestamp{50ms}), Timestamp{76ms}), Sequencer::Verdict::New);
+  EXPECT_EQ(sequencer.accept(packet(7, 31, 50ms), Timestamp{76ms}), Sequencer::Verdict::New);
   EXPECT_GT(*sequencer.watermark(), Timestamp{75ms});
 }
 
 TEST(Sequencer, aGapIsGivenUpAfterTheDeadlineAndWhatComesLaterIsRecovered)
 {
   Sequencer sequencer(lidar(), 5ms);
-  sequencer.accept({}, block(7, 15, Timestamp{25ms}), Timestamp{25ms});
-  sequencer.accept({}, block(7, 63, Timestamp{100ms}), Timestamp{100ms});
+  sequencer.accept(packet(7, 15, 25ms), Timestamp{25ms});
+  sequencer.accept(packet(7, 63, 100ms), Timestamp{100ms});
   EXPECT_EQ(sequencer.giveUpGaps(Timestamp{104ms}), 0u);
   EXPECT_EQ(sequencer.giveUpGaps(Timestamp{105ms}), 2u);
   EXPECT_GT(*sequencer.watermark(), Timestamp{100ms});
-  EXPECT_EQ(sequencer.accept({}, block(7, 31, Timestamp{50ms}), Timestamp{106ms}), Sequencer::Verdict::Recovered);
+  EXPECT_EQ(sequencer.accept(packet(7, 31, 50ms), Timestamp{106ms}), Sequencer::Verdict::Recovered);
+}
+
+TEST(Sequencer, aPacketIsTakenOnce)
+{
+  Sequencer sequencer(lidar(), 5ms);
+  EXPECT_EQ(sequencer.accept(packet(7, 15, 25ms), Timestamp{25ms}), Sequencer::Verdict::New);
+  EXPECT_EQ(sequencer.accept(packet(7, 31, 50ms), Timestamp{50ms}), Sequencer::Verdict::New);
+  EXPECT_EQ(sequencer.accept(packet(7, 15, 25ms), Timestamp{51ms}), Sequencer::Verdict::Duplicate);
 }
 
 TEST(Sequencer, afterTheWindowTheWatermarkJumpsToTheNextTurn)
 {
   Sequencer sequencer(lidar(0, 15), 5ms);
-  sequencer.accept({}, block(7, 15, Timestamp{25ms}), Timestamp{25ms});
+  sequencer.accept(packet(7, 15, 25ms), Timestamp{25ms});
   EXPECT_GT(*sequencer.watermark(), Timestamp{100ms});
   EXPECT_LT(*sequencer.watermark(), Timestamp{25ms + 49 * 1562500ns});  // the next turn's first block
 }
 
-TEST(Sequencer, frameIdsAreUnwrapped)
+TEST(Sequencer, aStepOfTheClockMovesTheWatermark)
 {
   Sequencer sequencer(lidar(), 5ms);
-  sequencer.accept({}, block(65535, 63, Timestamp{25ms}), Timestamp{25ms});
-  sequencer.accept({}, block(0, 15, Timestamp{50ms}), Timestamp{50ms});
-  EXPECT_GT(*sequencer.watermark(), Timestamp{50ms});
-  EXPECT_EQ(sequencer.finish(), 0u);
+  sequencer.accept(packet(7, 15, 25ms), Timestamp{25ms});
+  const Timestamp before = *sequencer.watermark();
+  sequencer.shift(37s);
+  EXPECT_EQ(*sequencer.watermark() - before, 37s);
 }
 
-TEST(Sequencer, anotherInitIdIsARestart)
+TEST(Sequencer, aRestartCountsWhatWasMissingAndForgetsTheRest)
 {
   Sequencer sequencer(lidar(), 5ms);
-  PacketHeader first, second;
-  first.init_id = 1;
-  second.init_id = 2;
-  EXPECT_EQ(sequencer.accept(first, block(500, 15, Timestamp{25ms}), Timestamp{25ms}), Sequencer::Verdict::New);
-  EXPECT_EQ(sequencer.accept(second, block(0, 15, Timestamp{95ms}), Timestamp{95ms}), Sequencer::Verdict::Restarted);
+  sequencer.accept(packet(7, 15, 25ms), Timestamp{25ms});
+  sequencer.accept(packet(7, 47, 75ms), Timestamp{75ms});
+  EXPECT_EQ(sequencer.restart(0), 1u);
+  EXPECT_FALSE(sequencer.watermark());
   EXPECT_EQ(sequencer.finish(), 0u);
-}
-
-TEST(Sequencer, aFrameIdFarAwayIsARestartWhereThereIsNoInitId)
-{
-  Sequencer sequencer(lidar(), 5ms);
-  sequencer.accept({}, block(5000, 15, Timestamp{25ms}), Timestamp{25ms});
-  EXPECT_EQ(sequencer.accept({}, block(0, 15, Timestamp{95ms}), Timestamp{95ms}), Sequencer::Verdict::Restarted);
 }

@@ -78,7 +78,8 @@ void expectTimeOrder(const std::vector<Scan>& scans)
 
 void expectAccountsAreClosed(const LidarCounters& c)
 {
-  EXPECT_EQ(c.received, c.emitted + c.late + c.duplicate + c.invalid + c.before_start + c.implausible + c.dropped);
+  EXPECT_EQ(c.received,
+            c.emitted + c.late + c.duplicate + c.invalid + c.before_start + c.implausible + c.quarantined + c.dropped);
 }
 }  // namespace
 
@@ -170,7 +171,7 @@ TEST(TimeBatcher, aSilentLidarHoldsNobodyLongerThanTheDeadline)
   for (const auto& [when, scan] : released)
   {
     EXPECT_LE(when - scan.end(), 5ms + packet + 1ms);
-    EXPECT_EQ(scan.complete, scan.end() <= Timestamp{500ms}) << nanoseconds(scan.start);
+    EXPECT_EQ(scan.complete(), scan.end() <= Timestamp{500ms}) << nanoseconds(scan.start);
     EXPECT_EQ(scan.columns_of[1] == 0, scan.start >= Timestamp{550ms});
   }
 }
@@ -196,7 +197,7 @@ TEST(TimeBatcher, anAzimuthWindowCausesNoMissedDeadline)
   const auto arrivals = inOrderOfArrival(arrivalsOf(0, full.drive(Timestamp{50ms}, 1s)),
                                          arrivalsOf(1, quarter.drive(Timestamp{63ms}, 1s)));
   const auto scans = feed(batcher, arrivals);
-  for (std::size_t i = 0; i + 1 < scans.size(); ++i) EXPECT_TRUE(scans[i].complete);
+  for (std::size_t i = 0; i + 1 < scans.size(); ++i) EXPECT_TRUE(scans[i].complete());
   EXPECT_EQ(batcher.counters(1).late, 0u);
   EXPECT_EQ(batcher.counters(1).lost, 0u);
 }
@@ -259,8 +260,8 @@ TEST(TimeBatcher, theScanCutByTheEndIsGivenOutAndMarked)
 {
   TimeBatcher batcher = fakeLidars({{}});
   const auto scans = feed(batcher, arrivalsOf(0, FakeLidar().drive(Timestamp{50ms}, 300ms)));
-  EXPECT_FALSE(scans.back().complete);
-  EXPECT_TRUE(scans.front().complete);
+  EXPECT_FALSE(scans.back().complete());
+  EXPECT_TRUE(scans.front().complete());
 }
 
 TEST(TimeBatcher, aMalformedPacketIsCountedAndNothingElseIsLost)
@@ -273,9 +274,11 @@ TEST(TimeBatcher, aMalformedPacketIsCountedAndNothingElseIsLost)
   EXPECT_EQ(batcher.counters(0).lost, 0u);
 }
 
-TEST(TimeBatcher, clocksThatDisagreeAreRefusedWithTheOffset)
+TEST(TimeBatcher, clocksThatDisagreeAreRefusedWithTheOffsetWhereTheConfigurationSaysSo)
 {
-  TimeBatcher batcher = fakeLidars({{}, {}});
+  BatcherOptions options;
+  options.other_clock = "refuse";
+  TimeBatcher batcher = fakeLidars({{}, {}}, options);
   auto left = arrivalsOf(0, FakeLidar().drive(Timestamp{50ms}, 300ms));
   auto right = arrivalsOf(1, FakeLidar().drive(Timestamp{37s + 50ms}, 300ms), 100us - 37s);
   EXPECT_THROW(feed(batcher, inOrderOfArrival(left, right)), std::runtime_error);

@@ -1,0 +1,156 @@
+#include "batching/Continuity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+// A smaller step of a clock is followed; what the rotor and the packets' own granularity explain lies well below.
+constexpr double kStepTolerance = 0.002;  // s
+
+// What rotors and crystals deviate from the measured rate, over a gap.
+constexpr double kRateTolerance = 0.01;
+
+// Where host time vouches for stamps (no ids, or long silence): how late a packet may come, and what captures that were
+// replayed faster or slower than life add to that.
+constexpr Duration kArrivalTolerance = 500ms;
+constexpr double kSilenceTolerance = 0.1;
+
+constexpr int kTurnsToReorder = 4;
+constexpr std::int64_t kPacketsOfNumberedTurn = 64;
+}  // namespace
+
+LidarDescription numberedTurn(LidarDescription lidar)
+{
+  if (lidar.numbering == Numbering::Ids) return lidar;
+  lidar.columns_per_frame = static_cast<int>(kPacketsOfNumberedTurn) * lidar.columns_per_packet;
+  lidar.first_column = 0;
+  lidar.last_column = lidar.columns_per_frame - 1;
+  return lidar;
+}
+
+Continuity::Continuity(const LidarDescription& lidar)
+  : numbering_(lidar.numbering),
+    blocks_per_turn_(numberedTurn(lidar).columns_per_frame),
+    blocks_per_packet_(lidar.columns_per_packet),
+    blocks_of_all_frames_(static_cast<std::int64_t>(lidar.frame_id_modulus) * lidar.columns_per_frame),
+    nominal_period_(seconds(lidar.blockPeriod())),
+    block_period_(nominal_period_)
+{
+}
+
+Continuity::Judgement Continuity::judge(const PacketPlace& place, Timestamp received)
+{
+  if (!latest_)
+  {
+    if (!place.stamp) return {};
+    const std::int64_t block = numbering_ == Numbering::Ids ? nearestBlock(place, 0) : 0;
+    latest_ = know(place, block, received);
+    return {Verdict::Continues, block, block, {}};
+  }
+  if (const auto block = continued(*latest_, place, received))
+  {
+    follow(place, *block, received);
+    return {Verdict::Continues, *block, *block, {}};
+  }
+  if (!place.stamp) return {};  // without a valid block it proves nothing
+  if (candidate_)
+    if (const auto block = continued(*candidate_, place, received); block && *block != candidate_->block)
+      return breakConfirmedBy(place, *block, received);
+  candidate_ = know(place, numbering_ == Numbering::Ids ? nearestBlock(place, latest_->block) : 0, received);
+  return {};
+}
+
+/** The place of the packet if it belongs to the same stream as `known`. */
+std::optional<std::int64_t> Continuity::continued(const Known& known, const PacketPlace& place,
+                                                  Timestamp received) const
+{
+  if (known.init_id && place.init_id && *known.init_id != *place.init_id) return std::nullopt;
+  return numbering_ == Numbering::Ids ? byIds(known, place, received) : byStamp(known, place, received);
+}
+
+std::optional<std::int64_t> Continuity::byIds(const Known& known, const PacketPlace& place, Timestamp received) const
+{
+  const std::int64_t near = nearestBlock(place, known.block);
+  if (!place.stamp || !known.stamp)
+    return std::abs(near - known.block) <= kTurnsToReorder * blocks_per_turn_ ? std::optional(near) : std::nullopt;
+
+  const double elapsed = seconds(*place.stamp - *known.stamp);
+  const auto agrees = [&](std::int64_t block)
+  { return std::abs(elapsed - secondsOf(block - known.block)) <= kStepTolerance + kRateTolerance * std::abs(elapsed); };
+  if (std::abs(near - known.block) <= kTurnsToReorder * blocks_per_turn_ && agrees(near)) return near;
+
+  // After long silence host time must agree, too; frame ids may have gone round.
+  const double waited = seconds(received - known.received);
+  if (std::abs(waited - elapsed) > seconds(kArrivalTolerance) + kSilenceTolerance * std::abs(waited))
+    return std::nullopt;
+  const std::int64_t far = nearestBlock(place, known.block + std::llround(elapsed / block_period_));
+  return agrees(far) ? std::optional(far) : std::nullopt;
+}
+
+std::optional<std::int64_t> Continuity::byStamp(const Known& known, const PacketPlace& place, Timestamp received) const
+{
+  if (!place.stamp || !known.stamp) return std::nullopt;
+  const Duration elapsed = *place.stamp - *known.stamp;
+  const Duration waited = received - known.received;
+  if (elapsed - waited > kArrivalTolerance || waited - elapsed > kArrivalTolerance) return std::nullopt;
+  const double packets = seconds(elapsed) / secondsOf(blocks_per_packet_);
+  return known.block + blocks_per_packet_ * std::llround(packets);
+}
+
+/** Frame ids are known modulo their width: of all places that fit, the one nearest to `to`. */
+std::int64_t Continuity::nearestBlock(const PacketPlace& place, std::int64_t to) const
+{
+  const std::int64_t block = place.frame_id * blocks_per_turn_ + place.measurement_id;
+  const double rounds = static_cast<double>(to - block) / static_cast<double>(blocks_of_all_frames_);
+  return block + std::llround(rounds) * blocks_of_all_frames_;
+}
+
+/** The packet continues the doubtful one before it: the stream has begun anew there. */
+Continuity::Judgement Continuity::breakConfirmedBy(const PacketPlace& place, std::int64_t block, Timestamp received)
+{
+  const bool other_run = latest_->init_id && place.init_id && *latest_->init_id != *place.init_id;
+  const std::int64_t advance = block - latest_->block;
+  const bool ids_go_on = numbering_ == Numbering::Stamps || std::abs(advance) <= kTurnsToReorder * blocks_per_turn_;
+  Judgement judgement{Verdict::Restarts, block, candidate_->block, {}};
+  if (!other_run && ids_go_on && latest_->stamp)
+  {
+    judgement.verdict = Verdict::ClockSteps;
+    if (numbering_ == Numbering::Stamps)
+    {
+      const Duration waited = received - latest_->received;
+      judgement.block =
+          latest_->block +
+          std::max<std::int64_t>(1, std::llround(seconds(waited) / secondsOf(blocks_per_packet_))) * blocks_per_packet_;
+    }
+    judgement.step = (*place.stamp - *latest_->stamp) - fromSeconds(secondsOf(judgement.block - latest_->block));
+  }
+  latest_ = know(place, judgement.block, received);
+  candidate_.reset();
+  return judgement;
+}
+
+void Continuity::follow(const PacketPlace& place, std::int64_t block, Timestamp received)
+{
+  const std::int64_t advance = block - latest_->block;
+  if (advance <= 0) return;
+  if (numbering_ == Numbering::Ids && place.stamp && latest_->stamp && advance <= 2 * blocks_per_packet_)
+  {
+    const double measured = seconds(*place.stamp - *latest_->stamp) / static_cast<double>(advance);
+    block_period_ += (std::clamp(measured, nominal_period_ / 4, nominal_period_ * 4) - block_period_) / 32;
+  }
+  const std::optional<Timestamp> before = latest_->stamp;
+  Known known = know(place, block, received);
+  if (!known.stamp && before) known.stamp = *before + fromSeconds(secondsOf(advance));
+  if (!known.init_id) known.init_id = latest_->init_id;
+  latest_ = known;
+  candidate_.reset();
+}
+
+Continuity::Known Continuity::know(const PacketPlace& place, std::int64_t block, Timestamp received) const
+{
+  return {place.init_id, block, place.stamp, received};
+}
+}  // namespace scanloom

@@ -1,0 +1,77 @@
+#include "batching/PacketConsensus.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+// Between the columns of one packet; clocks are read to the microsecond and rotors do not jerk.
+constexpr Duration kTolerance = 1ms;
+
+/** What all blocks of a packet imply alike. */
+struct Origin
+{
+  Timestamp stamp;  // of block 0
+  int measurement_id = 0;
+  std::uint32_t frame_id = 0;
+};
+
+Origin impliedBy(const MeasurementBlock& b, Duration block_period)
+{
+  return {b.stamp - block_period * b.index, b.measurement_id - b.index, b.frame_id};
+}
+
+bool agree(const Origin& a, const Origin& b, Numbering numbering)
+{
+  const Duration off = a.stamp - b.stamp;
+  return off <= kTolerance && -off <= kTolerance &&
+         (numbering == Numbering::Stamps || (a.measurement_id == b.measurement_id && a.frame_id == b.frame_id));
+}
+
+template <typename Value>
+Value median(const std::vector<Origin>& origins, Value Origin::*member)
+{
+  std::vector<Value> values;
+  for (const Origin& origin : origins) values.push_back(origin.*member);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Origin majority(const std::vector<MeasurementBlock>& blocks, Duration block_period)
+{
+  std::vector<Origin> origins;
+  for (const MeasurementBlock& block : blocks) origins.push_back(impliedBy(block, block_period));
+  return {median(origins, &Origin::stamp), median(origins, &Origin::measurement_id),
+          median(origins, &Origin::frame_id)};
+}
+
+/** Keeps what agrees with `origin` and goes on in time; returns how many do not. */
+std::size_t keepWhatAgrees(std::vector<MeasurementBlock>& blocks, const Origin& origin, Numbering numbering,
+                           Duration block_period)
+{
+  std::size_t kept = 0;
+  for (const MeasurementBlock& block : blocks)
+    if (agree(impliedBy(block, block_period), origin, numbering) &&
+        (kept == 0 || block.stamp >= blocks[kept - 1].stamp))
+      blocks[kept++] = block;
+  const std::size_t refused = blocks.size() - kept;
+  blocks.resize(kept);
+  return refused;
+}
+}  // namespace
+
+std::size_t keepAgreeing(std::vector<MeasurementBlock>& blocks, Numbering numbering, Duration block_period)
+{
+  const auto invalid = [](const MeasurementBlock& b) { return !b.valid; };
+  blocks.erase(std::remove_if(blocks.begin(), blocks.end(), invalid), blocks.end());
+  if (blocks.empty()) return 0;
+
+  const Origin first = impliedBy(blocks.front(), block_period);
+  const bool unanimous =
+      std::all_of(blocks.begin(), blocks.end(),
+                  [&](const MeasurementBlock& b) { return agree(impliedBy(b, block_period), first, numbering); });
+  return keepWhatAgrees(blocks, unanimous ? first : majority(blocks, block_period), numbering, block_period);
+}
+}  // namespace scanloom

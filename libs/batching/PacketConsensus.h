@@ -1,0 +1,14 @@
+#pragma once
+#include "lidar/PacketDecoder.h"
+
+#include <vector>
+
+namespace scanloom
+{
+/**
+ * Blocks of one packet follow each other at a fixed distance in time, id and number; a block that does not is damaged.
+ * Takes the blocks that are not valid, and those that the majority contradicts, out of `blocks`; returns how many of
+ * the valid ones were contradicted.
+ */
+std::size_t keepAgreeing(std::vector<MeasurementBlock>& blocks, Numbering, Duration block_period);
+}  // namespace scanloom

@@ -1,0 +1,25 @@
+#include "batching/SlidingMinimum.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+void SlidingMinimum::add(Timestamp when, Duration value)
+{
+  if (!rising_.empty()) when = std::max(when, rising_.back().when);
+  while (!rising_.empty() && rising_.back().value >= value) rising_.pop_back();
+  rising_.push_back({when, value});
+  while (rising_.front().when < when - span_) rising_.pop_front();
+}
+
+std::optional<Duration> SlidingMinimum::value() const
+{
+  if (rising_.empty()) return std::nullopt;
+  return rising_.front().value;
+}
+
+void SlidingMinimum::shift(Duration by)
+{
+  for (Seen& seen : rising_) seen.value += by;
+}
+}  // namespace scanloom
