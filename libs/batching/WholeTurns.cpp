@@ -181,7 +181,7 @@ Scan WholeTurns::concatenate(ChosenTurns turns)
   std::size_t points = 0;
   for (LidarIndex i = 0; i < turns.size(); ++i)
   {
-    if (!turns[i] || !turns[i]->whole) scan.complete = false;
+    if (!turns[i] || !turns[i]->whole) scan.missing.set(i);
     if (!turns[i]) continue;
     scan.start = std::min(scan.start, turns[i]->first);
     end = std::max(end, turns[i]->last + inputs_[i].decoder->description().blockPeriod());

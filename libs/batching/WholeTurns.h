@@ -35,8 +35,8 @@ enum class TurnGrouping
 /**
  * Takes what TimeBatcher takes and gives the same type of scan, with differences that are those of the approach:
  * start is the stamp of the oldest column, and period reaches past the newest one, so that scans vary in length and
- * overlap; columns are ordered by lidar, each lidar's in the order of arrival. Every point bears its own time. complete
- * is false where a lidar gave no turn or not a whole one. Blocks of turns that no scan had a place for are `dropped`.
+ * overlap; columns are ordered by lidar, each lidar's in the order of arrival. Every point bears its own time. missing
+ * names the lidars that gave no turn or not a whole one. Blocks of turns that no scan had a place for are `dropped`.
  *
  * Host time plays no role: a lidar that falls silent amid a turn keeps that turn until it is heard again.
  */

@@ -119,7 +119,7 @@ TEST(WholeTurns, aTurnOfOneLidarIsOutWithItsLastPacket)
   EXPECT_EQ(released[1].scan.start, Timestamp{100ms});
   EXPECT_EQ(released[1].scan.period, Duration{100ms});
   EXPECT_EQ(released[1].scan.columns.size(), 64u);
-  EXPECT_TRUE(released[1].scan.complete);
+  EXPECT_TRUE(released[1].scan.complete());
 }
 
 TEST(WholeTurns, theScanSpansOneAndAHalfTurnsInTheWorstPhase)
@@ -194,7 +194,7 @@ TEST(WholeTurns, aLostPacketIsKnownWhenTheNextTurnBegins)
 
   ASSERT_EQ(released.size(), 3u);
   EXPECT_EQ(released[1].at, next_turn);
-  EXPECT_FALSE(released[1].scan.complete);
+  EXPECT_FALSE(released[1].scan.complete());
   EXPECT_EQ(released[1].scan.columns.size(), 56u);
   EXPECT_EQ(batcher.counters(0).lost, 8u);
 }
@@ -235,7 +235,7 @@ TEST(WholeTurns, reorderWithinATurnLosesNothing)
 
   EXPECT_EQ(released[1].scan.columns.size(), 64u);
   EXPECT_EQ(released[1].scan.start, Timestamp{100ms});
-  EXPECT_TRUE(released[1].scan.complete);
+  EXPECT_TRUE(released[1].scan.complete());
 }
 
 TEST(WholeTurns, aTurnWithinAnAzimuthWindowIsWholeWithTheLastPacketOfTheWindow)
@@ -250,7 +250,7 @@ TEST(WholeTurns, aTurnWithinAnAzimuthWindowIsWholeWithTheLastPacketOfTheWindow)
   ASSERT_EQ(released.size(), 3u);
   EXPECT_EQ(released[0].at, arrivals[2].received);
   EXPECT_EQ(released[0].scan.columns.size(), 16u);
-  EXPECT_TRUE(released[0].scan.complete);
+  EXPECT_TRUE(released[0].scan.complete());
   EXPECT_EQ(batcher.counters(0).lost, 0u);
 }
 
@@ -267,7 +267,7 @@ TEST(WholeTurns, aSilentLidarLeavesIncompleteScans)
 
     EXPECT_EQ(released.size(), 10u);
     const Scan& alone = released[6].scan;
-    EXPECT_FALSE(alone.complete);
+    EXPECT_FALSE(alone.complete());
     EXPECT_EQ(alone.columns_of, (std::vector<std::uint32_t>{64, 0}));
   }
 }
@@ -385,7 +385,7 @@ TEST(WholeTurns, aLidarThatStartsAgainBeginsAnotherTurn)
   const auto released = feed(batcher, arrivals);
 
   ASSERT_EQ(released.size(), 4u);
-  EXPECT_FALSE(released[1].scan.complete);
+  EXPECT_FALSE(released[1].scan.complete());
   EXPECT_EQ(released[2].scan.start, Timestamp{700ms});
   EXPECT_EQ(batcher.counters(0).restarts, 1u);
   EXPECT_EQ(batcher.counters(0).lost, 0u);
