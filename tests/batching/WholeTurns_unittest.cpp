@@ -302,9 +302,9 @@ TEST(WholeTurns, withoutFrameIdsATurnIsOutWhenTheAzimuthComesRound)
   EXPECT_EQ(released[1].at, arrivals[2 * kPacketsPerTurn].received);
   EXPECT_EQ(released[1].scan.start, Timestamp{1050ms});
   EXPECT_EQ(released[1].scan.columns.size(), 64u);
-  EXPECT_FALSE(released[0].scan.complete);  // it may have begun before we listened
-  EXPECT_TRUE(released[1].scan.complete);
-  EXPECT_FALSE(released[3].scan.complete);  // cut
+  EXPECT_FALSE(released[0].scan.complete());  // it may have begun before we listened
+  EXPECT_TRUE(released[1].scan.complete());
+  EXPECT_FALSE(released[3].scan.complete());  // cut
   EXPECT_EQ(batcher.counters(0).lost, 0u);
 }
 
@@ -316,8 +316,8 @@ TEST(WholeTurns, withoutFrameIdsAGapInTheStampsIsLoss)
   const auto released = feed(batcher, arrivals);
 
   ASSERT_EQ(released.size(), 4u);
-  EXPECT_FALSE(released[1].scan.complete);
-  EXPECT_TRUE(released[2].scan.complete);
+  EXPECT_FALSE(released[1].scan.complete());
+  EXPECT_TRUE(released[2].scan.complete());
   EXPECT_EQ(batcher.counters(0).lost, 8u);
 }
 
