@@ -1,0 +1,171 @@
+#include "source/OusterHttp.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+
+#include "lidar/OusterMetadata.h"
+
+namespace scanloom
+{
+namespace
+{
+using nlohmann::json;
+
+const std::string kFirmware = "/api/v1/system/firmware", kMetadata = "/api/v1/sensor/metadata",
+                  kSensorInfo = kMetadata + "/sensor_info", kConfig = "/api/v1/sensor/config",
+                  kOldCommands = "/api/v1/sensor/cmd/", kOldConfig = kOldCommands + "get_config_param?args=active";
+
+constexpr int kOldestMajorVersion = 2;
+
+/** Its sections in the nested layout bear the names of their endpoints; what is optional has defaults in the parser. */
+struct MetadataSection
+{
+  const char* name;
+  bool needed;
+};
+constexpr MetadataSection kSections[] = {
+    {"sensor_info", true},      {"beam_intrinsics", true}, {"lidar_data_format", false}, {"lidar_intrinsics", false},
+    {"imu_data_format", false}, {"imu_intrinsics", false}, {"calibration_status", false}};
+
+SensorHttpError malformed(const SensorHttp& sensor, const std::string& endpoint, const std::string& text)
+{
+  return sensor.error(SensorFault::Malformed, endpoint,
+                      fmt::format("answered {} bytes that are no JSON object: ask again, and restart the sensor if it "
+                                  "stays so",
+                                  text.size()));
+}
+
+json parsed(const SensorHttp& sensor, const std::string& endpoint, const std::string& text)
+{
+  json value = json::parse(text, nullptr, false);
+  if (!value.is_object()) throw malformed(sensor, endpoint, text);
+  return value;
+}
+
+std::string textOf(const json& object, const char* key)
+{
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
+}
+
+/** "ousteros-image-prod-aries-v2.3.0+20220415163956" -> "2.3.0"; empty if there is no such thing in it. */
+std::string versionIn(const std::string& image)
+{
+  for (std::size_t v = image.find('v'); v != std::string::npos; v = image.find('v', v + 1))
+  {
+    const std::size_t end = std::min(image.find_first_not_of("0123456789.", v + 1), image.size());
+    if (end > v + 1 && std::isdigit(static_cast<unsigned char>(image[v + 1]))) return image.substr(v + 1, end - v - 1);
+  }
+  return "";
+}
+
+std::string statusIn(const SensorHttp& sensor, const json& sensor_info)
+{
+  const std::string status = textOf(sensor_info, "status");
+  if (!status.empty()) return status;
+  throw sensor.error(SensorFault::Malformed, kSensorInfo, "has no text 'status': this is no Ouster sensor");
+}
+
+void refuseUnlessRunning(SensorHttp& sensor)
+{
+  const std::string status = fetchOusterStatus(sensor);
+  if (status == "RUNNING") return;
+  std::string mend = "look at the alerts on its web page";
+  if (status == "INITIALIZING" || status == "UPDATING" || status == "WARMUP") mend = "wait until it has finished";
+  if (status == "STANDBY") mend = "set its operating_mode to NORMAL";
+  throw sensor.error(SensorFault::NotRunning, kSensorInfo, fmt::format("status is {}, not RUNNING: {}", status, mend));
+}
+
+json assembledFromSections(SensorHttp& sensor)
+{
+  json metadata = json::object();
+  for (const MetadataSection& section : kSections)
+  {
+    const std::string endpoint = fmt::format("{}/{}", kMetadata, section.name);
+    const std::optional<std::string> text = section.needed ? sensor.get(endpoint) : sensor.find(endpoint);
+    if (!text) continue;
+    json value = json::parse(*text, nullptr, false);
+    // Instead of a section that it lacks firmware 2.0 tells an error as a JSON text.
+    if (!value.is_object() && (section.needed || !value.is_string())) throw malformed(sensor, endpoint, *text);
+    metadata[section.name] = std::move(value);
+  }
+  return metadata;
+}
+
+json currentConfig(SensorHttp& sensor)
+{
+  if (const auto text = sensor.find(kConfig)) return parsed(sensor, kConfig, *text);
+  return parsed(sensor, kOldConfig, sensor.get(kOldConfig));
+}
+
+void refuseUnreadable(const SensorHttp& sensor, const std::string& metadata)
+{
+  try
+  {
+    parseOusterMetadata(metadata, "metadata");
+  }
+  catch (const std::invalid_argument& problem)
+  {
+    throw sensor.error(SensorFault::Malformed, kMetadata, problem.what());
+  }
+}
+}  // namespace
+
+std::string fetchOusterMetadata(SensorHttp& sensor)
+{
+  fetchOusterFirmware(sensor);
+  refuseUnlessRunning(sensor);
+
+  const std::optional<std::string> whole = sensor.find(kMetadata);
+  json metadata = whole ? parsed(sensor, kMetadata, *whole) : assembledFromSections(sensor);
+  const auto config = metadata.find("config_params");
+  if (config == metadata.end() || !config->is_object()) metadata["config_params"] = currentConfig(sensor);
+
+  std::string text = metadata.dump(2, ' ', false, json::error_handler_t::replace);
+  refuseUnreadable(sensor, text);
+  return text;
+}
+
+std::string fetchOusterMetadata(const SensorAddress& address, const SensorHttpLimits& limits)
+{
+  SensorHttp sensor(address, limits);
+  return fetchOusterMetadata(sensor);
+}
+
+std::string fetchOusterFirmware(SensorHttp& sensor)
+{
+  const std::string version = versionIn(textOf(parsed(sensor, kFirmware, sensor.get(kFirmware)), "fw"));
+  if (version.empty())
+    throw sensor.error(SensorFault::Malformed, kFirmware, "names no version in 'fw': this is no Ouster sensor");
+  if (std::strtol(version.c_str(), nullptr, 10) < kOldestMajorVersion)
+    throw sensor.error(SensorFault::WrongFirmware, kFirmware,
+                       fmt::format("firmware {} does not tell its metadata over HTTP: update it to 2.1 or newer, or "
+                                   "save its metadata to a file and name that in the key 'metadata'",
+                                   version));
+  return version;
+}
+
+std::string fetchOusterStatus(SensorHttp& sensor)
+{
+  return statusIn(sensor, parsed(sensor, kSensorInfo, sensor.get(kSensorInfo)));
+}
+
+std::string fetchOusterConfig(SensorHttp& sensor)
+{
+  return currentConfig(sensor).dump(2, ' ', false, json::error_handler_t::replace);
+}
+
+bool setOusterDestination(SensorHttp& sensor, const IpAddress& destination)
+{
+  const std::string wanted = destination.text();
+  if (textOf(currentConfig(sensor), "udp_dest") == wanted) return false;
+  if (sensor.post(kConfig + "?reinit=true&persist=false", json{{"udp_dest", wanted}}.dump())) return true;
+
+  sensor.get(fmt::format("{}set_config_param?args=udp_dest+{}", kOldCommands, wanted));
+  sensor.get(kOldCommands + "reinitialize");
+  return true;
+}
+}  // namespace scanloom
