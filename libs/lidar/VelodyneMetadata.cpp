@@ -34,6 +34,7 @@ std::vector<double> perLaser(const MetadataKeys& keys, const std::string& key, c
 
 bool looksLikeVelodyne(const std::string& text)
 {
+  if (text.find("velodyne") == std::string::npos) return false;  // most files are long and of another maker
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object()) return false;
   const auto lidar = json.find("lidar");

@@ -1,48 +1,92 @@
-/** Any bytes as a packet of any profile: what kind() accepts is decoded, everything else at worst ends in
- * std::out_of_range. */
+/**
+ * Any bytes as a packet of every profile at once, so that each run is one execution for each of them: what kind()
+ * accepts is decoded without a word, everything else at worst ends in std::out_of_range.
+ * fuzz options: -max_len=400
+ */
 #include <memory>
 #include <stdexcept>
 
 #include "../lidar/simpleMetadata.h"
+#include "lidar/Crc64.h"
 #include "lidar/FrameFields.h"
+#include "require.h"
 
 using namespace scanloom;
 
 namespace
 {
-std::vector<std::unique_ptr<OusterDecoder>> everyDecoder()
+/** What is put right before a decoder sees the bytes, or nearly all of them would end at the door. */
+enum Mend : std::uint8_t
 {
-  std::vector<std::unique_ptr<OusterDecoder>> decoders;
+  kSize = 1,
+  kHeader = 2,  // type and serial number
+  kChecksum = 4,
+  kImu = 8,  // the packet is meant as one of the IMU's
+};
+
+std::vector<OusterDecoder> everyDecoder()
+{
+  std::vector<OusterDecoder> decoders;
   for (const OusterProfile& profile : kOusterProfiles)
-    for (const OusterImuProfile imu : {OusterImuProfile::Legacy, OusterImuProfile::Accel32Gyro32Nmea})
-    {
-      OusterMetadata m = simpleMetadata(std::string(profile.name), 4, 2);
-      m.imu_profile = imu;
-      m.imu_measurements_per_packet = 2;
-      decoders.push_back(std::make_unique<OusterDecoder>(m, Rigid::identity()));
-    }
+  {
+    OusterMetadata m = simpleMetadata(std::string(profile.name), 3, 2);
+    m.lidar_mode = "16x10";  // small turns
+    m.columns_per_frame = 16;
+    m.last_column = 15;
+    m.imu_profile = decoders.size() % 2 ? OusterImuProfile::Legacy : OusterImuProfile::Accel32Gyro32Nmea;
+    m.imu_measurements_per_packet = 2;
+    decoders.emplace_back(m, Rigid::identity());
+  }
   return decoders;
+}
+
+void put(std::vector<std::uint8_t>& packet, ByteField field, std::uint64_t value)
+{
+  if (field.offset + field.count <= packet.size()) std::memcpy(packet.data() + field.offset, &value, field.count);
+}
+
+void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const OusterLayout& layout)
+{
+  const bool imu = what & kImu;
+  const OusterHeader header = imu ? layout.imu_header : layout.lidar_header;
+  if (what & kSize) packet.resize(imu ? layout.imuPacketBytes() : layout.lidarPacketBytes());
+  if (header == OusterHeader::None) return;
+  if (what & kHeader)
+  {
+    put(packet, headerFields(header).type, imu ? kOusterImuType : kOusterLidarType);
+    put(packet, headerFields(header).serial, 0);  // says nothing of its sensor
+  }
+  if ((what & kChecksum) && OusterLayout::hasCrc(header) && packet.size() >= kOusterCrcBytes)
+  {
+    const std::size_t end = packet.size() - kOusterCrcBytes;
+    store(packet, end, crc64(Bytes(packet).slice(0, end)));
+  }
 }
 
 void decodeImu(const OusterDecoder& decoder, Bytes packet)
 {
   decoder.header(packet);
   for (const ImuSample& sample : decoder.imuSamples(packet))
-    if (!sample.accel.allFinite() || !sample.gyro.allFinite()) __builtin_trap();
+    require(sample.accel.allFinite() && sample.gyro.allFinite());
 }
 
 void decodeLidar(const OusterDecoder& decoder, Bytes packet)
 {
+  static std::vector<MeasurementBlock> blocks;
+  static PointCloud points;
   decoder.header(packet);
-  std::vector<MeasurementBlock> blocks;
   decoder.readBlocks(packet, blocks);
-  PointCloud points;
-  for (const MeasurementBlock& block : blocks) decoder.appendPoints(packet, block.index, 0, 0, points);
+  require(blocks.size() == 2);
+  points.clear();
+  for (const MeasurementBlock& block : blocks)
+  {
+    const std::size_t before = points.size();
+    decoder.appendPoints(packet, block.index, 0, 0, points);
+    require(block.valid || points.size() == before);
+    require(!block.valid || (block.measurement_id < 16 && block.stamp >= Timestamp{}));
+  }
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (points.range[i] == 0 || !points.position(i).allFinite()) __builtin_trap();
-
-  FrameFields frames(decoder);
-  frames.push(packet);
+    require(points.range[i] > 0 && points.ring[i] < 3 && points.position(i).allFinite());
 }
 
 void refuse(void (*decode)(const OusterDecoder&, Bytes), const OusterDecoder& decoder, Bytes packet)
@@ -57,27 +101,31 @@ void refuse(void (*decode)(const OusterDecoder&, Bytes), const OusterDecoder& de
 }
 }  // namespace
 
-/** The first byte chooses the decoder, the second whether the size is made to fit; the rest is the packet. */
+/** The first byte says what is mended, the second which decoder also has to refuse what it does not know. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  static const auto decoders = everyDecoder();
+  static const std::vector<OusterDecoder> decoders = everyDecoder();
+  static std::vector<std::uint8_t> packet;
   if (size < 2) return 0;
-  const OusterDecoder& decoder = *decoders[data[0] % decoders.size()];
-  std::vector<std::uint8_t> packet(data + 2, data + size);
-  if (data[1] & 1) packet.resize(decoder.layout().lidarPacketBytes());
-  if (data[1] & 2) packet.resize(decoder.layout().imuPacketBytes());
-
-  switch (decoder.kind(packet))
+  for (const OusterDecoder& decoder : decoders)
   {
-    case PacketKind::Lidar:
-      decodeLidar(decoder, packet);
-      break;
-    case PacketKind::Imu:
-      decodeImu(decoder, packet);
-      break;
-    default:
-      refuse(&decodeLidar, decoder, packet);
-      refuse(&decodeImu, decoder, packet);
+    const bool chosen = &decoder == &decoders[data[1] % decoders.size()];
+    packet.assign(data + 2, data + size);
+    mend(packet, data[0], decoder.layout());
+    switch (decoder.kind(packet))
+    {
+      case PacketKind::Lidar:
+        decodeLidar(decoder, packet);
+        if (chosen) FrameFields(decoder).push(packet);
+        break;
+      case PacketKind::Imu:
+        decodeImu(decoder, packet);
+        break;
+      default:
+        if (!chosen) break;
+        refuse(&decodeLidar, decoder, packet);
+        refuse(&decodeImu, decoder, packet);
+    }
   }
   return 0;
 }
