@@ -58,6 +58,9 @@ class TimeBatcher
   /** What a person should hear of, since the last call. */
   std::vector<Notice> takeNotices();
 
+  /** At most queue_packets. */
+  std::size_t waitingPackets(LidarIndex lidar) const { return inputs_[lidar].queue.packets(); }
+
   const LidarCounters& counters(LidarIndex lidar) const { return inputs_[lidar].counters; }
   const LidarClock& clock(LidarIndex lidar) const { return inputs_[lidar].clock; }
   const std::vector<BatchedLidar>& lidars() const { return lidars_; }

@@ -367,7 +367,7 @@ TEST(WholeTurns, aRotorThatStandsStillMakesNoEndlessTurn)
   std::size_t longest = 0;
   for (Arrival& arrival : turning({0ms}, 30))
   {
-    for (std::size_t at = 12; at < arrival.packet.size(); at += FakeLidar::kBlockSize)
+    for (std::size_t at = FakeLidar::kHeaderSize + 12; at < arrival.packet.size(); at += FakeLidar::kBlockSize)
       store<std::uint16_t>(arrival.packet, at, 7);
     for (const Scan& scan : batcher.push(0, arrival.packet, arrival.received))
       longest = std::max(longest, scan.columns.size());

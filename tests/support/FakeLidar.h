@@ -14,15 +14,24 @@ struct FakeLidarOptions
   int first_column = 0;
   int last_column = 63;
   double frame_rate = 10;
+  Numbering numbering = Numbering::Ids;
+  Duration fixed_block_period{0};
+  Duration stamp_modulus{0};
+  bool has_init_id = false;
+  std::uint64_t frame_id_modulus = 65536;
 };
 
-/** Packet: per block {i64 stamp, u32 frame, u16 measurement id, u16 valid}. The three points carry the stamp in x. */
+/**
+ * Packet: {u32 init id, u32 flags}, then per block {i64 stamp, u32 frame, u16 measurement id, u16 valid}. The three
+ * points carry the stamp in x.
+ */
 class FakeLidar : public PacketDecoder
 {
  public:
+  static constexpr std::size_t kHeaderSize = 8;
   static constexpr std::size_t kBlockSize = 16;
 
-  explicit FakeLidar(const FakeLidarOptions& options = {})
+  explicit FakeLidar(const FakeLidarOptions& options = {}) : has_init_id_(options.has_init_id)
   {
     description_.model = "fake";
     description_.channels = 3;
@@ -31,40 +40,48 @@ class FakeLidar : public PacketDecoder
     description_.first_column = options.first_column;
     description_.last_column = options.last_column;
     description_.frame_rate = options.frame_rate;
-    description_.frame_id_modulus = 65536;
+    description_.frame_id_modulus = options.frame_id_modulus;
+    description_.numbering = options.numbering;
+    description_.fixed_block_period = options.fixed_block_period;
+    description_.stamp_modulus = options.stamp_modulus;
   }
 
   const LidarDescription& description() const override { return description_; }
   PacketKind kind(Bytes packet) const override
   {
-    return packet.size() == kBlockSize * static_cast<std::size_t>(description_.columns_per_packet)
+    return packet.size() == kHeaderSize + kBlockSize * static_cast<std::size_t>(description_.columns_per_packet)
                ? PacketKind::Lidar
                : PacketKind::Malformed;
   }
   PacketHeader header(Bytes packet) const override
   {
     PacketHeader header;
-    header.frame_id = load<std::uint32_t>(packet, 8);
+    header.frame_id = load<std::uint32_t>(packet, kHeaderSize + 8);
+    if (has_init_id_) header.init_id = load<std::uint32_t>(packet, 0);
+    header.alert_flags = load<std::uint8_t>(packet, 4);
+    header.thermal_status = load<std::uint8_t>(packet, 5);
+    header.shot_limiting_status = load<std::uint8_t>(packet, 6);
     return header;
   }
   void readBlocks(Bytes packet, std::vector<MeasurementBlock>& blocks) const override
   {
     blocks.clear();
-    for (std::size_t at = 0; at < packet.size(); at += kBlockSize)
+    for (std::size_t at = kHeaderSize; at < packet.size(); at += kBlockSize)
     {
       MeasurementBlock block;
       block.stamp = fromNanoseconds(load<std::int64_t>(packet, at));
       block.frame_id = load<std::uint32_t>(packet, at + 8);
       block.measurement_id = load<std::uint16_t>(packet, at + 12);
       block.valid = load<std::uint16_t>(packet, at + 14) != 0;
-      block.index = static_cast<std::uint16_t>(at / kBlockSize);
+      block.index = static_cast<std::uint16_t>((at - kHeaderSize) / kBlockSize);
       blocks.push_back(block);
     }
   }
   void appendPoints(Bytes packet, std::size_t block, std::int32_t t, std::uint8_t sensor_id,
                     PointCloud& points) const override
   {
-    const auto stamp = load<std::int64_t>(packet, block * kBlockSize);
+    const std::size_t at = kHeaderSize + block * kBlockSize;
+    const auto stamp = load<std::int64_t>(packet, at);
     const std::size_t first = points.size();
     points.resize(first + 3);
     for (std::size_t i = first; i < first + 3; ++i)
@@ -72,7 +89,7 @@ class FakeLidar : public PacketDecoder
       points.x[i] = static_cast<float>(1e-6 * static_cast<double>(stamp % 1000000000));
       points.t[i] = t;
       points.ring[i] = static_cast<std::uint16_t>(i - first);
-      points.column[i] = load<std::uint16_t>(packet, block * kBlockSize + 12);
+      points.column[i] = load<std::uint16_t>(packet, at + 12);
       points.sensor_id[i] = sensor_id;
     }
   }
@@ -87,15 +104,15 @@ class FakeLidar : public PacketDecoder
     int column = 0;
     for (Timestamp t = first; t + block * per_packet <= first + length; t += block * per_packet)
     {
-      std::vector<std::uint8_t> packet(kBlockSize * static_cast<std::size_t>(per_packet));
+      std::vector<std::uint8_t> packet(kHeaderSize + kBlockSize * static_cast<std::size_t>(per_packet));
       bool any = false;
       for (int b = 0; b < per_packet; ++b)
       {
         const bool valid = inWindow(column + b);
         any |= valid;
-        const std::size_t at = kBlockSize * static_cast<std::size_t>(b);
+        const std::size_t at = kHeaderSize + kBlockSize * static_cast<std::size_t>(b);
         store<std::int64_t>(packet, at, nanoseconds(t + block * b));
-        store<std::uint32_t>(packet, at + 8, frame % 65536);
+        store<std::uint32_t>(packet, at + 8, static_cast<std::uint32_t>(frame % description_.frame_id_modulus));
         store<std::uint16_t>(packet, at + 12, static_cast<std::uint16_t>(column + b));
         store<std::uint16_t>(packet, at + 14, valid ? 1 : 0);
       }
@@ -118,5 +135,6 @@ class FakeLidar : public PacketDecoder
   }
 
   LidarDescription description_;
+  bool has_init_id_;
 };
 }  // namespace scanloom
