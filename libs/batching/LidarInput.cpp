@@ -30,9 +30,11 @@ LidarInput::LidarInput(const BatchedLidar& lidar, const BatcherOptions& options)
 void LidarInput::replace(std::shared_ptr<const PacketDecoder> decoder)
 {
   giveUpAll();
-  decoder_ = std::move(decoder);
+  decoders_.push_back(std::move(decoder));
+  decoder_ = decoders_.back().get();
   const LidarDescription& description = decoder_->description();
   blocks_per_packet_ = static_cast<std::size_t>(description.columns_per_packet);
+  packet_time_ = description.blockPeriod() * description.columns_per_packet;
   continuity_.emplace(description);
   sequencer_.emplace(description, deadline_);
   clock.restarted();
@@ -181,7 +183,7 @@ bool LidarInput::countedOnce(std::int64_t last_block, const PacketPlace& place, 
 void LidarInput::enqueue(Bytes packet)
 {
   for (MeasurementBlock& block : blocks_) block.stamp += clock.offset();
-  counters.dropped += queue.push(packet, blocks_, decoder_);
+  counters.dropped += queue.push(packet, blocks_, *decoder_);
 }
 
 void LidarInput::quarantine() { counters.quarantined += blocks_.size(); }
@@ -210,8 +212,7 @@ void LidarInput::raiseDeadline(Timestamp now, Duration delay)
 Timestamp LidarInput::deadlineAt(Timestamp now, Duration delay) const
 {
   // The oldest block of a packet under way is one packet's duration older than its newest.
-  const Duration packet = continuity_ ? continuity_->blockPeriod() * static_cast<int>(blocks_per_packet_) : Duration{0};
-  return now - delay - packet - deadline_;
+  return now - delay - packet_time_ - deadline_;
 }
 
 std::optional<Timestamp> LidarInput::firstStamp() const

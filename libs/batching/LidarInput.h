@@ -65,9 +65,11 @@ class LidarInput
   void unwrapStamps(Timestamp received);
   void hear(Timestamp received);
 
-  std::shared_ptr<const PacketDecoder> decoder_;
+  std::vector<std::shared_ptr<const PacketDecoder>> decoders_;  // all so far: what waits is read by those before
+  const PacketDecoder* decoder_ = nullptr;                      // the newest
   Duration deadline_;
   std::size_t blocks_per_packet_ = 0;
+  Duration packet_time_{0};
   std::optional<Continuity> continuity_;  // with the decoder
   std::optional<Sequencer> sequencer_;
   std::vector<MeasurementBlock> blocks_;       // the usable ones of the packet in hand, by the lidar's own clock

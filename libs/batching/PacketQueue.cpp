@@ -4,7 +4,7 @@
 
 namespace scanloom
 {
-std::size_t PacketQueue::push(Bytes packet, const std::vector<MeasurementBlock>& blocks, const Decoder& decoder)
+std::size_t PacketQueue::push(Bytes packet, std::vector<MeasurementBlock>& blocks, const PacketDecoder& decoder)
 {
   std::size_t dropped = 0;
   if (packets_.size() >= capacity_)
@@ -21,14 +21,14 @@ std::size_t PacketQueue::push(Bytes packet, const std::vector<MeasurementBlock>&
     spare_.pop_back();
   }
   waiting.bytes.assign(packet.begin(), packet.end());
-  waiting.blocks = blocks;
-  waiting.decoder = decoder;
+  waiting.blocks.swap(blocks);
+  waiting.decoder = &decoder;
   waiting.next = 0;
 
   // Nearly always the end; a reordered packet goes where its first block belongs.
-  const auto place =
-      std::upper_bound(packets_.begin(), packets_.end(), blocks.front().stamp,
-                       [](Timestamp stamp, const Waiting& other) { return stamp < other.blocks[other.next].stamp; });
+  const Timestamp first = waiting.blocks.front().stamp;
+  auto place = packets_.end();
+  while (place != packets_.begin() && first < (place - 1)->blocks[(place - 1)->next].stamp) --place;
   packets_.insert(place, std::move(waiting));
   return dropped;
 }

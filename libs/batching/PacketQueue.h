@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <memory>
 #include <vector>
 
 namespace scanloom
@@ -13,13 +12,13 @@ namespace scanloom
 class PacketQueue
 {
  public:
-  using Decoder = std::shared_ptr<const PacketDecoder>;
-
   explicit PacketQueue(std::size_t capacity) : capacity_(capacity) {}
 
-  /** Copies the packet; `blocks` are its usable ones in time order, at least one. Returns the blocks dropped for it
-   * when full. */
-  std::size_t push(Bytes packet, const std::vector<MeasurementBlock>& blocks, const Decoder&);
+  /**
+   * Copies the packet and takes the blocks: its usable ones in time order, at least one; `blocks` is left with memory of
+   * any content. The decoder must outlive the packet. Returns the blocks dropped for it when full.
+   */
+  std::size_t push(Bytes packet, std::vector<MeasurementBlock>& blocks, const PacketDecoder&);
 
   bool empty() const { return packets_.empty(); }
   std::size_t packets() const { return packets_.size(); }
@@ -41,7 +40,7 @@ class PacketQueue
   {
     std::vector<std::uint8_t> bytes;
     std::vector<MeasurementBlock> blocks;
-    Decoder decoder;
+    const PacketDecoder* decoder = nullptr;
     std::size_t next = 0;
   };
 

@@ -12,12 +12,6 @@ void SlidingMinimum::add(Timestamp when, Duration value)
   while (rising_.front().when < when - span_) rising_.pop_front();
 }
 
-std::optional<Duration> SlidingMinimum::value() const
-{
-  if (rising_.empty()) return std::nullopt;
-  return rising_.front().value;
-}
-
 void SlidingMinimum::shift(Duration by)
 {
   for (Seen& seen : rising_) seen.value += by;

@@ -15,7 +15,10 @@ class SlidingMinimum
   void add(Timestamp when, Duration value);
 
   /** None before the first value. */
-  std::optional<Duration> value() const;
+  std::optional<Duration> value() const
+  {
+    return rising_.empty() ? std::nullopt : std::optional(rising_.front().value);
+  }
 
   /** When the newest value came; the values must not be empty. */
   Timestamp newest() const { return rising_.back().when; }

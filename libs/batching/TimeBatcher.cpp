@@ -28,6 +28,7 @@ TimeBatcher::TimeBatcher(const std::vector<BatchedLidar>& lidars, const BatcherO
   if (lidars_.empty() || lidars_.size() > kMostLidars)
     throw std::invalid_argument(fmt::format("{} lidars: 1 to {} can be batched", lidars_.size(), kMostLidars));
   for (const BatchedLidar& lidar : lidars_) inputs_.emplace_back(lidar, options_);
+  fronts_.assign(inputs_.size(), Timestamp::max());
 }
 
 std::vector<Scan> TimeBatcher::push(LidarIndex lidar, Bytes packet, Timestamp received)
@@ -79,6 +80,7 @@ void TimeBatcher::take(LidarIndex lidar, Bytes packet, Timestamp received)
   if (input.clock.state() == LidarClock::State::Quarantined) return input.quarantine();
   const std::uint64_t dropped = input.counters.dropped;
   input.enqueue(packet);
+  refreshFront(lidar);
   if (dropped == 0 && input.counters.dropped > 0) note(lidar, Notice::Kind::QueueFull);
   if (silent_.test(lidar)) note(lidar, Notice::Kind::Back, input.silence());
   silent_.reset(lidar);
@@ -100,6 +102,7 @@ void TimeBatcher::noteNews(LidarIndex lidar, const std::vector<Notice::Kind>& ne
     // Nothing is given out yet: what waits is of a clock that is no more.
     if (stepped) input.queue.shift(input.step());
     if (kind == Notice::Kind::Restarted) input.counters.before_start += input.queue.clear();
+    refreshFront(lidar);
   }
 }
 
@@ -139,22 +142,21 @@ std::vector<Scan> TimeBatcher::release()
   for (const LidarInput& input : inputs_) horizon = std::min(horizon, watermark(input));
   horizon_ = std::max(horizon_, horizon);
 
-  for (auto next = oldest(); next && inputs_[*next].queue.front().stamp < horizon_; next = oldest())
+  // The first of equal stamps is that of the smaller index: the order of columns.
+  for (auto oldest = std::min_element(fronts_.begin(), fronts_.end()); *oldest < horizon_;
+       oldest = std::min_element(fronts_.begin(), fronts_.end()))
   {
-    pass(inputs_[*next].queue.front().stamp, scans);
-    append(*next);
+    pass(*oldest, scans);
+    append(static_cast<LidarIndex>(oldest - fronts_.begin()));
   }
   if (!finished_) pass(horizon_, scans);
   return scans;
 }
 
-std::optional<LidarIndex> TimeBatcher::oldest() const
+void TimeBatcher::refreshFront(LidarIndex lidar)
 {
-  std::optional<LidarIndex> oldest;
-  for (LidarIndex i = 0; i < inputs_.size(); ++i)
-    if (!inputs_[i].queue.empty() && (!oldest || inputs_[i].queue.front().stamp < inputs_[*oldest].queue.front().stamp))
-      oldest = i;
-  return oldest;
+  const PacketQueue& queue = inputs_[lidar].queue;
+  fronts_[lidar] = queue.empty() ? Timestamp::max() : queue.front().stamp;
 }
 
 /** Nothing older than `time` comes any more. */
@@ -192,6 +194,7 @@ void TimeBatcher::append(LidarIndex index)
     last_ = column;
   }
   input.queue.pop();
+  refreshFront(index);
 }
 
 Timestamp TimeBatcher::sliceEnd() const { return scan_->start + scan_->period * (slices_given_ + 1) / options_.slices; }

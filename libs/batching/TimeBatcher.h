@@ -82,7 +82,7 @@ class TimeBatcher
   std::vector<Scan> release();
   void raiseDeadlines();
   Timestamp watermark(const LidarInput&) const;
-  std::optional<LidarIndex> oldest() const;
+  void refreshFront(LidarIndex);
   void pass(Timestamp, std::vector<Scan>& closed);
   void append(LidarIndex);
   void giveSlice();
@@ -96,6 +96,7 @@ class TimeBatcher
   OtherClock other_clock_;
   Duration period_, phase_, max_clock_skew_;
   std::vector<LidarInput> inputs_;
+  std::vector<Timestamp> fronts_;  // oldest stamp that waits, per lidar; the end of time where none does
 
   Timestamp now_ = Timestamp::min();
   Timestamp first_start_ = Timestamp::min();  // t_init of eq. (1)

@@ -69,6 +69,7 @@ std::optional<Timestamp> TimeBatcher::latestFirstStamp() const
 void TimeBatcher::startAfter(Timestamp latest)
 {
   settleClocksAtStart();
+  for (LidarIndex i = 0; i < inputs_.size(); ++i) refreshFront(i);
   first_start_ = latest - floorMod(latest.time_since_epoch() - phase_, period_) + period_;  // eq. (1)
   scan_ = emptyScan(first_start_);
 }
