@@ -7,6 +7,7 @@
 #include "lidar/Digest.h"
 #include "support/FakeLidar.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -167,6 +168,21 @@ inline void expectInvariants(const Outcome& outcome, const Rig& rig, const Arriv
     EXPECT_EQ(c.received, c.packets * blocksPerPacket(rig[i])) << "I3, lidar " << i;
   }
   EXPECT_LE(outcome.most_waiting, static_cast<std::size_t>(options.queue_packets)) << "I5";
+}
+
+/** A figure for the table of doc/faults.md: in what `--gtest_output=json` writes. */
+inline void measured(const std::string& name, double value)
+{
+  testing::Test::RecordProperty(name, fmt::format("{:.4g}", value));
+}
+
+/** How long after its end a scan was given out, ms; the last one is cut by the end of input. */
+inline double latestRelease(const Outcome& outcome)
+{
+  double latest = 0;
+  for (std::size_t k = 0; k + 1 < outcome.scans.size(); ++k)
+    latest = std::max(latest, 1e3 * seconds(outcome.released[k] - outcome.scans[k].end()));
+  return latest;
 }
 
 enum class Clock

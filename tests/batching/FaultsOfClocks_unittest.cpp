@@ -66,6 +66,9 @@ TEST_P(F12Step, ofOneClockIsSeenAtThePacketAfterAndCostsNobodyElseABlock)
     const double error = largestClockError(
         outcome, lidar, [&](Timestamp t) { return t > from - 1ms ? step : Duration{0}; }, from + 5ms);
     EXPECT_LT(error, by_ids ? 2e-5 : 2e-3);
+    const std::string which = "_lidar" + std::to_string(lidar + 1);
+    measured("seen_after_ms" + which, 1e3 * seconds(noticed.front().when - from));
+    measured("clock_error_us" + which, 1e6 * error);
   }
 }
 INSTANTIATE_TEST_SUITE_P(All, F12Step,
@@ -151,6 +154,7 @@ TEST(F13, driftOfAClockThoughtCommonRaisesAnAlarmEveryFiveMilliseconds)
     const auto alarms = outcome.of(Notice::Kind::ClockDrifts);
     ASSERT_GE(alarms.size(), 30u);  // 180 ms
     EXPECT_NEAR(seconds(alarms.front().when - kBegin), 100, 15);
+    measured(ppm > 0 ? "first_alarm_s_fast" : "first_alarm_s_slow", seconds(alarms.front().when - kBegin));
     EXPECT_EQ(outcome.count(1, &LidarCounters::lost) + outcome.count(1, &LidarCounters::doubtful_packets), 0u);
     EXPECT_EQ(outcome.count(1, &LidarCounters::late), 0u);
   }
@@ -163,7 +167,9 @@ TEST(F13, anAlignedClockThatDriftsIsFollowedToAMillisecond)
     Rig rig;
     const Outcome outcome = anHour(ppm, -900s, rig);
     const auto ahead = [&](Timestamp t) { return -900s + fromSeconds(1e-6 * ppm * seconds(t - kBegin)); };
-    EXPECT_LT(largestClockError(outcome, 1, ahead), 1e-3);
+    const double error = largestClockError(outcome, 1, ahead);
+    EXPECT_LT(error, 1e-3);
+    measured(ppm > 0 ? "clock_error_us_fast" : "clock_error_us_slow", 1e6 * error);
     EXPECT_EQ(outcome.count(1, &LidarCounters::late), 0u);
   }
 }
@@ -182,7 +188,10 @@ TEST_P(F14Epoch, thatDiffersAtTheStartIsAlignedWithANoticeAndNothingIsDiscarded)
   ASSERT_EQ(noticed.size(), 1u);
   EXPECT_EQ(noticed.front().lidar, 1u);
   EXPECT_LE(noticed.front().when - kBegin, 1s);
-  EXPECT_LT(largestClockError(outcome, 1, [&](Timestamp) { return ahead; }), 1e-3);
+  const double error = largestClockError(outcome, 1, [&](Timestamp) { return ahead; });
+  EXPECT_LT(error, 1e-3);
+  measured("clock_error_us", 1e6 * error);
+  measured("noticed_after_ms", 1e3 * seconds(noticed.front().when - kBegin));
   EXPECT_GE(outcome.scans.front().columns_of[1], 1000u);
   EXPECT_EQ(outcome.count(1, &LidarCounters::late), 0u);
 }

@@ -79,6 +79,8 @@ TEST(F7, damagedPacketsOfOneLidarLeaveTheOthersBitByBitAsTheyWere)
     EXPECT_EQ(outcome.count(0, &LidarCounters::restarts), 0u) << "seed " << seed;
     EXPECT_EQ(outcome.count(0, &LidarCounters::clock_steps), 0u) << "seed " << seed;
     EXPECT_GT(outcome.count(0, &LidarCounters::emitted), 64u * 16u * 20u) << "seed " << seed;
+    measured("doubtful_packets_of_about_850_seed" + std::to_string(seed),
+             static_cast<double>(outcome.count(0, &LidarCounters::doubtful_packets)));
   }
 }
 
@@ -119,6 +121,7 @@ TEST_P(F10Restart, isBackWithinTwoPeriodsOfItsFirstPacket)
     ++back_after;
   }
   EXPECT_LE(back_after, 1);
+  measured("scans_without_it_after_its_first_packet", back_after);
   for (std::size_t k = 0; k + 1 < outcome.scans.size(); ++k)
   {
     if (outcome.scans[k].start >= on + kPeriod)
@@ -172,6 +175,7 @@ TEST(F11, aChangeOfModeIsSeenAtTheFirstPacketAndCostsTheOthersNothing)
     if (!seen && batcher.counters(0).malformed_packets == 1) seen = a.sent;
   }
   EXPECT_LE(*seen - (from + 300ms), 2 * kPacketTime);
+  measured("seen_after_ms", 1e3 * seconds(*seen - (from + 300ms)));
   const auto others = [](std::uint8_t id) { return id != 0; };
   const auto reference = batch(rig, clean).scans;
   const std::vector<Scan> compared(reference.begin(), reference.begin() + static_cast<std::ptrdiff_t>(scans.size()));
@@ -220,6 +224,7 @@ TEST(F26, whatALidarSaysOfItsHealthIsKnownWithTheSameScan)
   ASSERT_EQ(alerts.size(), 2u);  // it begins and it ends
   EXPECT_EQ(alerts[0].flags, 0x00020141u);
   EXPECT_LE(alerts[0].when - hot, 2 * kPacketTime);
+  measured("known_after_ms", 1e3 * seconds(alerts[0].when - hot));
   EXPECT_EQ(alerts[1].flags, 0u);
   EXPECT_NEAR(static_cast<double>(outcome.count(0, &LidarCounters::alert_packets)), 320, 1);
 }
