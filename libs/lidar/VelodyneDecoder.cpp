@@ -47,10 +47,10 @@ LidarDescription describe(const VelodyneMetadata& m, const Rigid& body_T_sensor)
   d.channels = m.model->channels;
   d.frame_rate = m.rpm / 60;
   d.columns_per_frame = static_cast<int>(std::lround(1 / (d.frame_rate * seconds(m.model->sequence))));
-  d.columns_per_packet = static_cast<int>(m.model->sequencesPerPacket());
+  d.columns_per_packet = static_cast<int>(m.model->sequencesPerPacket()) / m.returns;
   d.first_column = columnOf(100 * m.first_azimuth_deg, d.columns_per_frame);
   d.last_column = columnOf(100 * m.last_azimuth_deg, d.columns_per_frame);
-  d.returns = m.model->dual_return ? 2 : 1;
+  d.returns = m.returns;
   d.frame_id_modulus = 1;
   d.lidar_port = m.lidar_port;
   d.body_T_sensor = body_T_sensor;
@@ -76,7 +76,8 @@ PacketKind VelodyneDecoder::kind(Bytes packet) const
   if (packet.size() != kVelodynePacketBytes) return PacketKind::Malformed;
   const VelodynePacket view = this->view(packet);
   if (view.productId() != metadata_.product_id) return PacketKind::Foreign;
-  return view.isSound() ? PacketKind::Lidar : PacketKind::Malformed;
+  const bool as_set = view.hasTwoReturns() == (metadata_.returns == 2);
+  return as_set && view.isSound() ? PacketKind::Lidar : PacketKind::Malformed;
 }
 
 std::uint16_t VelodyneDecoder::column(double azimuth) const

@@ -18,8 +18,10 @@ namespace scanloom
  * no serial. frame_id is 0; measurement_id is the azimuth as a column of columns_per_frame: of two blocks half a column
  * apart both may have the same.
  *
- * kind(): Foreign is a packet with another product id; Other is a position packet. Of two returns the first is that of
- * the first data block of a pair (the maker: last, then strongest, or second strongest if the last is the strongest).
+ * kind(): Foreign is a packet with another product id; Other is a position packet; Malformed is also one with another
+ * number of returns than the metadata says, since packets are put in order by how long each lasts. Of two returns the
+ * first is that of the first data block of a pair (the maker: last, then strongest, or second strongest if the last is
+ * the strongest).
  */
 class VelodyneDecoder : public PacketDecoder
 {

@@ -50,6 +50,10 @@ VelodyneMetadata parseVelodyneMetadata(const std::string& text, const std::strin
   m.product_id = static_cast<std::uint8_t>(keys.integer(kTopLevel, "product_id", 0, 255).value_or(model.product_id));
   m.serial = keys.text(kTopLevel, "serial").value_or("");
   m.rpm = keys.number(kTopLevel, "rpm", 300, 1200).value_or(m.rpm);
+  m.returns = keys.integer(kTopLevel, "returns", 1, 2).value_or(m.returns);
+  if (m.returns == 2 && !model.dual_return)
+    keys.fail("returns",
+              fmt::format("two returns of the {} are not supported: set it to strongest or last", model.name));
   m.lidar_port = static_cast<std::uint16_t>(keys.integer(kTopLevel, "port", 1, 65535).value_or(m.lidar_port));
 
   const auto view = keys.numbers(kTopLevel, "field_of_view_deg", 0, 360).value_or(std::vector<double>{0, 360});

@@ -14,6 +14,7 @@ struct VelodyneMetadata
   std::uint8_t product_id = 0;           // the packets' last byte; the model's own unless the file says otherwise
   std::string serial;                    // for reports: packets bear none
   double rpm = 600;                      // as set in the sensor
+  int returns = 1;                       // as set in the sensor: 1 (strongest or last) or 2
   std::uint16_t lidar_port = 2368;
   double first_azimuth_deg = 0, last_azimuth_deg = 360;  // field of view as set in the sensor, clockwise; may wrap
   std::vector<double> vertical_deg;                      // above the plane of rotation

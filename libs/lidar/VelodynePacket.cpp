@@ -33,16 +33,12 @@ VelodynePacket::VelodynePacket(Bytes packet, const VelodyneModel& model, double 
   groups_ = kBlocks / blocks_per_group_;
   group_period_ = model.sequence * static_cast<int>(sequences_per_group_);
   rate_ = measuredRate();
+  findGap();
 }
 
-std::uint16_t VelodynePacket::flag(std::size_t block) const
+std::uint16_t VelodynePacket::azimuthOfBlock(std::size_t block) const
 {
-  return load<std::uint16_t>(packet_, block * kBlockBytes);
-}
-
-std::uint16_t VelodynePacket::azimuth(std::size_t group) const
-{
-  return load<std::uint16_t>(packet_, group * blocks_per_group_ * kBlockBytes + kAzimuth);
+  return load<std::uint16_t>(packet_, block * kBlockBytes + kAzimuth);
 }
 
 std::uint8_t VelodynePacket::productId() const { return packet_[kProductId]; }
@@ -54,7 +50,7 @@ bool VelodynePacket::isSound() const
   if (mode_ < kStrongest || mode_ > kDual || (hasTwoReturns() && !model_.dual_return)) return false;
   const std::size_t banks = std::max<std::size_t>(1, static_cast<std::size_t>(model_.channels) / kLasersPerBlock);
   for (std::size_t block = 0; block < kBlocks; ++block)
-    if (flag(block) != kBankFlags[block % banks]) return false;
+    if (load<std::uint16_t>(packet_, block * kBlockBytes) != kBankFlags[block % banks]) return false;
   return true;
 }
 
@@ -84,30 +80,37 @@ double VelodynePacket::measuredRate() const
 /**
  * Where part of the turn is switched off, a packet runs on behind the gap, and only the azimuth tells how long it
  * was. Lasers fire in step all the time, so that it is a whole number of periods; rounded down, because a stamp that is
- * too early by some is better than one behind the next packet's.
+ * too early by some is better than one behind the next packet's. Two gaps in one packet are no gaps but damage.
  */
+void VelodynePacket::findGap()
+{
+  const bool governed = std::abs(rate_ - nominal_rate_) < kGoverned * nominal_rate_;
+  const double rotor_rate = governed ? nominal_rate_ : std::max(rate_, nominal_rate_);
+  int gaps = 0;
+  for (std::size_t group = 0; group + 1 < groups_; ++group)
+  {
+    const int step = this->step(group);
+    if (!isGap(step)) continue;
+    ++gaps;
+    first_behind_gap_ = group + 1;
+    gap_periods_ = static_cast<std::int64_t>(step / (rotor_rate * static_cast<double>(group_period_.count()))) - 1;
+  }
+  if (gaps != 1) gap_periods_ = 0;
+}
+
 VelodyneSequence VelodynePacket::sequence(std::size_t index) const
 {
   const std::size_t group = index / sequences_per_group_, within = index % sequences_per_group_;
-  const auto period = static_cast<double>(group_period_.count());
-  const bool governed = std::abs(rate_ - nominal_rate_) < kGoverned * nominal_rate_;
-  const double rotor_rate = governed ? nominal_rate_ : std::max(rate_, nominal_rate_);
-  std::int64_t periods = 0;
-  for (std::size_t g = 0; g < group; ++g)
-  {
-    const int step = this->step(g);
-    periods += isGap(step) ? std::max<std::int64_t>(1, static_cast<std::int64_t>(step / (rotor_rate * period))) : 1;
-  }
-  VelodyneSequence sequence;
   const Duration in_group = model_.sequence * static_cast<int>(within);
-  sequence.after_first = group_period_ * periods + in_group;
+  const std::int64_t periods = static_cast<std::int64_t>(group) + (group >= first_behind_gap_ ? gap_periods_ : 0);
   const double azimuth = this->azimuth(group) + rate_ * static_cast<double>(in_group.count());
+
+  VelodyneSequence sequence;
+  sequence.after_first = group_period_ * periods + in_group;
   sequence.azimuth = azimuth - kVelodyneTurn * std::floor(azimuth / kVelodyneTurn);
   sequence.valid = this->azimuth(group) < kVelodyneTurn;
   for (std::size_t block = 1; block < blocks_per_group_; ++block)
-    if (load<std::uint16_t>(packet_, (group * blocks_per_group_ + block) * kBlockBytes + kAzimuth) !=
-        this->azimuth(group))
-      sequence.valid = false;
+    if (azimuthOfBlock(group * blocks_per_group_ + block) != this->azimuth(group)) sequence.valid = false;
   return sequence;
 }
 

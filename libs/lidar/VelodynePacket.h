@@ -49,11 +49,12 @@ class VelodynePacket
   VelodyneReading reading(std::size_t sequence, std::size_t laser, std::size_t which) const;
 
  private:
-  std::uint16_t flag(std::size_t block) const;
-  std::uint16_t azimuth(std::size_t group) const;
+  std::uint16_t azimuthOfBlock(std::size_t block) const;
+  std::uint16_t azimuth(std::size_t group) const { return azimuthOfBlock(group * blocks_per_group_); }
   int step(std::size_t group) const;
   bool isGap(int step) const;
   double measuredRate() const;
+  void findGap();
 
   Bytes packet_;
   const VelodyneModel& model_;
@@ -63,5 +64,7 @@ class VelodynePacket
   std::size_t groups_ = 12;
   Duration group_period_;
   double nominal_rate_ = 0, rate_ = 0;
+  std::size_t first_behind_gap_ = 12;  // group
+  std::int64_t gap_periods_ = 0;
 };
 }  // namespace scanloom

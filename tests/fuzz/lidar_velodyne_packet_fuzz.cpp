@@ -21,10 +21,11 @@ enum Mend : std::uint8_t
   kTurn = 8,     // azimuths below 36000
 };
 
-VelodyneDecoder decoderOf(const VelodyneModel& model)
+VelodyneDecoder decoderOf(const VelodyneModel& model, int returns)
 {
   VelodyneMetadata m;
   m.model = &model;
+  m.returns = returns;
   m.product_id = model.product_id;
   const auto lasers = static_cast<std::size_t>(model.channels);
   for (std::size_t laser = 0; laser < lasers; ++laser) m.vertical_deg.push_back(static_cast<double>(laser % 16) - 8);
@@ -33,9 +34,10 @@ VelodyneDecoder decoderOf(const VelodyneModel& model)
   return {m, Rigid::identity()};
 }
 
-void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const VelodyneModel& model)
+void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const VelodyneMetadata& metadata)
 {
   constexpr std::array<std::uint16_t, 4> kFlags{0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF};
+  const VelodyneModel& model = *metadata.model;
   if (what & kSize) packet.resize(kVelodynePacketBytes);
   if (packet.size() != kVelodynePacketBytes) return;
   for (std::size_t block = 0; block < 12; ++block)
@@ -44,7 +46,7 @@ void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const VelodyneMo
     const auto azimuth = load<std::uint16_t>(packet, block * 100 + 2);
     if (what & kTurn) store(packet, block * 100 + 2, static_cast<std::uint16_t>(azimuth % kVelodyneTurn));
   }
-  if (what & kReturns) packet[1204] = static_cast<std::uint8_t>(0x37 + packet[1204] % 3);
+  if (what & kReturns) packet[1204] = static_cast<std::uint8_t>(metadata.returns == 2 ? 0x39 : 0x37 + packet[1204] % 2);
   if (what & kModel) packet[1205] = model.product_id;
 }
 
@@ -90,14 +92,15 @@ void refuse(const VelodyneDecoder& decoder, Bytes packet)
 /** The first byte says what is mended, the second which decoder also has to refuse what it does not know. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  static const std::array<VelodyneDecoder, 4> decoders{decoderOf(kVelodyneModels[0]), decoderOf(kVelodyneModels[1]),
-                                                       decoderOf(kVelodyneModels[2]), decoderOf(kVelodyneModels[3])};
+  static const std::array<VelodyneDecoder, 5> decoders{
+      decoderOf(kVelodyneModels[0], 1), decoderOf(kVelodyneModels[0], 2), decoderOf(kVelodyneModels[1], 1),
+      decoderOf(kVelodyneModels[2], 2), decoderOf(kVelodyneModels[3], 1)};
   static std::vector<std::uint8_t> packet;
   if (size < 2) return 0;
   for (const VelodyneDecoder& decoder : decoders)
   {
     packet.assign(data + 2, data + size);
-    mend(packet, data[0], *decoder.metadata().model);
+    mend(packet, data[0], decoder.metadata());
     if (decoder.kind(packet) == PacketKind::Lidar)
       decode(decoder, packet);
     else if (&decoder == &decoders[data[1] % decoders.size()] && packet.size() < kVelodynePacketBytes)

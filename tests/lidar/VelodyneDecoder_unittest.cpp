@@ -38,7 +38,12 @@ const Sensor kSensors[] = {
     {"vls128", contentOf(0xA1, 4), 3, 55277ns, 0.004},
 };
 
-VelodyneDecoder vlp16() { return {velodyneMetadata("vlp16"), Rigid::identity()}; }
+VelodyneDecoder vlp16(int returns = 1)
+{
+  VelodyneMetadata metadata = velodyneMetadata("vlp16");
+  metadata.returns = returns;
+  return {metadata, Rigid::identity()};
+}
 }  // namespace
 
 class EveryVelodyne : public testing::TestWithParam<Sensor>
@@ -149,11 +154,11 @@ TEST(VelodyneDecoder, givesTwoReturnsOfOneSequenceInOneBlock)
   content.return_mode = 0x39;
   content.second_counts = 700;
   const auto packet = velodynePacket(content);
-  ASSERT_EQ(vlp16().kind(packet), PacketKind::Lidar);
-  ASSERT_EQ(blocksOf(vlp16(), packet).size(), 12u);
-  EXPECT_EQ(blocksOf(vlp16(), packet)[11].stamp, Timestamp{11 * 55296ns});
+  ASSERT_EQ(vlp16(2).kind(packet), PacketKind::Lidar);
+  ASSERT_EQ(blocksOf(vlp16(2), packet).size(), 12u);
+  EXPECT_EQ(blocksOf(vlp16(2), packet)[11].stamp, Timestamp{11 * 55296ns});
 
-  const PointCloud points = pointsOf(vlp16(), packet, 11);
+  const PointCloud points = pointsOf(vlp16(2), packet, 11);
   ASSERT_EQ(points.size(), 32u);
   for (std::size_t laser = 0; laser < 16; ++laser)
   {
@@ -164,11 +169,20 @@ TEST(VelodyneDecoder, givesTwoReturnsOfOneSequenceInOneBlock)
   }
 }
 
+TEST(VelodyneDecoder, refusesPacketsWithAnotherNumberOfReturnsThanItsFileSays)
+{
+  VelodyneContent two;
+  two.return_mode = 0x39;
+  EXPECT_EQ(vlp16(1).kind(velodynePacket(two)), PacketKind::Malformed);
+  EXPECT_EQ(vlp16(2).kind(velodynePacket({})), PacketKind::Malformed);
+  EXPECT_EQ(vlp16(2).description().columns_per_packet, 12);
+}
+
 TEST(VelodyneDecoder, leavesOutASecondReturnWhereTheFirstIs)
 {
   VelodyneContent content;
   content.return_mode = 0x39;
-  EXPECT_EQ(pointsOf(vlp16(), velodynePacket(content), 0).size(), 16u);
+  EXPECT_EQ(pointsOf(vlp16(2), velodynePacket(content), 0).size(), 16u);
 }
 
 TEST(VelodyneDecoder, callsAPairOfTwoAzimuthsInvalid)
@@ -177,9 +191,9 @@ TEST(VelodyneDecoder, callsAPairOfTwoAzimuthsInvalid)
   content.return_mode = 0x39;
   auto packet = velodynePacket(content);
   packet[302] ^= 1;
-  for (const MeasurementBlock& block : blocksOf(vlp16(), packet))
+  for (const MeasurementBlock& block : blocksOf(vlp16(2), packet))
     EXPECT_EQ(block.valid, block.index != 2 && block.index != 3) << block.index;
-  EXPECT_TRUE(pointsOf(vlp16(), packet, 2).empty());
+  EXPECT_TRUE(pointsOf(vlp16(2), packet, 2).empty());
 }
 
 TEST(VelodyneDecoder, beginsTheHourAnewWithinAPacket)
@@ -214,6 +228,13 @@ TEST(VelodyneDecoder, knowsHowLongAGapInTheFieldOfViewWas)
   EXPECT_LE(seconds(blocks[12].stamp - blocks[10].stamp), turned) << "never behind the next packet";
   EXPECT_EQ((blocks[12].stamp - blocks[10].stamp) % 110592ns, 0ns) << "lasers fire in step";
   EXPECT_EQ(blocks[13].stamp - blocks[12].stamp, 55296ns);
+}
+
+TEST(VelodyneDecoder, takesOneDamagedAzimuthForNoGap)
+{
+  auto packet = velodynePacket({});
+  store(packet, 502, std::uint16_t{20000});
+  EXPECT_EQ(blocksOf(vlp16(), packet).back().stamp, Timestamp{23 * 55296ns});
 }
 
 TEST(VelodyneDecoder, isNotMisledByAnEncoderThatTrembles)
@@ -271,6 +292,7 @@ INSTANTIATE_TEST_SUITE_P(
                     VelodyneMistake{"noAngles", {{"vertical_angles_deg", nullptr}}, "vertical_angles_deg: is missing"},
                     VelodyneMistake{"upright", {{"vertical_angles_deg", {200}}}, "must be a number from -90 to 90"},
                     VelodyneMistake{"fast", {{"rpm", 12000}}, "rpm: must be a number from 300 to 1200"},
+                    VelodyneMistake{"threeReturns", {{"returns", 3}}, "returns: must be a whole number from 1 to 2"},
                     VelodyneMistake{"oneEnd", {{"field_of_view_deg", {90}}}, "must be [first, last]"}),
     [](const auto& mistake) { return std::string(mistake.param.name); });
 

@@ -40,15 +40,16 @@ struct NebulaCloud
   const char* folder;
   int lasers_per_shot;
   Duration shot;
+  int returns;
   double least_share;
 };
 class NebulaClouds : public testing::TestWithParam<NebulaCloud>
 {
 };
 INSTANTIATE_TEST_SUITE_P(Models, NebulaClouds,
-                         testing::Values(NebulaCloud{"vlp16", "vlp16", 1, 2304ns, 0.83},
-                                         NebulaCloud{"vlp32c", "vlp32", 1, 2304ns, 0.92},
-                                         NebulaCloud{"vls128", "vls128", 8, 0ns, 0.83}),
+                         testing::Values(NebulaCloud{"vlp16", "vlp16", 1, 2304ns, 2, 0.83},
+                                         NebulaCloud{"vlp32c", "vlp32", 1, 2304ns, 1, 0.92},
+                                         NebulaCloud{"vls128", "vls128", 8, 0ns, 1, 0.83}),
                          [](const auto& cloud) { return std::string(cloud.param.model); });
 
 TEST_P(NebulaClouds, consistOfPointsOfOurs)
@@ -60,6 +61,7 @@ TEST_P(NebulaClouds, consistOfPointsOfOurs)
   model.lasers_per_shot = GetParam().lasers_per_shot;
   model.shot = GetParam().shot;
   metadata.model = &model;
+  metadata.returns = GetParam().returns;
 
   const auto packets = packetsOfBag(theFile(folder, ".db3"), kVelodynePacketBytes);
   const VelodyneDecoder decoder(metadata, Rigid::identity());
