@@ -108,7 +108,7 @@ VelodyneSequence VelodynePacket::sequence(std::size_t index) const
   VelodyneSequence sequence;
   sequence.after_first = group_period_ * periods + in_group;
   sequence.azimuth = azimuth - kVelodyneTurn * std::floor(azimuth / kVelodyneTurn);
-  sequence.valid = this->azimuth(group) < kVelodyneTurn;
+  sequence.valid = this->azimuth(group) <= kVelodyneTurn;  // sensors do send 360.00 degrees
   for (std::size_t block = 1; block < blocks_per_group_; ++block)
     if (azimuthOfBlock(group * blocks_per_group_ + block) != this->azimuth(group)) sequence.valid = false;
   return sequence;

@@ -18,7 +18,7 @@ enum Mend : std::uint8_t
   kSize = 1,
   kModel = 2,    // product id and the flags of its blocks
   kReturns = 4,  // a return mode that there is
-  kTurn = 8,     // azimuths below 36000
+  kTurn = 8,     // azimuths up to 360 degrees
 };
 
 VelodyneDecoder decoderOf(const VelodyneModel& model, int returns)
@@ -44,7 +44,7 @@ void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const VelodyneMe
   {
     if (what & kModel) store(packet, block * 100, kFlags[model.channels == 128 ? block % 4 : 0]);
     const auto azimuth = load<std::uint16_t>(packet, block * 100 + 2);
-    if (what & kTurn) store(packet, block * 100 + 2, static_cast<std::uint16_t>(azimuth % kVelodyneTurn));
+    if (what & kTurn) store(packet, block * 100 + 2, static_cast<std::uint16_t>(azimuth % (kVelodyneTurn + 1)));
   }
   if (what & kReturns) packet[1204] = static_cast<std::uint8_t>(metadata.returns == 2 ? 0x39 : 0x37 + packet[1204] % 2);
   if (what & kModel) packet[1205] = model.product_id;

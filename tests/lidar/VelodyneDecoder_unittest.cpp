@@ -259,6 +259,18 @@ TEST(VelodyneDecoder, numbersColumnsByAzimuth)
   EXPECT_EQ(blocks[2].measurement_id, 0);
 }
 
+TEST(VelodyneDecoder, takes360DegreesFor0)
+{
+  auto packet = velodynePacket({});
+  store(packet, 2, std::uint16_t{36000});
+  const auto blocks = blocksOf(vlp16(), packet);
+  EXPECT_TRUE(blocks[0].valid) << "real sensors send it";
+  EXPECT_EQ(blocks[0].measurement_id, 0);
+  EXPECT_EQ(pointsOf(vlp16(), packet, 0).x, pointsOf(vlp16(), velodynePacket({}), 0).x);
+  store(packet, 2, std::uint16_t{36001});
+  EXPECT_FALSE(blocksOf(vlp16(), packet)[0].valid);
+}
+
 TEST(VelodyneDecoder, foldsTheExtrinsicsIn)
 {
   const Rigid body_T_sensor = Rigid::fromXyzYawPitchRoll(1, 2, 3, 0.5, -0.1, 0.2);
