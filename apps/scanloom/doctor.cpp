@@ -8,6 +8,7 @@
 #include "dataset/CaptureRig.h"
 #include "dataset/DoctorFindings.h"
 #include "dataset/DoctorJson.h"
+#include "source/MergedCaptures.h"
 
 #include <fmt/format.h>
 

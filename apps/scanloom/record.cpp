@@ -1,6 +1,7 @@
-/** `scanloom record`: packets through the batcher into a rawlog. */
+/** `scanloom record`: packets, live or of captures, through the batcher into a rawlog. */
 #include "Arguments.h"
 #include "Interruption.h"
+#include "LiveStatus.h"
 #include "Progress.h"
 #include "Settings.h"
 #include "Verb.h"
@@ -12,8 +13,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace scanloom
 {
@@ -24,19 +27,22 @@ struct RecordArguments
   ConfigurationArguments configuration;
   std::filesystem::path output;
   std::vector<std::string> lidars;
+  double seconds = 0;  // live: 0 until it is interrupted
   bool overwrite = false;
   bool json = false;
 };
 
 struct RecordOptions
 {
-  int compression_level = 1;
+  int compression_level = -1;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.compression_level,
-          Field{"compression_level", "", "gzip: 0 is fastest, 1 a quarter of the size, 9 too slow", between(0, 9)});
+    visit(
+        o.compression_level,
+        Field{"compression_level", "",
+              "gzip: 0 is fastest, 1 a quarter of the size, 9 too slow; -1: 0 live, 1 from captures", between(-1, 9)});
   }
 };
 
@@ -56,25 +62,58 @@ struct Recorded
   std::uint64_t scans = 0, imu_samples = 0;
 };
 
-Recorded record(RigReplay& replay, const Rig& rig, const DriverOptions& driver, RawlogWriter& writer)
+/** A bar where the end is known, the lidars' state where it is not. */
+class Display
 {
-  const std::uint64_t megabytes = megabytesOf(rig.captures);
-  Progress progress("record", megabytes, "MB");
-  Recorded recorded;
-  while (const std::optional<SensorEvent> event = replay.next())
+ public:
+  explicit Display(const Rig& rig)
   {
-    writer.write(*toObservation(*event, rig, driver));
-    ++(std::holds_alternative<Scan>(*event) ? recorded.scans : recorded.imu_samples);
-    progress.update(static_cast<std::uint64_t>(replay.progress() * static_cast<double>(megabytes)));
-    if (interrupted()) break;
+    if (rig.captures.empty())
+    {
+      live_.emplace("record");
+      return;
+    }
+    megabytes_ = megabytesOf(rig.captures);
+    replay_.emplace("record", megabytes_, "MB");
+  }
+
+  void update(RigInput& input)
+  {
+    if (live_) return live_->update(input);
+    replay_->update(static_cast<std::uint64_t>(input.progress() * static_cast<double>(megabytes_)));
+  }
+
+ private:
+  std::uint64_t megabytes_ = 0;
+  std::optional<Progress> replay_;
+  std::optional<LiveStatus> live_;
+};
+
+Recorded record(RigInput& input, const Rig& rig, const DriverOptions& driver, double seconds, RawlogWriter& writer)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  Display display(rig);
+  Recorded recorded;
+  while (!input.ended())
+  {
+    if (const std::optional<SensorEvent> event = input.next(100ms))
+    {
+      writer.write(*toObservation(*event, rig, driver));
+      ++(std::holds_alternative<Scan>(*event) ? recorded.scans : recorded.imu_samples);
+    }
+    writer.secure();
+    display.update(input);
+    const bool over = seconds > 0 && Clock::now() - start >= fromSeconds(seconds);
+    if (interrupted() || over) input.stop();
   }
   writer.close();
   return recorded;
 }
 
-void report(const RecordArguments& arguments, const Recorded& recorded, const RigReplay& replay)
+void report(const RecordArguments& arguments, const Recorded& recorded, const RigAccount& account)
 {
-  const auto counts = countsOf(replay);
+  const auto counts = countsOf(account);
   if (arguments.json)
   {
     const nlohmann::json result = {
@@ -83,24 +122,35 @@ void report(const RecordArguments& arguments, const Recorded& recorded, const Ri
     return;
   }
   fmt::print("{} scans and {} IMU samples in {}\n", recorded.scans, recorded.imu_samples, arguments.output.string());
-  for (const BatchedLidar& lidar : replay.batcher().lidars())
-  {
-    const auto count = [&](const char* fate) { return counts.at(lidar.name + "." + fate); };
+  for (const auto& [name, lidar] : account.lidars)
     fmt::print("  {}: {} blocks sent, {} emitted, {} before the start, {} invalid, {} lost, {} late, {} duplicate\n",
-               lidar.name, count("blocks_sent"), count("blocks_emitted"), count("blocks_before_start"),
-               count("blocks_invalid"), count("blocks_lost"), count("blocks_late"), count("blocks_duplicate"));
-  }
+               name, lidar.sent(), lidar.emitted, lidar.before_start, lidar.invalid, lidar.lost, lidar.late,
+               lidar.duplicate);
+  for (const auto& [what, count] : account.input)
+    if (count > 0 && what != "datagrams") fmt::print("  {}: {}\n", what, count);
+}
+
+RawlogOptions rawlogOptions(const RecordOptions& record, const RigSettings& settings, bool live)
+{
+  RawlogOptions options;
+  options.compression_level = record.compression_level >= 0 ? record.compression_level : live ? 0 : 1;
+  options.cloud_class = cloudClassFromName(settings.driver.cloud_class);
+  if (live) options.safe_every = 1s;
+  return options;
 }
 
 int run(const RecordArguments& arguments)
 {
   const Loaded<RecordSettings> loaded = load<RecordSettings>(arguments.configuration);
   const RigSettings settings = readRigSettings(loaded.configuration, rigSection(loaded.configuration));
-  refuseExisting({arguments.output}, arguments.overwrite);
+  const bool live = settings.rig.pcap_input.empty();
+  std::vector<std::filesystem::path> outputs{arguments.output};
+  if (live && !settings.rig.pcap_output.empty()) outputs.emplace_back(settings.rig.pcap_output);
+  refuseExisting(outputs, arguments.overwrite);
   const Rig rig = makeRig(settings, arguments.lidars);
-  RawlogOptions options;
-  options.compression_level = loaded.settings.record.compression_level;
-  options.cloud_class = cloudClassFromName(settings.driver.cloud_class);
+  if (!live && arguments.seconds > 0)
+    throw UsageError("--seconds is for live lidars: pcap_input is given, and ends by itself");
+  const RawlogOptions options = rawlogOptions(loaded.settings.record, settings, live);
   if (arguments.configuration.dry_run)
   {
     std::cout << toIni(loaded);
@@ -108,9 +158,11 @@ int run(const RecordArguments& arguments)
   }
 
   catchInterruption();
-  RigReplay replay(rig);
+  if (live && !rig.live.capture.empty()) std::filesystem::remove(rig.live.capture);  // -w was given
+  const std::unique_ptr<RigInput> input = openRig(rig);
   RawlogWriter writer(arguments.output, recordingHeader(rig), options);
-  report(arguments, record(replay, rig, settings.driver, writer), replay);
+  const Recorded recorded = record(*input, rig, settings.driver, arguments.seconds, writer);
+  report(arguments, recorded, input->account());
   return interrupted() ? kInterrupted : kDone;
 }
 
@@ -119,6 +171,8 @@ std::function<int()> addOptions(CLI::App& app)
   auto arguments = std::make_shared<RecordArguments>();
   addConfiguration(app, arguments->configuration)->required();
   app.add_option("-o,--output", arguments->output, "the rawlog to write")->required();
+  app.add_option("--seconds", arguments->seconds, "live: stop after so long; 0: when interrupted")
+      ->check(CLI::NonNegativeNumber);
   addOverwrite(app, arguments->overwrite);
   app.add_option("--lidars", arguments->lidars, "names of the lidars to use, separated by commas")->delimiter(',');
   addJson(app, arguments->json);

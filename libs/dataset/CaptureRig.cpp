@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "lidar/LidarModels.h"
+#include "source/MergedCaptures.h"
 
 namespace scanloom
 {

@@ -103,17 +103,15 @@ void CMultiLidarSensor::giveSacrifice()
 
 void CMultiLidarSensor::logAccount() const
 {
-  const TimeBatcher& batcher = observations_->replay().batcher();
-  for (LidarIndex i = 0; i < batcher.lidars().size(); i++)
+  const RigAccount account = observations_->account();
+  for (const auto& [name, c] : account.lidars)
   {
-    const LidarCounters& c = batcher.counters(i);
-    MRPT_LOG_INFO_STREAM(batcher.lidars()[i].name << ": " << c.packets << " packets, " << c.emitted << " columns, "
-                                                  << c.points << " points");
+    MRPT_LOG_INFO_STREAM(name << ": " << c.packets << " packets, " << c.emitted << " columns, " << c.points
+                              << " points");
     if (c.lost + c.late + c.dropped + c.implausible + c.malformed_packets + c.bad_crc_packets > 0)
-      MRPT_LOG_WARN_STREAM(batcher.lidars()[i].name
-                           << ": " << c.lost << " columns lost on the wire, " << c.late << " late, " << c.dropped
-                           << " dropped, " << c.implausible << " with implausible stamps; " << c.malformed_packets
-                           << " packets malformed, " << c.bad_crc_packets << " with a wrong check sum");
+      MRPT_LOG_WARN_STREAM(name << ": " << c.lost << " columns lost on the wire, " << c.late << " late, " << c.dropped
+                                << " dropped, " << c.implausible << " with implausible stamps; " << c.malformed_packets
+                                << " packets malformed, " << c.bad_crc_packets << " with a wrong check sum");
   }
 }
 }  // namespace scanloom

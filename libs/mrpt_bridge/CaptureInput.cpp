@@ -2,6 +2,7 @@
 
 #include "mrpt_bridge/RigObservations.h"
 #include "mrpt_bridge/SensorInput.h"
+#include "source/RigReplay.h"
 
 namespace scanloom
 {
@@ -15,7 +16,7 @@ class CaptureInput : public SensorInput
   std::optional<SensorEvent> next() override { return replay_.next(); }
   const RecordingHeader& header() const override { return header_; }
   double progress() const override { return replay_.progress(); }
-  std::map<std::string, std::uint64_t> counts() const override { return countsOf(replay_); }
+  std::map<std::string, std::uint64_t> counts() const override { return countsOf(replay_.account()); }
 
   std::optional<Rigid> body_T_imu(int sensor) const override
   {
@@ -37,21 +38,16 @@ class CaptureInput : public SensorInput
 };
 }  // namespace
 
-std::map<std::string, std::uint64_t> countsOf(const RigReplay& replay)
+std::map<std::string, std::uint64_t> countsOf(const RigAccount& account)
 {
-  std::map<std::string, std::uint64_t> counts;
-  const auto& lidars = replay.batcher().lidars();
-  for (LidarIndex i = 0; i < lidars.size(); ++i)
-    forEachCount(replay.batcher().counters(i), [&](const char* fate, std::uint64_t count)
-                 { counts[fmt::format("{}.{}", lidars[i].name, fate)] = count; });
+  std::map<std::string, std::uint64_t> counts = account.input;
+  for (const LidarAccount& lidar : account.lidars)
+    forEachCount(lidar.counters, [&](const char* fate, std::uint64_t count)
+                 { counts[fmt::format("{}.{}", lidar.name, fate)] = count; });
   std::uint64_t strangers = 0;
-  for (const auto& [origin, datagrams] : replay.router().unmatched()) strangers += datagrams;
+  for (const auto& [origin, datagrams] : account.unmatched) strangers += datagrams;
   counts["datagrams_of_no_lidar"] = strangers;
-  counts["imu_samples_late"] = replay.lateImuSamples();
-  const CaptureCounters captures = replay.captureCounters();
-  counts["datagrams"] = captures.datagrams;
-  counts["datagrams_incomplete"] = captures.fragments_expired;
-  counts["records_malformed"] = captures.malformed + captures.cut_short;
+  counts["imu_samples_late"] = account.late_imu_samples;
   return counts;
 }
 

@@ -52,6 +52,11 @@ bool GzipArchive::atEnd()
   return true;
 }
 
+void GzipArchive::endMember()
+{
+  if (gzflush(file_, Z_FINISH) != Z_OK) fail(std::strerror(errno));
+}
+
 void GzipArchive::close()
 {
   if (!file_) return;

@@ -30,6 +30,17 @@ void RawlogWriter::write(const mrpt::obs::CObservation& observation)
 {
   writeHeaderOnce(fromMrpt(observation.timestamp));
   *archive_ << observation;
+  unsecured_ = true;
+  secure();
+}
+
+void RawlogWriter::secure()
+{
+  const auto now = std::chrono::steady_clock::now();
+  if (options_.safe_every == 0s || !unsecured_ || now - secured_ < options_.safe_every) return;
+  archive_->endMember();
+  secured_ = now;
+  unsecured_ = false;
 }
 
 void RawlogWriter::close()

@@ -3,6 +3,7 @@
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RecordingHeader.h"
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -16,6 +17,8 @@ struct RawlogOptions
 {
   int compression_level = 1;  // gzip: 0 live (6 to 13 ms a scan), 1 offline (a quarter of the size, 68 ms)
   CloudClass cloud_class = CloudClass::CGenericPointsMap;
+  Duration safe_every{
+      0};  // of the host's time: what is older survives kill -9, see secure(); 0: nothing before close()
 };
 
 /**
@@ -36,6 +39,9 @@ class RawlogWriter
   void write(const ImuSample&, const Rigid& body_T_imu, const std::string& label = kImuLabel);
   void write(const mrpt::obs::CObservation&);
 
+  /** For times without anything to write: hands what is older than `safe_every` to the operating system. */
+  void secure();
+
   /** Also writes the header if nothing else was written. */
   void close();
 
@@ -47,5 +53,7 @@ class RawlogWriter
   RawlogOptions options_;
   std::optional<RecordingHeader> header_;  // until it is written: its stamp is that of the first object
   std::unique_ptr<GzipArchive> archive_;   // until close()
+  std::chrono::steady_clock::time_point secured_ = std::chrono::steady_clock::now();
+  bool unsecured_ = false;  // something was written since
 };
 }  // namespace scanloom

@@ -36,10 +36,10 @@ mrpt::obs::CObservation::Ptr toObservation(const SensorEvent& event, const Rig& 
                        options.imu_label + "_" + lidar.name);
 }
 
-RigObservations::RigObservations(const Rig& rig, const DriverOptions& options)
-  : rig_(rig), options_(options), replay_(rig_)
+RigObservations::RigObservations(const Rig& rig, const DriverOptions& options) : rig_(rig), options_(options)
 {
   cloudClassFromName(options_.cloud_class);
+  input_ = openRig(rig_);
 }
 
 mrpt::obs::CObservation::Ptr RigObservations::next()
@@ -47,13 +47,13 @@ mrpt::obs::CObservation::Ptr RigObservations::next()
   if (!header_given_)
   {
     header_given_ = true;
-    event_ = replay_.next();
+    event_ = input_->next();
     const RecordingHeader header = recordingHeader(rig_);
     return toObservation(header, beforeEverything(event_, header.period()));
   }
   if (!event_) return nullptr;
   auto observation = toObservation(*event_, rig_, options_);
-  event_ = replay_.next();
+  event_ = input_->next();
   return observation;
 }
 }  // namespace scanloom

@@ -1,8 +1,9 @@
 /** A rig's events as the observations of its recording: for the plugin and for our own recorder alike. */
 #pragma once
 #include "mrpt_bridge/Observations.h"
-#include "source/Rig.h"
+#include "source/RigInput.h"
 
+#include <memory>
 #include <optional>
 
 namespace scanloom
@@ -15,22 +16,26 @@ RecordingHeader recordingHeader(const Rig&);
  */
 mrpt::obs::CObservation::Ptr toObservation(const SensorEvent&, const Rig&, const DriverOptions&);
 
-/** A rig's captures as one stream of observations: the header, then one for each event. */
+/** A rig's captures or sockets as one stream of observations: the header, then one for each event. */
 class RigObservations
 {
  public:
-  /** Opens the captures; throws what RigReplay throws, and std::invalid_argument for an unknown cloud_class. */
+  /** Opens the input; throws what openRig throws, and std::invalid_argument for an unknown cloud_class. */
   RigObservations(const Rig&, const DriverOptions&);
 
-  /** Null at the end of input. */
+  /** Waits for it; null at the end of input. */
   mrpt::obs::CObservation::Ptr next();
 
-  const RigReplay& replay() const { return replay_; }
+  /** Live, the input ends when it is told to: what was received is still given out. From any thread. */
+  void stop() { input_->stop(); }
+
+  RigAccount account() const { return input_->account(); }
+  std::vector<std::string> takeWarnings() { return input_->takeWarnings(); }
 
  private:
   Rig rig_;
   DriverOptions options_;
-  RigReplay replay_;
+  std::unique_ptr<RigInput> input_;
   std::optional<SensorEvent> event_;  // the next one; read ahead once, for the header's stamp
   bool header_given_ = false;
 };

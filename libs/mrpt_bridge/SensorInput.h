@@ -1,7 +1,7 @@
 /** Scans and IMU samples in time order, wherever they come from: captures through the batcher, or a rawlog. */
 #pragma once
 #include "mrpt_bridge/RecordingHeader.h"
-#include "source/Rig.h"
+#include "source/RigInput.h"
 
 #include <filesystem>
 #include <map>
@@ -45,6 +45,6 @@ std::unique_ptr<SensorInput> makeCaptureInput(Rig);
  */
 std::unique_ptr<SensorInput> makeRawlogInput(const std::filesystem::path&, const std::vector<std::string>& only = {});
 
-/** Per lidar, as `<name>.<fate>`: the batcher's accounts, the router's strangers, the captures' losses. */
-std::map<std::string, std::uint64_t> countsOf(const RigReplay&);
+/** Per lidar, as `<name>.<fate>`: the batcher's accounts, the router's strangers, the losses of captures or sockets. */
+std::map<std::string, std::uint64_t> countsOf(const RigAccount&);
 }  // namespace scanloom

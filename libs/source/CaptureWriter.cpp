@@ -75,7 +75,7 @@ void appendV6(std::vector<std::uint8_t>& frame, const IpAddress& source, const I
   append(frame, destination.wire());
 }
 
-void appendUdp(std::vector<std::uint8_t>& frame, const Datagram& datagram, const IpAddress& destination)
+void appendUdp(std::vector<std::uint8_t>& frame, const DatagramView& datagram, const IpAddress& destination)
 {
   const std::size_t begin = frame.size();
   const std::size_t length = 8 + datagram.payload.size();
@@ -120,7 +120,7 @@ CaptureWriter::CaptureWriter(const std::filesystem::path& path)
                                          capture_ ? pcap_geterr(capture_.get()) : "out of memory"));
 }
 
-void CaptureWriter::write(const Datagram& datagram)
+void CaptureWriter::write(const DatagramView& datagram)
 {
   if (!dump_) throw std::logic_error("CaptureWriter: write after close");
   if (datagram.payload.size() > kLargestUdpPayload)

@@ -31,7 +31,7 @@ class CaptureWriter
    * Throws std::invalid_argument for a payload above kLargestUdpPayload or a stamp outside of 1970 to 2106 (pcap has 32
    * bits of seconds), std::runtime_error if the disk is full.
    */
-  void write(const Datagram&);
+  void write(const DatagramView&);
 
   /** Hands all that was written to the operating system; throws std::runtime_error if it refuses. */
   void flush();

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/Bytes.h"
 #include "core/Time.h"
 #include "source/IpAddress.h"
 
@@ -14,5 +15,25 @@ struct Datagram
   std::uint16_t source_port = 0;
   std::uint16_t destination_port = 0;
   std::vector<std::uint8_t> payload;
+};
+
+/** A datagram whose bytes somebody else owns. */
+struct DatagramView
+{
+  Timestamp received;
+  IpAddress source;
+  std::uint16_t source_port = 0;
+  std::uint16_t destination_port = 0;
+  Bytes payload;
+
+  DatagramView() = default;
+  DatagramView(const Datagram& d)  // NOLINT: implicit, as Bytes from a vector
+    : received(d.received),
+      source(d.source),
+      source_port(d.source_port),
+      destination_port(d.destination_port),
+      payload(d.payload)
+  {
+  }
 };
 }  // namespace scanloom

@@ -29,7 +29,7 @@ int strangeness(PacketKind kind)
   return 3;
 }
 
-bool listensTo(const LidarAddress& address, const Datagram& datagram)
+bool listensTo(const LidarAddress& address, const DatagramView& datagram)
 {
   if (address.source && *address.source != datagram.source) return false;
   const std::uint16_t port = datagram.destination_port;
@@ -56,14 +56,14 @@ PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars) : lidars_(std::move(
           fmt::format("lidar '{}' has no UDP port: give its key 'port', or metadata that names one", lidar.label));
 }
 
-std::optional<Routed> PacketRouter::route(const Datagram& datagram)
+std::optional<Routed> PacketRouter::route(const DatagramView& datagram)
 {
   const std::optional<Routed> routed = decide(datagram);
   if (!routed) ++unmatched_[{datagram.destination_port, datagram.source}];
   return routed;
 }
 
-std::optional<Routed> PacketRouter::decide(const Datagram& datagram)
+std::optional<Routed> PacketRouter::decide(const DatagramView& datagram)
 {
   std::vector<Routed> best = bestOf(candidates(datagram));
   if (best.size() == 1)
@@ -80,7 +80,7 @@ std::optional<Routed> PacketRouter::decide(const Datagram& datagram)
   return std::nullopt;
 }
 
-std::vector<Routed> PacketRouter::candidates(const Datagram& datagram) const
+std::vector<Routed> PacketRouter::candidates(const DatagramView& datagram) const
 {
   // Who names this very source does not share it with those who take any.
   const bool named =
@@ -107,7 +107,7 @@ std::vector<Routed> PacketRouter::fromKnownSource(const std::vector<Routed>& can
   return from_there.empty() ? candidates : from_there;
 }
 
-std::runtime_error PacketRouter::ambiguous(const Datagram& datagram, const std::vector<Routed>& candidates) const
+std::runtime_error PacketRouter::ambiguous(const DatagramView& datagram, const std::vector<Routed>& candidates) const
 {
   std::vector<std::string> labels;
   for (const Routed& candidate : candidates) labels.push_back(lidars_[candidate.lidar].label);

@@ -64,16 +64,16 @@ class PacketRouter
    * Throws std::runtime_error for a lidar packet that two lidars could have sent: only the configuration can tell them
    * apart.
    */
-  std::optional<Routed> route(const Datagram&);
+  std::optional<Routed> route(const DatagramView&);
 
   /** Datagrams that were given to no lidar. */
   const std::map<Origin, std::uint64_t>& unmatched() const { return unmatched_; }
 
  private:
-  std::vector<Routed> candidates(const Datagram&) const;
+  std::vector<Routed> candidates(const DatagramView&) const;
   std::vector<Routed> fromKnownSource(const std::vector<Routed>& candidates, const IpAddress& source) const;
-  std::optional<Routed> decide(const Datagram&);
-  std::runtime_error ambiguous(const Datagram&, const std::vector<Routed>&) const;
+  std::optional<Routed> decide(const DatagramView&);
+  std::runtime_error ambiguous(const DatagramView&, const std::vector<Routed>&) const;
 
   std::vector<RoutedLidar> lidars_;
   std::map<IpAddress, std::set<std::size_t>> lidars_at_;  // learned from packets that only one lidar can have sent

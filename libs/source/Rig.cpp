@@ -72,12 +72,14 @@ std::vector<std::filesystem::path> splitByComma(const std::string& list)
   return paths;
 }
 
-std::vector<RoutedLidar> routesOf(const Rig& rig)
+LiveOptions liveOptions(const RigOptions& options)
 {
-  std::vector<RoutedLidar> routes;
-  for (std::size_t i = 0; i < rig.lidars.size(); ++i)
-    routes.push_back({rig.lidars[i].name, rig.addresses[i], rig.lidars[i].decoder.get()});
-  return routes;
+  LiveOptions live;
+  if (!options.bind_address.empty()) live.bind_address = IpAddress::parse(options.bind_address);
+  live.receive_buffer = static_cast<std::size_t>(1e6 * options.receive_buffer);
+  live.scans_waiting = static_cast<std::size_t>(options.scans_waiting);
+  live.capture = options.pcap_output;
+  return live;
 }
 }  // namespace
 
@@ -89,6 +91,7 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
   Rig rig;
   rig.batcher = settings.batcher;
   rig.captures = splitByComma(settings.rig.pcap_input);
+  rig.live = liveOptions(settings.rig);
   for (std::size_t i = 0; i < settings.lidars.size(); ++i)
   {
     const LidarOptions& options = settings.lidars[i];
@@ -105,63 +108,5 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
     rig.body_imu = readEurocImu(settings.rig.imu_csv);
   }
   return rig;
-}
-
-RigReplay::RigReplay(const Rig& rig)
-  : lidars_(rig.lidars),
-    body_imu_(rig.body_imu),
-    captures_(rig.captures),
-    router_(routesOf(rig)),
-    batcher_(rig.lidars, rig.batcher),
-    imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms))
-{
-}
-
-std::optional<SensorEvent> RigReplay::next()
-{
-  while (waiting_.empty() && !ended_)
-  {
-    if (captures_.next(datagram_))
-      take(datagram_);
-    else
-    {
-      ended_ = true;
-      release(batcher_.finish(), Timestamp::max());
-    }
-  }
-  if (waiting_.empty()) return std::nullopt;
-  SensorEvent event = std::move(waiting_.front());
-  waiting_.pop_front();
-  return event;
-}
-
-void RigReplay::take(const Datagram& datagram)
-{
-  const std::optional<Routed> routed = router_.route(datagram);
-  std::vector<Scan> scans;
-  if (routed && routed->kind == PacketKind::Imu)
-  {
-    const BatchedLidar& lidar = lidars_[routed->lidar];
-    for (ImuSample sample : lidar.decoder->imuSamples(datagram.payload))
-    {
-      sample.stamp += batcher_.timeOffset(routed->lidar);
-      imu_order_.add({static_cast<int>(routed->lidar), sample});
-    }
-    scans = batcher_.advance(datagram.received);
-  }
-  else if (routed)
-    scans = batcher_.push(routed->lidar, datagram.payload, datagram.received);
-
-  if (const auto horizon = batcher_.horizon()) release(std::move(scans), *horizon);
-}
-
-void RigReplay::release(std::vector<Scan> scans, Timestamp horizon)
-{
-  // An IMU packet may be as late as a lidar packet, but nobody waits for it: its place is kept open that much longer.
-  const Timestamp imu_horizon = ended_ ? horizon : horizon - imu_patience_;
-  for (; next_body_imu_ < body_imu_.size() && body_imu_[next_body_imu_].stamp < imu_horizon; ++next_body_imu_)
-    imu_order_.add({SensorImu::kBody, body_imu_[next_body_imu_]});
-  for (SensorImu& imu : imu_order_.release(imu_horizon)) waiting_.emplace_back(std::move(imu));
-  for (Scan& scan : scans) waiting_.emplace_back(std::move(scan));
 }
 }  // namespace scanloom

@@ -1,21 +1,26 @@
-/** The sensors of a machine as a run uses them, and their recorded packets as one stream in time order. */
+/** The sensors of a machine as a run uses them. */
 #pragma once
-#include "batching/ImuOrder.h"
 #include "batching/TimeBatcher.h"
 #include "source/EurocImu.h"
-#include "source/MergedCaptures.h"
 #include "source/PacketRouter.h"
 #include "source/RigOptions.h"
 
-#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace scanloom
 {
+/** How a rig without captures receives. */
+struct LiveOptions
+{
+  std::optional<IpAddress> bind_address;    // none: every address of this computer
+  std::size_t receive_buffer = 16'000'000;  // bytes per port, asked of the kernel
+  std::size_t scans_waiting = 10;           // for a consumer that is late; then the oldest scan is dropped
+  std::filesystem::path capture;            // where every datagram is written; empty: nowhere
+};
+
 struct Rig
 {
   std::vector<BatchedLidar> lidars;  // a lidar's place here is its sensor_id
@@ -24,6 +29,7 @@ struct Rig
   std::vector<ImuSample> body_imu;  // empty if there is none
   Rigid body_T_imu;
   BatcherOptions batcher;
+  LiveOptions live;
 };
 
 /**
@@ -31,39 +37,4 @@ struct Rig
  * Throws ConfigError for a name that no lidar has and a pose that is given nowhere, and what the readers throw.
  */
 Rig makeRig(const RigSettings&, const std::vector<std::string>& only = {});
-
-/** What a rig yields: IMU samples and scans; both in time order, the IMU up to one deadline behind. */
-using SensorEvent = std::variant<Scan, SensorImu>;
-
-/** A rig's captures through the batcher. */
-class RigReplay
-{
- public:
-  explicit RigReplay(const Rig&);
-
-  /** Nothing at the end of input. */
-  std::optional<SensorEvent> next();
-
-  double progress() const { return captures_.progress(); }
-  const TimeBatcher& batcher() const { return batcher_; }
-  const PacketRouter& router() const { return router_; }
-  CaptureCounters captureCounters() const { return captures_.counters(); }
-  std::uint64_t lateImuSamples() const { return imu_order_.late(); }
-
- private:
-  void take(const Datagram&);
-  void release(std::vector<Scan> scans, Timestamp horizon);
-
-  std::vector<BatchedLidar> lidars_;
-  std::vector<ImuSample> body_imu_;
-  std::size_t next_body_imu_ = 0;
-  MergedCaptures captures_;
-  PacketRouter router_;
-  TimeBatcher batcher_;
-  Duration imu_patience_;
-  ImuOrder imu_order_;
-  Datagram datagram_;
-  std::deque<SensorEvent> waiting_;
-  bool ended_ = false;
-};
 }  // namespace scanloom

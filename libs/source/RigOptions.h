@@ -37,6 +37,10 @@ struct LidarOptions
 struct RigOptions
 {
   std::string pcap_input;
+  std::string pcap_output;
+  std::string bind_address;
+  double receive_buffer = 16;
+  int scans_waiting = 10;
   std::string extrinsics;
   std::string imu_csv;
   std::string imu_pose;
@@ -44,7 +48,15 @@ struct RigOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.pcap_input, Field{"pcap_input", "", "captures to read, separated by commas, merged by record time"});
+    visit(o.pcap_input,
+          Field{"pcap_input", "", "captures to read, separated by commas, merged by record time; empty: live"});
+    visit(o.pcap_output, Field{"pcap_output", "", "live: a capture of all that the lidars send is written there"});
+    visit(o.bind_address, Field{"bind_address", "",
+                                "live: receive on this address of the computer, or join this multicast group; empty: "
+                                "receive on all"});
+    visit(o.receive_buffer, Field{"receive_buffer", "MB", "live: asked of the kernel per port", between(0.01, 1000)});
+    visit(o.scans_waiting,
+          Field{"scans_waiting", "", "live: for a late consumer; then the oldest is dropped and counted", atLeast(1)});
     visit(o.extrinsics, Field{"extrinsics", "", "file of lines 'T_body_<name> x y z yaw pitch roll' (m, deg)"});
     visit(o.imu_csv, Field{"imu_csv", "", "the body's own IMU, as EuRoC csv; empty: none"});
     visit(o.imu_pose, Field{"imu_pose", "m, deg",

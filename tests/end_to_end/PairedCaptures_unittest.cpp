@@ -7,6 +7,7 @@
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/RigObservations.h"
 #include "source/CaptureWriter.h"
+#include "source/RigReplay.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 

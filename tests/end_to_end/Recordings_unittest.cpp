@@ -5,6 +5,7 @@
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/RigObservations.h"
 #include "output/SlamRun.h"
+#include "source/RigReplay.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 

@@ -1,4 +1,4 @@
-#include "source/Rig.h"
+#include "source/RigReplay.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /** The plugin in the stock rawlog-grabber, with the INI files of params/; the batcher alone is the reference. */
 #include "mrpt_bridge/RawlogInfo.h"
 #include "mrpt_bridge/RawlogReader.h"
-#include "source/Rig.h"
+#include "source/RigReplay.h"
 #include "stockTool.h"
 #include "support/TestData.h"
 

@@ -1,0 +1,197 @@
+#include "source/RigLive.h"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace scanloom
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kAccountPeriod = 100ms;
+
+// Datagrams that wait between the threads per lidar and port: half a second of most lidars.
+constexpr std::size_t kSlotsPerLidar = 1024;
+
+UdpReceiverOptions receiverOptions(const Rig& rig)
+{
+  struct Users
+  {
+    std::vector<IpAddress> sources;
+    std::size_t lidars = 0;
+    bool anybody = false;  // one of the lidars has no known address
+  };
+  std::map<std::uint16_t, Users> users;
+  const auto add = [&users](std::uint16_t port, const LidarAddress& address)
+  {
+    Users& of_port = users[port];
+    ++of_port.lidars;
+    if (address.source)
+      of_port.sources.push_back(*address.source);
+    else
+      of_port.anybody = true;
+  };
+  for (const LidarAddress& address : rig.addresses)
+  {
+    add(address.lidar_port, address);
+    if (address.imu_port != 0 && address.imu_port != address.lidar_port) add(address.imu_port, address);
+  }
+
+  UdpReceiverOptions options;
+  options.bind_address = rig.live.bind_address;
+  options.receive_buffer = rig.live.receive_buffer;
+  for (const auto& [port, of_port] : users)
+    options.ports.push_back(
+        {port, of_port.anybody ? std::vector<IpAddress>{} : of_port.sources, of_port.lidars * kSlotsPerLidar});
+  return options;
+}
+
+const Rig& withoutRecordedImu(const Rig& rig)
+{
+  if (!rig.body_imu.empty())
+    throw std::invalid_argument("imu_csv is a recording: it goes with pcap_input, not with live lidars");
+  return rig;
+}
+}  // namespace
+
+RigLive::RigLive(const Rig& rig)
+  : stream_(withoutRecordedImu(rig)),
+    queue_({rig.live.scans_waiting}),
+    capture_(rig.live.capture.empty() ? nullptr : std::make_unique<LiveCapture>(rig.live.capture)),
+    receiver_(receiverOptions(rig)),
+    warnings_(receiver_.warnings()),
+    account_(stream_.account()),
+    thread_([this] { merge(); })
+{
+  ::pthread_setname_np(thread_.native_handle(), "scanloom-merge");
+}
+
+RigLive::~RigLive()
+{
+  stop();
+  thread_.join();
+}
+
+void RigLive::merge()
+{
+  std::exception_ptr error;
+  try
+  {
+    Clock::time_point published = Clock::now();
+    for (bool last = false; !last;)
+    {
+      receiver_.wait(kAccountPeriod);
+      last = receiver_.ended();
+      takeUntil(last ? Timestamp::max() : receiver_.drainedUntil());
+      if (Clock::now() - published < kAccountPeriod) continue;
+      publishAccount();
+      published = Clock::now();
+    }
+    stream_.finish();
+    giveOut();
+  }
+  catch (...)
+  {
+    error = std::current_exception();
+    receiver_.stop();
+  }
+  if (capture_) capture_->close();
+  publishAccount();
+  queue_.end(error);
+}
+
+void RigLive::takeUntil(Timestamp drained)
+{
+  while (const std::optional<std::size_t> port = oldestBefore(drained)) takeFrom(*port);
+  if (drained == Timestamp::max() || drained <= announced_) return;
+  announced_ = drained;
+  stream_.advance(drained);
+  giveOut();
+}
+
+/** The port whose next datagram was received first. */
+std::optional<std::size_t> RigLive::oldestBefore(Timestamp drained)
+{
+  std::optional<std::size_t> oldest;
+  Timestamp received = drained;
+  for (std::size_t i = 0; i < receiver_.ports(); ++i)
+  {
+    const DatagramRing::Slot* front = receiver_.ring(i).front();
+    if (!front || front->received >= received) continue;
+    oldest = i;
+    received = front->received;
+  }
+  return oldest;
+}
+
+void RigLive::takeFrom(std::size_t port)
+{
+  DatagramRing& ring = receiver_.ring(port);
+  const DatagramRing::Slot& slot = *ring.front();
+  DatagramView datagram;
+  // The kernel may stamp a datagram and be interrupted before others can see it. Time does not go back for it, neither
+  // now nor in the replay.
+  restamped_ += slot.received < announced_;
+  datagram.received = std::max(slot.received, announced_);
+  datagram.source = slot.source;
+  datagram.source_port = slot.source_port;
+  datagram.destination_port = receiver_.port(port);
+  datagram.payload = {slot.bytes, slot.size};
+  if (capture_) capture_->add(datagram);
+  stream_.take(datagram);
+  ring.pop();
+  giveOut();
+}
+
+void RigLive::giveOut()
+{
+  while (std::optional<SensorEvent> event = stream_.next()) queue_.push(*std::move(event));
+}
+
+void RigLive::publishAccount()
+{
+  RigAccount account = stream_.account();
+  account.input["datagrams_restamped"] = restamped_;
+  const std::lock_guard lock(mutex_);
+  account_ = std::move(account);
+}
+
+RigAccount RigLive::account() const
+{
+  RigAccount account;
+  {
+    const std::lock_guard lock(mutex_);
+    account = account_;
+  }
+  UdpCounters sum;
+  for (std::size_t i = 0; i < receiver_.ports(); ++i) sum += receiver_.counters(i);
+  account.input["datagrams"] = sum.datagrams;
+  account.input["datagrams_filtered"] = sum.filtered;
+  account.input["datagrams_truncated"] = sum.truncated;
+  account.input["datagrams_dropped"] = sum.dropped;
+  account.input["datagrams_dropped_by_kernel"] = sum.kernel_drops;
+  account.input["socket_errors"] = sum.errors;
+  account.input["host_clock_steps"] = receiver_.clockSteps();
+  account.input["scans_dropped"] = queue_.droppedScans();
+  account.input["imu_samples_dropped"] = queue_.droppedImuSamples();
+  account.input["datagrams_not_captured"] = capture_ ? capture_->dropped() : 0;
+  account.scans_waiting = queue_.scans();
+  return account;
+}
+
+std::vector<std::string> RigLive::takeWarnings()
+{
+  std::vector<std::string> warnings = std::exchange(warnings_, {});
+  const std::string failure = capture_ && !capture_failure_told_ ? capture_->failure() : "";
+  if (failure.empty()) return warnings;
+  capture_failure_told_ = true;
+  warnings.push_back(failure + ": the datagrams are captured no more; scans go on");
+  return warnings;
+}
+}  // namespace scanloom

@@ -1,0 +1,66 @@
+#pragma once
+#include "source/EventQueue.h"
+#include "source/LiveCapture.h"
+#include "source/RigStream.h"
+#include "source/UdpReceiver.h"
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+namespace scanloom
+{
+/**
+ * A rig's sockets through the batcher. One thread receives (UdpReceiver), one merges in the order of the kernel's
+ * stamps and batches; whoever calls next() takes scans from a bounded queue and keeps neither of them waiting.
+ * Datagrams go into the capture in the order and with the stamps that the batcher sees: its replay gives the same scans
+ * to the bit.
+ */
+class RigLive : public RigInput
+{
+ public:
+  /**
+   * Opens the rig's ports and begins. Throws what UdpSocket and LiveCapture throw, and std::invalid_argument for a rig
+   * with a recorded IMU, whose stamps are of the past.
+   */
+  explicit RigLive(const Rig&);
+  ~RigLive() override;
+
+  using RigInput::next;
+
+  /** Also throws what ended the batching: see RigStream::take. */
+  std::optional<SensorEvent> next(Duration patience) override { return queue_.pop(patience); }
+  bool ended() const override { return queue_.ended(); }
+  void stop() override { receiver_.stop(); }
+  double progress() const override { return 0; }
+
+  /** A tenth of a second old at most. */
+  RigAccount account() const override;
+
+  std::vector<std::string> takeWarnings() override;
+
+  const UdpReceiver& receiver() const { return receiver_; }
+
+ private:
+  void merge();
+  void takeUntil(Timestamp drained);
+  std::optional<std::size_t> oldestBefore(Timestamp drained);
+  void takeFrom(std::size_t port);
+  void giveOut();
+  void publishAccount();
+
+  RigStream stream_;
+  EventQueue queue_;
+  std::unique_ptr<LiveCapture> capture_;  // none if it is not wanted
+  UdpReceiver receiver_;
+  Timestamp announced_ = Timestamp::min();  // what the batcher was told of time
+  std::uint64_t restamped_ = 0;
+  std::vector<std::string> warnings_;  // of the start, until they are taken
+  bool capture_failure_told_ = false;
+
+  mutable std::mutex mutex_;
+  RigAccount account_;  // as of the latest publication
+  std::thread thread_;  // last: it uses all of the above
+};
+}  // namespace scanloom

@@ -1,0 +1,86 @@
+#include "source/RigStream.h"
+
+namespace scanloom
+{
+namespace
+{
+std::vector<RoutedLidar> routesOf(const Rig& rig)
+{
+  std::vector<RoutedLidar> routes;
+  for (std::size_t i = 0; i < rig.lidars.size(); ++i)
+    routes.push_back({rig.lidars[i].name, rig.addresses[i], rig.lidars[i].decoder.get()});
+  return routes;
+}
+}  // namespace
+
+RigStream::RigStream(const Rig& rig)
+  : lidars_(rig.lidars),
+    body_imu_(rig.body_imu),
+    router_(routesOf(rig)),
+    batcher_(rig.lidars, rig.batcher),
+    imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms))
+{
+}
+
+void RigStream::take(const DatagramView& datagram)
+{
+  const std::optional<Routed> routed = router_.route(datagram);
+  if (!routed) return;
+
+  // Live, time may have been advanced up to this datagram already; a replay has to come to the same.
+  advance(datagram.received);
+  if (routed->kind == PacketKind::Imu)
+  {
+    const BatchedLidar& lidar = lidars_[routed->lidar];
+    for (ImuSample sample : lidar.decoder->imuSamples(datagram.payload))
+    {
+      sample.stamp += batcher_.timeOffset(routed->lidar);
+      imu_order_.add({static_cast<int>(routed->lidar), sample});
+    }
+  }
+  else
+    release(batcher_.push(routed->lidar, datagram.payload, datagram.received));
+}
+
+void RigStream::advance(Timestamp now) { release(batcher_.advance(now)); }
+
+void RigStream::finish()
+{
+  release(batcher_.finish());
+  releaseImu(Timestamp::max());
+}
+
+std::optional<SensorEvent> RigStream::next()
+{
+  if (ready_.empty()) return std::nullopt;
+  SensorEvent event = std::move(ready_.front());
+  ready_.pop_front();
+  return event;
+}
+
+void RigStream::release(std::vector<Scan> scans)
+{
+  for (Scan& scan : scans)
+  {
+    releaseImu(scan.end() - imu_patience_);
+    ready_.emplace_back(std::move(scan));
+  }
+  if (const auto horizon = batcher_.horizon()) releaseImu(*horizon - imu_patience_);
+}
+
+void RigStream::releaseImu(Timestamp horizon)
+{
+  for (; next_body_imu_ < body_imu_.size() && body_imu_[next_body_imu_].stamp < horizon; ++next_body_imu_)
+    imu_order_.add({SensorImu::kBody, body_imu_[next_body_imu_]});
+  for (SensorImu& imu : imu_order_.release(horizon)) ready_.emplace_back(std::move(imu));
+}
+
+RigAccount RigStream::account() const
+{
+  RigAccount account;
+  for (LidarIndex i = 0; i < lidars_.size(); ++i) account.lidars.push_back({lidars_[i].name, batcher_.counters(i)});
+  account.unmatched = router_.unmatched();
+  account.late_imu_samples = imu_order_.late();
+  return account;
+}
+}  // namespace scanloom

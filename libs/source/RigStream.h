@@ -1,0 +1,50 @@
+#pragma once
+#include "source/RigInput.h"
+
+#include <deque>
+
+namespace scanloom
+{
+/**
+ * A rig's datagrams in, its IMU samples and scans out: the one way from packets to scans, for captures and sockets
+ * alike. What comes out depends on the datagrams and their receive times alone, not on when and how often time was
+ * advanced between them.
+ */
+class RigStream
+{
+ public:
+  explicit RigStream(const Rig&);
+
+  /** In the order of receive times, as far as possible. Throws what PacketRouter::route and TimeBatcher::push throw. */
+  void take(const DatagramView&);
+
+  /** Every datagram received before `now` was taken: nobody waits any longer for what is late. */
+  void advance(Timestamp now);
+
+  /** No more datagrams: all that waits comes out. */
+  void finish();
+
+  /** The next event that is ready. */
+  std::optional<SensorEvent> next();
+
+  /** Without `input`, which the stream does not know. */
+  RigAccount account() const;
+
+  const TimeBatcher& batcher() const { return batcher_; }
+  const PacketRouter& router() const { return router_; }
+  std::uint64_t lateImuSamples() const { return imu_order_.late(); }
+
+ private:
+  void release(std::vector<Scan> scans);
+  void releaseImu(Timestamp horizon);
+
+  std::vector<BatchedLidar> lidars_;
+  std::vector<ImuSample> body_imu_;
+  std::size_t next_body_imu_ = 0;
+  PacketRouter router_;
+  TimeBatcher batcher_;
+  Duration imu_patience_;
+  ImuOrder imu_order_;
+  std::deque<SensorEvent> ready_;
+};
+}  // namespace scanloom

@@ -1,0 +1,283 @@
+#include "source/UdpReceiver.h"
+
+#include <netinet/in.h>
+#include <poll.h>
+#include <pthread.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+// How long a silent network keeps this thread asleep: the reader's deadlines are no finer than this.
+constexpr int kTickMs = 1;
+
+// A socket that fills faster than it is emptied must not keep the others waiting.
+constexpr int kBatchesInTurn = 16;
+
+IpAddress addressIn(const sockaddr_storage& storage)
+{
+  if (storage.ss_family == AF_INET)
+    return IpAddress::fromBytes({reinterpret_cast<const std::uint8_t*>(&storage) + offsetof(sockaddr_in, sin_addr), 4});
+  return IpAddress::fromBytes(
+      {reinterpret_cast<const std::uint8_t*>(&storage) + offsetof(sockaddr_in6, sin6_addr), 16});
+}
+
+std::uint16_t portIn(const sockaddr_storage& storage)
+{
+  std::uint16_t port = 0;
+  std::memcpy(&port, reinterpret_cast<const char*>(&storage) + offsetof(sockaddr_in, sin_port), sizeof port);
+  return ntohs(port);
+}
+
+struct Ancillary
+{
+  std::optional<Timestamp> stamp;            // of CLOCK_REALTIME
+  std::optional<std::uint32_t> lost_so_far;  // by this socket
+};
+
+Ancillary ancillaryOf(const msghdr& message)
+{
+  Ancillary ancillary;
+  auto* header = const_cast<msghdr*>(&message);  // what the macros want
+  for (cmsghdr* c = CMSG_FIRSTHDR(header); c; c = CMSG_NXTHDR(header, c))
+  {
+    if (c->cmsg_level != SOL_SOCKET) continue;
+    if (c->cmsg_type == SCM_TIMESTAMPNS)
+    {
+      timespec t{};
+      std::memcpy(&t, CMSG_DATA(c), sizeof t);
+      ancillary.stamp = Timestamp(std::chrono::seconds(t.tv_sec) + Duration(t.tv_nsec));
+    }
+    else if (c->cmsg_type == SO_RXQ_OVFL)
+    {
+      std::uint32_t count = 0;
+      std::memcpy(&count, CMSG_DATA(c), sizeof count);
+      ancillary.lost_so_far = count;
+    }
+  }
+  return ancillary;
+}
+}  // namespace
+
+UdpCounters& UdpCounters::operator+=(const UdpCounters& other)
+{
+  datagrams += other.datagrams;
+  filtered += other.filtered;
+  truncated += other.truncated;
+  dropped += other.dropped;
+  kernel_drops += other.kernel_drops;
+  errors += other.errors;
+  return *this;
+}
+
+UdpReceiver::Port::Port(const UdpReceiverOptions& options, const UdpPort& port)
+  : socket({port.port, options.bind_address, options.receive_buffer}),
+    sources(port.sources),
+    ring(port.slots, options.slot_bytes)
+{
+}
+
+bool UdpReceiver::Port::mayCome(const IpAddress& source) const
+{
+  return sources.empty() || std::find(sources.begin(), sources.end(), source) != sources.end();
+}
+
+UdpReceiver::Batch::Batch()
+{
+  for (std::size_t i = 0; i < kBatch; ++i)
+  {
+    messages[i].msg_hdr.msg_name = &sources[i];
+    messages[i].msg_hdr.msg_iov = &payloads[i];
+    messages[i].msg_hdr.msg_iovlen = 1;
+    messages[i].msg_hdr.msg_control = control[i].data();
+  }
+}
+
+UdpReceiver::UdpReceiver(const UdpReceiverOptions& options)
+  : stamps_(HostClocks::now()),
+    scrap_(options.slot_bytes),
+    epoll_(::epoll_create1(EPOLL_CLOEXEC)),
+    event_(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC))
+{
+  if (options.ports.empty()) throw std::invalid_argument("UdpReceiver: no port given");
+  scrap_slot_.bytes = scrap_.data();
+  for (const UdpPort& port : options.ports) ports_.emplace_back(options, port);
+
+  if (!epoll_.isOpen() || !event_.isOpen()) throw std::runtime_error("too many files are open: raise 'ulimit -n'");
+  for (std::size_t i = 0; i < ports_.size(); ++i)
+  {
+    epoll_event event{};
+    event.events = EPOLLIN;
+    event.data.u64 = i;
+    ::epoll_ctl(epoll_.number(), EPOLL_CTL_ADD, ports_[i].socket.descriptor(), &event);
+  }
+  thread_ = std::thread([this] { receive(); });
+  ::pthread_setname_np(thread_.native_handle(), "scanloom-udp");
+}
+
+UdpReceiver::~UdpReceiver()
+{
+  stop();
+  thread_.join();
+}
+
+void UdpReceiver::wait(Duration patience)
+{
+  pollfd descriptor{event_.number(), POLLIN, 0};
+  const auto ms = std::chrono::ceil<std::chrono::milliseconds>(patience).count();
+  ::poll(&descriptor, 1, static_cast<int>(std::clamp<std::int64_t>(ms, 0, 60'000)));
+  std::uint64_t count = 0;
+  if (::read(event_.number(), &count, sizeof count) < 0) return;  // nothing new
+}
+
+void UdpReceiver::notify()
+{
+  const std::uint64_t one = 1;
+  if (::write(event_.number(), &one, sizeof one) < 0) return;  // 2^64 - 2 notifications wait already
+}
+
+void UdpReceiver::receive()
+{
+  for (bool last = false; !last;)
+  {
+    last = stop_;
+    epoll_event event{};
+    if (!last) ::epoll_wait(epoll_.number(), &event, 1, kTickMs);
+    drainAll();
+    if (last) ended_.store(true, std::memory_order_release);
+    notify();
+  }
+}
+
+void UdpReceiver::drainAll()
+{
+  const HostClocks clocks = HostClocks::now();
+  stamps_.observe(clocks);
+  Timestamp drained = stamps_.at(clocks);
+
+  // Asked after the clock was read: what reached a socket before that is seen now.
+  std::array<epoll_event, 64> ready{};
+  for (int n = 64, turns = 0; n == 64 && turns < 4; ++turns)
+  {
+    n = ::epoll_wait(epoll_.number(), ready.data(), 64, 0);
+    for (int i = 0; i < n; ++i) drained = std::min(drained, drain(ports_[ready[static_cast<std::size_t>(i)].data.u64]));
+  }
+  clock_steps_ = stamps_.steps();
+  if (drained > drained_until_.load(std::memory_order_relaxed))
+    drained_until_.store(drained, std::memory_order_release);
+}
+
+/** Returns the time until which this socket is empty. */
+Timestamp UdpReceiver::drain(Port& port)
+{
+  for (int batches = 0; batches < kBatchesInTurn; ++batches)
+  {
+    while (port.hand.size() < kBatch)
+    {
+      DatagramRing::Slot* slot = port.ring.takeEmpty();
+      if (!slot) break;
+      port.hand.push_back(slot);
+    }
+    const bool full = port.hand.empty();
+    const std::size_t size = full ? 1 : port.hand.size();
+    const int received = receiveBatch(port, size);
+    if (received < 0 && errno == EINTR) continue;
+    if (received < 0 && errno == EAGAIN) return Timestamp::max();
+    if (received < 0)
+    {
+      ++port.errors;  // and is thereby taken from the socket: see socket(7), SO_ERROR
+      return port.latest;
+    }
+    sort(port, static_cast<std::size_t>(received), full);
+    if (static_cast<std::size_t>(received) < size) return Timestamp::max();
+  }
+  return port.latest;
+}
+
+int UdpReceiver::receiveBatch(Port& port, std::size_t size)
+{
+  for (std::size_t i = 0; i < size; ++i)
+  {
+    batch_.payloads[i] = {port.hand.empty() ? scrap_.data() : port.hand[i]->bytes, scrap_.size()};
+    batch_.messages[i].msg_hdr.msg_namelen = sizeof(sockaddr_storage);
+    batch_.messages[i].msg_hdr.msg_controllen = batch_.control[i].size();
+    batch_.messages[i].msg_hdr.msg_flags = 0;
+  }
+  return ::recvmmsg(port.socket.descriptor(), batch_.messages.data(), static_cast<unsigned>(size), MSG_DONTWAIT,
+                    nullptr);
+}
+
+/** Slots with good datagrams go to the reader, the others stay in the hand. */
+void UdpReceiver::sort(Port& port, std::size_t received, bool to_be_dropped)
+{
+  const HostClocks clocks = HostClocks::now();
+  stamps_.observe(clocks);
+  const Timestamp now = stamps_.at(clocks);
+
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < received; ++i)
+  {
+    DatagramRing::Slot* slot = to_be_dropped ? &scrap_slot_ : port.hand[i];
+    const bool good = take(port, batch_.messages[i], *slot, now);
+    if (to_be_dropped)
+      port.dropped += good;
+    else if (good)
+    {
+      ++port.datagrams;
+      port.ring.push(slot);
+    }
+    else
+      port.hand[kept++] = slot;
+  }
+  if (!to_be_dropped) port.hand.erase(port.hand.begin() + kept, port.hand.begin() + received);
+}
+
+/** Whether it is one for the reader; counts why not. */
+bool UdpReceiver::take(Port& port, const mmsghdr& message, DatagramRing::Slot& slot, Timestamp now)
+{
+  const Ancillary ancillary = ancillaryOf(message.msg_hdr);
+  if (ancillary.lost_so_far) port.overflowed = *ancillary.lost_so_far;
+  slot.received = ancillary.stamp ? stamps_.steady(*ancillary.stamp, port.latest, now) : now;
+  port.latest = std::max(port.latest, slot.received);
+
+  const auto& source = *static_cast<const sockaddr_storage*>(message.msg_hdr.msg_name);
+  slot.source = addressIn(source);
+  slot.source_port = portIn(source);
+  slot.size = message.msg_len;
+  const bool truncated = (message.msg_hdr.msg_flags & MSG_TRUNC) != 0;
+  const bool filtered = !port.mayCome(slot.source);
+  port.filtered += filtered;
+  port.truncated += truncated && !filtered;
+  return !truncated && !filtered;
+}
+
+UdpCounters UdpReceiver::counters(std::size_t i) const
+{
+  const Port& port = ports_[i];
+  UdpCounters counters;
+  counters.datagrams = port.datagrams;
+  counters.filtered = port.filtered;
+  counters.truncated = port.truncated;
+  counters.dropped = port.dropped;
+  // Those after the newest datagram stand in no datagram.
+  counters.kernel_drops = std::max<std::uint64_t>(port.overflowed, port.socket.kernelDrops());
+  counters.errors = port.errors;
+  return counters;
+}
+
+std::vector<std::string> UdpReceiver::warnings() const
+{
+  std::vector<std::string> warnings;
+  for (const Port& port : ports_)
+    if (std::string warning = port.socket.bufferWarning(); !warning.empty()) warnings.push_back(std::move(warning));
+  return warnings;
+}
+}  // namespace scanloom

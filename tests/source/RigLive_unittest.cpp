@@ -1,0 +1,244 @@
+/** Lidars over the loopback interface, in real time. Fault cases: see the table in doc/batching.md. */
+#include "liveRig.h"
+#include "support/TemporaryFolder.h"
+#include "support/TestData.h"
+
+#include <gmock/gmock.h>
+
+namespace scanloom
+{
+namespace
+{
+using testing::HasSubstr;
+
+/** Sends all, then waits until it has been received and ends the input. */
+std::vector<SensorEvent> sendAndRead(const std::vector<Datagram>& datagrams, RigLive& live, double speed = 1)
+{
+  std::thread sending(
+      [&]
+      {
+        UdpSender().replay(datagrams, speed);
+        live.stop();
+      });
+  std::vector<SensorEvent> events = eventsOf(live);
+  sending.join();
+  return events;
+}
+
+std::vector<SensorEvent> replayOf(Rig rig, const std::filesystem::path& capture)
+{
+  rig.captures = {capture};
+  RigReplay replay(rig);
+  return eventsOf(replay);
+}
+}  // namespace
+
+TEST(RigLive, givesEveryColumnOfTwoLidarsInScansOfTheWholePeriods)
+{
+  const LiveRig lidars(2);
+  RigLive live(lidars.rig);
+  const auto datagrams = lidars.drive(1050ms);
+
+  const auto scans = scansIn(sendAndRead(datagrams, live));
+
+  const RigAccount account = live.account();
+  ASSERT_GE(scans.size(), 9u);
+  for (std::size_t i = 1; i < scans.size(); ++i) EXPECT_EQ(scans[i].start, scans[i - 1].end());
+  EXPECT_EQ(account.input.at("datagrams"), datagrams.size());
+  std::uint64_t emitted = 0;
+  for (const LidarAccount& lidar : account.lidars)
+  {
+    EXPECT_EQ(lidar.counters.received, datagrams.size() / 2 * 8);
+    EXPECT_EQ(lidar.counters.emitted + lidar.counters.before_start, lidar.counters.received);
+    emitted += lidar.counters.emitted;
+  }
+  EXPECT_EQ(columnsIn(scans), emitted);
+}
+
+TEST(RigLive, theCaptureMadeOfItGivesTheSameScansToTheBit)
+{
+  const TemporaryFolder folder;
+  LiveRig lidars(3);
+  lidars.rig.live.capture = folder / "live.pcap";
+  std::vector<SensorEvent> events;
+  {
+    RigLive live(lidars.rig);
+    events = sendAndRead(lidars.drive(1500ms), live);
+  }
+  ASSERT_GE(events.size(), 14u);
+  expectTheSame(events, replayOf(lidars.rig, folder / "live.pcap"));
+}
+
+TEST(RigLive, theCaptureGivesTheSameScansWhenDataAreLateBeyondTheDeadline)
+{
+  const TemporaryFolder folder;
+  LiveRig lidars(2);
+  lidars.rig.live.capture = folder / "live.pcap";
+  std::vector<Datagram> datagrams = lidars.drive(1500ms);
+  for (std::size_t i = 20; i + 7 < datagrams.size(); i += 20)
+    std::rotate(datagrams.begin() + i, datagrams.begin() + i + 1, datagrams.begin() + i + 7);  // one is 30 ms late
+  for (std::size_t i = 0; i < datagrams.size(); ++i) datagrams[i].received = Timestamp{} + 5ms * static_cast<int>(i);
+  std::vector<SensorEvent> events;
+  std::uint64_t late = 0;
+  {
+    RigLive live(lidars.rig);
+    events = sendAndRead(datagrams, live);
+    for (const LidarAccount& lidar : live.account().lidars) late += lidar.counters.late;
+  }
+  EXPECT_GT(late, 0u);
+  expectTheSame(events, replayOf(lidars.rig, folder / "live.pcap"));
+}
+
+TEST(RigLive, aRecordingOfTwoLidarsWithTheirImusComesOutAsFromItsCapture)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  const TemporaryFolder folder;
+  const Configuration configuration = Configuration::fromText(
+      "[rig]\ndriver = CMultiLidarSensor\nextrinsics = " + (recording / "extrinsics.txt").string() +
+          "\nlidar1_name = left\nlidar1_metadata = " + (recording / "left.json").string() +
+          "\nlidar2_name = right\nlidar2_metadata = " + (recording / "right.json").string() +
+          "\npcap_output = " + (folder / "live.pcap").string() + "\nbind_address = 127.0.0.1\n",
+      "live.ini");
+  Rig rig = makeRig(readRigSettings(configuration, "rig"));
+  std::vector<Datagram> datagrams;
+  MergedCaptures captures({recording / "recording.pcap"});
+  for (Datagram datagram; datagrams.size() < 2000 && captures.next(datagram);) datagrams.push_back(datagram);
+  for (Datagram& datagram : datagrams) datagram.source = IpAddress::parse("127.0.0.2");
+  for (LidarAddress& address : rig.addresses)
+  {
+    const std::uint16_t lidar_port = freeUdpPort(), imu_port = freeUdpPort();
+    for (Datagram& datagram : datagrams)
+      if (datagram.destination_port == address.lidar_port)
+        datagram.destination_port = lidar_port;
+      else if (datagram.destination_port == address.imu_port)
+        datagram.destination_port = imu_port;
+    address = {lidar_port, imu_port, address.source};
+  }
+
+  std::vector<SensorEvent> events;
+  {
+    RigLive live(rig);
+    events = sendAndRead(datagrams, live);
+  }
+  EXPECT_GE(scansIn(events).size(), 20u);
+  EXPECT_GT(events.size(), scansIn(events).size()) << "IMU samples too";
+  expectTheSame(events, replayOf(rig, folder / "live.pcap"));
+}
+
+TEST(RigLive, aConsumerThatRestsLosesTheOldestScansAndNothingElse)  // F17
+{
+  LiveRig lidars(2);
+  lidars.rig.live.scans_waiting = 3;
+  RigLive live(lidars.rig);
+  const auto datagrams = lidars.drive(2s);
+
+  UdpSender().replay(datagrams);
+  live.stop();
+  std::this_thread::sleep_for(50ms);
+  const auto scans = scansIn(eventsOf(live));
+
+  const RigAccount account = live.account();
+  ASSERT_EQ(scans.size(), 3u);
+  EXPECT_GE(scans.back().end(), Timestamp{1002s}) << "the newest are kept";
+  EXPECT_GE(account.input.at("scans_dropped"), 16u);
+  EXPECT_EQ(account.input.at("datagrams_dropped_by_kernel"), 0u);
+  EXPECT_EQ(account.input.at("datagrams_dropped"), 0u);
+  EXPECT_EQ(account.input.at("datagrams"), datagrams.size());
+}
+
+TEST(RigLive, foreignDatagramsAreCountedAndChangeNothing)  // F19
+{
+  const TemporaryFolder folder;
+  LiveRig lidars(2);
+  lidars.rig.live.capture = folder / "live.pcap";
+  const std::uint16_t port = lidars.rig.addresses[0].lidar_port;
+  const auto datagrams = lidars.drive(1s);
+  std::vector<Datagram> all;
+  for (const Datagram& datagram : datagrams)
+  {
+    Datagram stranger = datagram;  // the size of a lidar's packets, from an address of its own
+    stranger.source = IpAddress::parse("127.0.0.9");
+    Datagram discovery{datagram.received, IpAddress::parse("127.0.0.10"), 0, port, std::vector<std::uint8_t>(544, 1)};
+    all.push_back(stranger);
+    all.push_back(datagram);
+    all.push_back(discovery);
+  }
+  RigLive live(lidars.rig);
+
+  const auto events = sendAndRead(all, live);
+
+  EXPECT_EQ(live.account().input.at("datagrams_filtered"), 2 * datagrams.size());
+  for (const LidarAccount& lidar : live.account().lidars)
+    EXPECT_EQ(lidar.counters.received, datagrams.size() / 2 * 8) << lidar.name;
+  expectTheSame(events, replayOf(lidars.rig, folder / "live.pcap"));
+}
+
+TEST(RigLive, tellsTwoLidarsOnOnePortApartByTheirAddresses)  // F20
+{
+  const LiveRig lidars(2, LiveRig::Ports::One);
+  RigLive live(lidars.rig);
+  const auto datagrams = lidars.drive(1s);
+
+  const auto scans = scansIn(sendAndRead(datagrams, live));
+
+  EXPECT_EQ(live.receiver().ports(), 1u);
+  ASSERT_GE(scans.size(), 9u);
+  for (std::size_t i = 1; i + 1 < scans.size(); ++i)
+    EXPECT_EQ(scans[i].columns_of, (std::vector<std::uint32_t>{64, 64}));
+}
+
+TEST(RigLive, givesScansAgainAtOnceAfterThreeSecondsOfSilence)  // F24
+{
+  const LiveRig lidars(2);
+  RigLive live(lidars.rig);
+  std::vector<Datagram> datagrams = lidars.drive(4s);
+  const Timestamp link_down = datagrams.front().received + 500ms, link_up = link_down + 3s;
+  datagrams.erase(std::remove_if(datagrams.begin(), datagrams.end(),
+                                 [&](const Datagram& datagram)
+                                 { return datagram.received >= link_down && datagram.received < link_up; }),
+                  datagrams.end());
+
+  std::thread sending(
+      [&]
+      {
+        UdpSender().replay(datagrams);
+        live.stop();
+      });
+  int empty = 0, full_again = 0;
+  while (const auto event = live.next())
+  {
+    const Scan& scan = std::get<Scan>(*event);
+    empty += scan.columns.empty();
+    full_again += scan.start >= Timestamp{1003600ms} && scan.columns.size() == 128;
+  }
+  sending.join();
+
+  EXPECT_GE(empty, 28) << "the rate stays";
+  EXPECT_GE(full_again, 3) << "those of the last 0.4 s but the one that the end cuts";
+}
+
+TEST(RigLive, saysThatARecordedImuIsNotLive)
+{
+  LiveRig lidars(1);
+  lidars.rig.body_imu.emplace_back();
+  EXPECT_THROW(RigLive{lidars.rig}, std::invalid_argument);
+}
+
+TEST(RigLive, doesNotReplaceACapture)
+{
+  const TemporaryFolder folder;
+  LiveRig lidars(1);
+  lidars.rig.live.capture = folder / "live.pcap";
+  std::ofstream(folder / "live.pcap") << "precious";
+  try
+  {
+    RigLive live(lidars.rig);
+    FAIL() << "replaced";
+  }
+  catch (const std::exception& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("live.pcap exists"));
+  }
+  EXPECT_EQ(contentOf(folder / "live.pcap"), "precious");
+}
+}  // namespace scanloom
