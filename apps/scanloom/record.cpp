@@ -162,6 +162,7 @@ int run(const RecordArguments& arguments)
   const std::unique_ptr<RigInput> input = openRig(rig);
   RawlogWriter writer(arguments.output, recordingHeader(rig), options);
   const Recorded recorded = record(*input, rig, settings.driver, arguments.seconds, writer);
+  for (const std::string& warning : input->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
   report(arguments, recorded, input->account());
   return interrupted() ? kInterrupted : kDone;
 }

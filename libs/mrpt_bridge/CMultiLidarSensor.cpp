@@ -3,6 +3,7 @@
 #include "mrpt_bridge/rigSettingsFrom.h"
 
 #include <algorithm>
+#include <csignal>
 #include <utility>
 
 IMPLEMENTS_GENERIC_SENSOR(CMultiLidarSensor, scanloom)
@@ -19,7 +20,30 @@ std::size_t readAhead(std::size_t max_queue_len) { return std::max<std::size_t>(
 
 /** At least two: rawlog-grabber writes half of what waits, rounded down. */
 std::size_t mostWaiting(std::size_t max_queue_len) { return std::max<std::size_t>(2, max_queue_len / 2); }
+
+volatile std::sig_atomic_t g_interrupted = 0;  // all that a signal handler may touch
+
+/** Stock applications die of these signals and leave a cut file. Whoever minds them already is left alone. */
+void catchInterruption()
+{
+  g_interrupted = 0;
+  for (const int signal : {SIGINT, SIGTERM})
+  {
+    struct sigaction current = {};
+    sigaction(signal, nullptr, &current);
+    if (current.sa_handler != SIG_DFL) continue;
+    struct sigaction action = {};
+    action.sa_handler = [](int) { g_interrupted = 1; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(signal, &action, nullptr);
+  }
+}
 }  // namespace
+
+CMultiLidarSensor::~CMultiLidarSensor()
+{
+  if (observations_) observations_->stop();  // the feed's thread may be waiting for them
+}
 
 void CMultiLidarSensor::loadConfig_sensorSpecific(const mrpt::config::CConfigFileBase& source,
                                                   const std::string& section)
@@ -38,12 +62,18 @@ void CMultiLidarSensor::initialize()
 {
   observations_ = std::make_unique<RigObservations>(makeRig(settings_), settings_.driver);
   feed_ = std::make_unique<ObservationFeed>([this] { return observations_->next(); }, readAhead(m_max_queue_len));
+  if (isLive()) catchInterruption();
   m_state = ssWorking;
 }
 
 void CMultiLidarSensor::doProcess()
 {
   const Time now = std::chrono::steady_clock::now();
+  if (isLive())
+  {
+    if (g_interrupted) observations_->stop();
+    logWarnings();
+  }
   if (!input_ended_) handOver(now);
   if (!input_ended_) return;
 
@@ -72,6 +102,7 @@ void CMultiLidarSensor::handOver(Time now)
     m_state = ssError;
   }
   if (!input_ended_) return;
+  logWarnings();
   logAccount();
   giveSacrifice();
 }
@@ -99,6 +130,11 @@ void CMultiLidarSensor::giveSacrifice()
   comment->timestamp = latest_stamp_ + mrpt::Clock::duration(1);
   comment->text = "end of input";
   appendObservation(comment);
+}
+
+void CMultiLidarSensor::logWarnings()
+{
+  for (const std::string& warning : observations_->takeWarnings()) MRPT_LOG_WARN(warning);
 }
 
 void CMultiLidarSensor::logAccount() const

@@ -33,7 +33,11 @@ namespace scanloom
  *   #max_queue_len  = 200      // half of it read ahead, half as many scans waiting to be written: then reading rests
  *   #grab_decimation = 0       // keep one scan of so many (header and IMU are all kept); 0: all
  *
- *   pcap_input      = a.pcap, b.pcap      // captures, merged by record time
+ *   #pcap_input     = a.pcap, b.pcap      // captures, merged by record time; without them: live
+ *   #pcap_output    = raw.pcap            // live: a capture of all that the lidars send; must not exist yet
+ *   #bind_address   = 192.168.1.1         // live: receive on this address (or multicast group) only
+ *   #receive_buffer = 16                  // live: MB per port, asked of the kernel
+ *   #scans_waiting  = 10                  // live: for a late application; then the oldest is dropped and counted
  *   #extrinsics     = extrinsics.txt      // lines 'T_body_NAME x y z yaw pitch roll' (m, deg)
  *   #imu_csv        = imu.csv             // the body's own IMU, EuRoC format
  *   #imu_pose       = [x y z yaw pitch roll]  // of the IMU in the body frame (m, deg); default: T_body_imu
@@ -56,6 +60,9 @@ namespace scanloom
  *   #queue_packets  = 1024     // packets that wait per lidar at most
  *  \endcode
  *
+ * Live, the first SIGINT or SIGTERM is the end of input (unless the application itself minds these signals); a second
+ * one ends the application as ever.
+ *
  * At the end of input, when the application has written everything, doProcess() throws "end of input: drained (not an
  * error)": rawlog-grabber knows no other way to be told. It ends all sections then, so give other sensors of the same
  * run their own grabber. Set GRABBER_PERIOD_MS = 200 in [global].
@@ -66,8 +73,9 @@ class CMultiLidarSensor : public mrpt::hwdrivers::CGenericSensor, public mrpt::s
 
  public:
   CMultiLidarSensor() : COutputLogger("CMultiLidarSensor") {}
+  ~CMultiLidarSensor() override;
 
-  /** Opens metadata and captures and begins to read; throws what is wrong with them. */
+  /** Opens metadata and captures or sockets and begins to read; throws what is wrong with them. */
   void initialize() override;
   void doProcess() override;
 
@@ -78,10 +86,12 @@ class CMultiLidarSensor : public mrpt::hwdrivers::CGenericSensor, public mrpt::s
  private:
   using Time = HandedOver::Time;
 
+  bool isLive() const { return settings_.rig.pcap_input.empty(); }
   void handOver(Time now);
   void give(const mrpt::obs::CObservation::Ptr&, Time now);
   bool isDecimated();
   void giveSacrifice();
+  void logWarnings();
   void logAccount() const;
 
   RigSettings settings_;

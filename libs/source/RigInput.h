@@ -36,6 +36,7 @@ struct RigAccount
   std::size_t scans_waiting = 0;               // live: for whoever calls next()
 };
 
+/** From one thread, but for stop(); account() and takeWarnings() of a live one from any. */
 class RigInput
 {
  public:
@@ -55,8 +56,8 @@ class RigInput
 
   virtual RigAccount account() const = 0;
 
-  /** For a person, once: what is not as it should be, and how to mend it. */
-  virtual std::vector<std::string> takeWarnings() { return {}; }
+  /** What a person should hear of, since the last call: of the lidars, the sockets, the disk. */
+  virtual std::vector<std::string> takeWarnings() = 0;
 
   /** Waits as long as it takes; nothing at the end. */
   std::optional<SensorEvent> next();

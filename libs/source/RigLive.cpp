@@ -15,6 +15,7 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kAccountPeriod = 100ms;
+constexpr std::size_t kWarningsKept = 1000;  // where nobody takes them
 
 // Datagrams that wait between the threads per lidar and port: half a second of most lidars.
 constexpr std::size_t kSlotsPerLidar = 1024;
@@ -65,8 +66,8 @@ RigLive::RigLive(const Rig& rig)
     queue_({rig.live.scans_waiting}),
     capture_(rig.live.capture.empty() ? nullptr : std::make_unique<LiveCapture>(rig.live.capture)),
     receiver_(receiverOptions(rig)),
-    warnings_(receiver_.warnings()),
     account_(stream_.account()),
+    warnings_(receiver_.warnings()),
     thread_([this] { merge(); })
 {
   ::pthread_setname_np(thread_.native_handle(), "scanloom-merge");
@@ -90,7 +91,7 @@ void RigLive::merge()
       last = receiver_.ended();
       takeUntil(last ? Timestamp::max() : receiver_.drainedUntil());
       if (Clock::now() - published < kAccountPeriod) continue;
-      publishAccount();
+      publish();
       published = Clock::now();
     }
     stream_.finish();
@@ -102,7 +103,7 @@ void RigLive::merge()
     receiver_.stop();
   }
   if (capture_) capture_->close();
-  publishAccount();
+  publish();
   queue_.end(error);
 }
 
@@ -154,12 +155,22 @@ void RigLive::giveOut()
   while (std::optional<SensorEvent> event = stream_.next()) queue_.push(*std::move(event));
 }
 
-void RigLive::publishAccount()
+void RigLive::publish()
 {
   RigAccount account = stream_.account();
   account.input["datagrams_restamped"] = restamped_;
+  std::vector<std::string> warnings = stream_.takeWarnings();
+  if (capture_ && !capture_failure_told_)
+    if (const std::string failure = capture_->failure(); !failure.empty())
+    {
+      capture_failure_told_ = true;
+      warnings.push_back(failure + ": datagrams are captured no more; scans go on");
+    }
+
   const std::lock_guard lock(mutex_);
   account_ = std::move(account);
+  for (std::string& warning : warnings)
+    if (warnings_.size() < kWarningsKept) warnings_.push_back(std::move(warning));
 }
 
 RigAccount RigLive::account() const
@@ -187,11 +198,7 @@ RigAccount RigLive::account() const
 
 std::vector<std::string> RigLive::takeWarnings()
 {
-  std::vector<std::string> warnings = std::exchange(warnings_, {});
-  const std::string failure = capture_ && !capture_failure_told_ ? capture_->failure() : "";
-  if (failure.empty()) return warnings;
-  capture_failure_told_ = true;
-  warnings.push_back(failure + ": the datagrams are captured no more; scans go on");
-  return warnings;
+  const std::lock_guard lock(mutex_);
+  return std::exchange(warnings_, {});
 }
 }  // namespace scanloom

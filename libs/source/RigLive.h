@@ -48,7 +48,7 @@ class RigLive : public RigInput
   std::optional<std::size_t> oldestBefore(Timestamp drained);
   void takeFrom(std::size_t port);
   void giveOut();
-  void publishAccount();
+  void publish();
 
   RigStream stream_;
   EventQueue queue_;
@@ -56,11 +56,11 @@ class RigLive : public RigInput
   UdpReceiver receiver_;
   Timestamp announced_ = Timestamp::min();  // what the batcher was told of time
   std::uint64_t restamped_ = 0;
-  std::vector<std::string> warnings_;  // of the start, until they are taken
   bool capture_failure_told_ = false;
 
   mutable std::mutex mutex_;
-  RigAccount account_;  // as of the latest publication
-  std::thread thread_;  // last: it uses all of the above
+  RigAccount account_;                 // as of the latest publication
+  std::vector<std::string> warnings_;  // until they are taken, or too many
+  std::thread thread_;                 // last: it uses all of the above
 };
 }  // namespace scanloom

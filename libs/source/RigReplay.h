@@ -19,6 +19,7 @@ class RigReplay : public RigInput
   void stop() override { stop_ = true; }
   double progress() const override { return captures_.progress(); }
   RigAccount account() const override;
+  std::vector<std::string> takeWarnings() override { return stream_.takeWarnings(); }
 
   const TimeBatcher& batcher() const { return stream_.batcher(); }
   const PacketRouter& router() const { return stream_.router(); }

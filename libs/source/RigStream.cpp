@@ -75,6 +75,13 @@ void RigStream::releaseImu(Timestamp horizon)
   for (SensorImu& imu : imu_order_.release(horizon)) ready_.emplace_back(std::move(imu));
 }
 
+std::vector<std::string> RigStream::takeWarnings()
+{
+  std::vector<std::string> warnings;
+  for (const Notice& notice : batcher_.takeNotices()) warnings.push_back(textOf(notice, lidars_[notice.lidar].name));
+  return warnings;
+}
+
 RigAccount RigStream::account() const
 {
   RigAccount account;

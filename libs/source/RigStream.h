@@ -27,6 +27,9 @@ class RigStream
   /** The next event that is ready. */
   std::optional<SensorEvent> next();
 
+  /** The batcher's notices since the last call, as lines of text. */
+  std::vector<std::string> takeWarnings();
+
   /** Without `input`, which the stream does not know. */
   RigAccount account() const;
 

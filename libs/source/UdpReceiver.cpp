@@ -22,6 +22,9 @@ constexpr int kTickMs = 1;
 // A socket that fills faster than it is emptied must not keep the others waiting.
 constexpr int kBatchesInTurn = 16;
 
+// At the end, sockets that never become empty are left alone.
+constexpr Duration kLongestEnd = 1s;
+
 IpAddress addressIn(const sockaddr_storage& storage)
 {
   if (storage.ss_family == AF_INET)
@@ -110,6 +113,7 @@ UdpReceiver::UdpReceiver(const UdpReceiverOptions& options)
   if (options.ports.empty()) throw std::invalid_argument("UdpReceiver: no port given");
   scrap_slot_.bytes = scrap_.data();
   for (const UdpPort& port : options.ports) ports_.emplace_back(options, port);
+  ready_.resize(ports_.size());
 
   if (!epoll_.isOpen() || !event_.isOpen()) throw std::runtime_error("too many files are open: raise 'ulimit -n'");
   for (std::size_t i = 0; i < ports_.size(); ++i)
@@ -146,33 +150,35 @@ void UdpReceiver::notify()
 
 void UdpReceiver::receive()
 {
-  for (bool last = false; !last;)
+  while (!stop_)
   {
-    last = stop_;
     epoll_event event{};
-    if (!last) ::epoll_wait(epoll_.number(), &event, 1, kTickMs);
+    ::epoll_wait(epoll_.number(), &event, 1, kTickMs);
     drainAll();
-    if (last) ended_.store(true, std::memory_order_release);
     notify();
   }
+  const HostClocks stopped = HostClocks::now();
+  while (!drainAll() && HostClocks::now().monotonic - stopped.monotonic < kLongestEnd) notify();
+  ended_.store(true, std::memory_order_release);
+  notify();
 }
 
-void UdpReceiver::drainAll()
+/** Whether every socket is empty. */
+bool UdpReceiver::drainAll()
 {
   const HostClocks clocks = HostClocks::now();
   stamps_.observe(clocks);
-  Timestamp drained = stamps_.at(clocks);
+  const Timestamp now = stamps_.at(clocks);
+  Timestamp drained = now;
 
   // Asked after the clock was read: what reached a socket before that is seen now.
-  std::array<epoll_event, 64> ready{};
-  for (int n = 64, turns = 0; n == 64 && turns < 4; ++turns)
-  {
-    n = ::epoll_wait(epoll_.number(), ready.data(), 64, 0);
-    for (int i = 0; i < n; ++i) drained = std::min(drained, drain(ports_[ready[static_cast<std::size_t>(i)].data.u64]));
-  }
+  const int n = ::epoll_wait(epoll_.number(), ready_.data(), static_cast<int>(ready_.size()), 0);
+  for (int i = 0; i < n; ++i) drained = std::min(drained, drain(ports_[ready_[static_cast<std::size_t>(i)].data.u64]));
+
   clock_steps_ = stamps_.steps();
   if (drained > drained_until_.load(std::memory_order_relaxed))
     drained_until_.store(drained, std::memory_order_release);
+  return drained == now;
 }
 
 /** Returns the time until which this socket is empty. */
@@ -187,7 +193,7 @@ Timestamp UdpReceiver::drain(Port& port)
       port.hand.push_back(slot);
     }
     const bool full = port.hand.empty();
-    const std::size_t size = full ? 1 : port.hand.size();
+    const std::size_t size = full ? kBatch : port.hand.size();
     const int received = receiveBatch(port, size);
     if (received < 0 && errno == EINTR) continue;
     if (received < 0 && errno == EAGAIN) return Timestamp::max();

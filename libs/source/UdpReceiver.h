@@ -3,6 +3,7 @@
 #include "source/SteadyStamps.h"
 #include "source/UdpSocket.h"
 
+#include <sys/epoll.h>
 #include <sys/socket.h>
 
 #include <array>
@@ -107,7 +108,7 @@ class UdpReceiver
   };
 
   void receive();
-  void drainAll();
+  bool drainAll();
   Timestamp drain(Port&);
   int receiveBatch(Port&, std::size_t size);
   void sort(Port&, std::size_t received, bool to_be_dropped);
@@ -120,6 +121,7 @@ class UdpReceiver
   std::vector<std::uint8_t> scrap_;  // where datagrams go that are dropped
   DatagramRing::Slot scrap_slot_;
   FileDescriptor epoll_, event_;
+  std::vector<epoll_event> ready_;
   std::atomic<Timestamp> drained_until_{Timestamp::min()};
   std::atomic<std::uint64_t> clock_steps_{0};
   std::atomic<bool> stop_{false}, ended_{false};

@@ -1,5 +1,6 @@
 /** Lidars over the loopback interface, in real time. Fault cases: see the table in doc/batching.md. */
 #include "liveRig.h"
+#include "support/RecordedLidars.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
@@ -93,32 +94,16 @@ TEST(RigLive, aRecordingOfTwoLidarsWithTheirImusComesOutAsFromItsCapture)
 {
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
   const TemporaryFolder folder;
+  const RecordedLidars lidars(recording, 2000);
   const Configuration configuration = Configuration::fromText(
-      "[rig]\ndriver = CMultiLidarSensor\nextrinsics = " + (recording / "extrinsics.txt").string() +
-          "\nlidar1_name = left\nlidar1_metadata = " + (recording / "left.json").string() +
-          "\nlidar2_name = right\nlidar2_metadata = " + (recording / "right.json").string() +
-          "\npcap_output = " + (folder / "live.pcap").string() + "\nbind_address = 127.0.0.1\n",
+      lidars.section() + "pcap_output = " + (folder / "live.pcap").string() + "\nbind_address = 127.0.0.1\n",
       "live.ini");
-  Rig rig = makeRig(readRigSettings(configuration, "rig"));
-  std::vector<Datagram> datagrams;
-  MergedCaptures captures({recording / "recording.pcap"});
-  for (Datagram datagram; datagrams.size() < 2000 && captures.next(datagram);) datagrams.push_back(datagram);
-  for (Datagram& datagram : datagrams) datagram.source = IpAddress::parse("127.0.0.2");
-  for (LidarAddress& address : rig.addresses)
-  {
-    const std::uint16_t lidar_port = freeUdpPort(), imu_port = freeUdpPort();
-    for (Datagram& datagram : datagrams)
-      if (datagram.destination_port == address.lidar_port)
-        datagram.destination_port = lidar_port;
-      else if (datagram.destination_port == address.imu_port)
-        datagram.destination_port = imu_port;
-    address = {lidar_port, imu_port, address.source};
-  }
+  const Rig rig = makeRig(readRigSettings(configuration, "lidars"));
 
   std::vector<SensorEvent> events;
   {
     RigLive live(rig);
-    events = sendAndRead(datagrams, live);
+    events = sendAndRead(lidars.datagrams(), live);
   }
   EXPECT_GE(scansIn(events).size(), 20u);
   EXPECT_GT(events.size(), scansIn(events).size()) << "IMU samples too";

@@ -78,7 +78,7 @@ inline std::size_t columnsIn(const std::vector<Scan>& scans)
 inline void expectTheSame(const Scan& a, const Scan& b)
 {
   EXPECT_EQ(a.start, b.start);
-  EXPECT_EQ(a.complete, b.complete);
+  EXPECT_EQ(a.missing, b.missing);
   EXPECT_EQ(a.columns_of, b.columns_of);
   ASSERT_EQ(a.columns.size(), b.columns.size());
   for (std::size_t i = 0; i < a.columns.size(); ++i)

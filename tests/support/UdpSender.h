@@ -6,9 +6,12 @@
 #include <sys/socket.h>
 
 #include <chrono>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -78,6 +81,20 @@ class UdpSender
 
   std::map<IpAddress, FileDescriptor> sockets_;
 };
+
+/** Whether some program of this computer receives there. */
+inline bool isReceivedOn(std::uint16_t port)
+{
+  char hexadecimal[8];
+  std::snprintf(hexadecimal, sizeof hexadecimal, ":%04X ", port);
+  for (const char* table : {"/proc/net/udp", "/proc/net/udp6"})
+  {
+    std::ifstream file(table);
+    for (std::string line; std::getline(file, line);)
+      if (line.find(hexadecimal) != std::string::npos) return true;
+  }
+  return false;
+}
 
 /** A port of this computer that nobody receives on at the moment. */
 inline std::uint16_t freeUdpPort()
