@@ -13,9 +13,6 @@ constexpr int kLongestTurn = 2;
 // More turns than this are never reordered, and hardly lost.
 constexpr int kTurnsRemembered = 4;
 
-// The edges of a window are rounded to columns.
-constexpr std::int64_t kWindowTolerance = 2;
-
 class AzimuthTurns : public TurnCollector
 {
  public:
@@ -85,18 +82,20 @@ class AzimuthTurns : public TurnCollector
     return stamp + std::llround(seconds(away) / seconds(modulus)) * modulus;
   }
 
-  /** How many blocks have room between the newest and this one, those outside of the azimuth window apart. */
+  /**
+   * How many blocks have room between the newest and this one, those outside of the azimuth window apart. Whole
+   * packets: a rotor that is not quite even, or a window's rounded edge, is no loss.
+   */
   std::uint64_t missingBefore(const MeasurementBlock& block) const
   {
-    const double periods = seconds(block.stamp - newest_->stamp) / seconds(lidar().blockPeriod());
-    const std::int64_t missing = std::llround(periods) - 1;
-    if (missing <= 0) return 0;
-    std::int64_t outside = 0;
+    const double blocks = seconds(block.stamp - newest_->stamp) / seconds(lidar().blockPeriod()) - 1;
+    if (blocks < 0.5 * lidar().columns_per_packet) return 0;
+    int outside = 0;
     const int columns = lidar().columns_per_frame;
     for (int id = (newest_->measurement_id + 1) % columns; id != block.measurement_id; id = (id + 1) % columns)
       outside += !inWindow(id);
-    const std::int64_t tolerance = outside > 0 ? kWindowTolerance : 0;
-    return static_cast<std::uint64_t>(missing <= outside + tolerance ? 0 : missing - outside);
+    const std::int64_t packets = std::llround((blocks - outside) / lidar().columns_per_packet);
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(packets, 0) * lidar().columns_per_packet);
   }
 
   bool inWindow(int id) const

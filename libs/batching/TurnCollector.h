@@ -39,8 +39,8 @@ std::unique_ptr<TurnCollector> makeFrameIdTurns(std::shared_ptr<const PacketDeco
 /**
  * For packets without numbers (Numbering::Stamps): a turn is out when the measurement ids fall back by more than half
  * of what a turn sends. Blocks whose stamp is not later than the newest are late, whether they come twice or out of
- * order; lost are those that a gap in the stamps has room for. Stamps that wrap are taken to be those nearest to the
- * host's time first and nearest to each other after that.
+ * order; lost are the packets that a gap in the stamps has room for. Stamps that wrap are taken to be those nearest to
+ * the host's time first and nearest to each other after that.
  */
 std::unique_ptr<TurnCollector> makeAzimuthTurns(std::shared_ptr<const PacketDecoder>, Duration time_offset,
                                                 std::uint8_t sensor_id);

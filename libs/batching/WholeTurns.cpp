@@ -29,6 +29,9 @@ WholeTurns::WholeTurns(std::vector<BatchedLidar> lidars, TurnGrouping grouping)
     throw std::invalid_argument(fmt::format("{} lidars: 1 to 256 can be batched", inputs_.size()));
   for (LidarIndex i = 0; i < inputs_.size(); ++i)
   {
+    if (!inputs_[i].decoder)
+      throw std::invalid_argument(
+          fmt::format("lidar '{}' is not known yet: whole turns need its metadata at the start", inputs_[i].name));
     const LidarDescription& description = inputs_[i].decoder->description();
     const auto make = description.numbering == Numbering::Ids ? makeFrameIdTurns : makeAzimuthTurns;
     lidars_.push_back({make(inputs_[i].decoder, inputs_[i].time_offset, static_cast<std::uint8_t>(i)),

@@ -43,7 +43,7 @@ enum class TurnGrouping
 class WholeTurns
 {
  public:
-  /** Throws std::invalid_argument without lidars or with more than 256. */
+  /** Throws std::invalid_argument without lidars, with more than 256 and for one without a decoder. */
   explicit WholeTurns(std::vector<BatchedLidar>, TurnGrouping = TurnGrouping::Nearest);
 
   /** Scans completed by this packet, oldest first. */
