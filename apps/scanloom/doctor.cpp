@@ -37,6 +37,7 @@ struct DoctorSettings : DoctorLimits
     visit(s.delivery, Section{"doctor", meaning});
     visit(s.clocks, Section{"doctor", meaning});
     visit(s.imu, Section{"doctor", meaning});
+    visit(s.geometry, Section{"doctor", meaning});
   }
 };
 

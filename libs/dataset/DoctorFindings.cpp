@@ -25,6 +25,9 @@ Findings findingsOf(const RigExamination& rig, const DoctorLimits& limits)
     append(findings, deliveryFindings(rig.lidars[i], limits.delivery));
     if (rig.lidars[i].jitter) findings.push_back(jitterFinding(rig.lidars[i], rig.deadline, limits.delivery));
     append(findings, clockFindings(rig, i, limits.clocks));
+    append(findings, groundFindings(rig, i, limits.geometry));
+    for (const PairExamination& pair : rig.pairs)
+      if (pair.lidar == i) findings.push_back(poseFinding(rig, pair, limits.geometry));
   }
   for (std::size_t i = 0; i < rig.imus.size(); ++i) append(findings, imuFindings(rig, i, limits.imu));
   for (const auto& [origin, datagrams] : rig.strangers) findings.push_back(strangersFinding(origin, datagrams));

@@ -12,5 +12,7 @@ Findings findingsOf(const RigExamination&, const DoctorLimits&);
 Findings deliveryFindings(const LidarExamination&, const DeliveryLimits&);
 Findings clockFindings(const RigExamination&, std::size_t lidar, const ClockLimits&);
 Findings imuFindings(const RigExamination&, std::size_t imu, const ImuLimits&);
+Findings groundFindings(const RigExamination&, std::size_t lidar, const GeometryLimits&);
+Finding poseFinding(const RigExamination&, const PairExamination&, const GeometryLimits&);
 Finding jitterFinding(const LidarExamination&, Duration deadline, const DeliveryLimits&);
 }  // namespace scanloom

@@ -56,6 +56,17 @@ json clockOf(const LidarExamination& seen)
   return result;
 }
 
+json jsonOf(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+json jsonOf(const GroundPlane& ground)
+{
+  return {{"up", jsonOf(ground.up)},
+          {"tilt_deg", degreesBetween(ground.up, Eigen::Vector3d::UnitZ())},
+          {"sensor_height_m", ground.sensor_height},
+          {"body_height_m", ground.body_height},
+          {"share", ground.share}};
+}
+
 json jsonOf(const LidarExamination& seen)
 {
   json result = {{"name", seen.name},           {"model", seen.lidar.model}, {"serial", seen.lidar.serial},
@@ -72,10 +83,16 @@ json jsonOf(const LidarExamination& seen)
                        {"scatter_s", seen.phase->scatter},
                        {"rate_error_ppm", seen.phase->rate_error_ppm},
                        {"turn_s", seen.phase->turn}};
+  if (seen.return_share) result["return_share"] = *seen.return_share;
+  if (seen.ground) result["ground"] = jsonOf(*seen.ground);
+  if (seen.own_parts.told) result["own_parts"] = {{"share", seen.own_parts.share}};
+  if (!seen.own_parts.box.isEmpty())
+  {
+    result["own_parts"]["box_min_m"] = jsonOf(Eigen::Vector3d(seen.own_parts.box.min()));
+    result["own_parts"]["box_max_m"] = jsonOf(Eigen::Vector3d(seen.own_parts.box.max()));
+  }
   return result;
 }
-
-json jsonOf(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 json jsonOf(const ImuExamination& imu)
 {
@@ -98,6 +115,23 @@ json jsonOf(const ImuExamination& imu)
                                {"sigma_rad", imu.to_first->sigma},
                                {"scale", imu.to_first->scale},
                                {"lag_s", seconds(imu.to_first->lag)}};
+  return result;
+}
+
+json jsonOf(const PairExamination& pair, const RigExamination& rig)
+{
+  json result = {{"lidar", rig.lidars[pair.lidar].name}, {"reference", rig.lidars[pair.reference].name}};
+  if (!pair.agreement) return result;
+  const CloudAgreement& a = *pair.agreement;
+  result["turns"] = a.turns;
+  result["common_points"] = a.common;
+  result["near_share"] = a.near_share;
+  if (!a.correction) return result;
+  result["offset_m"] = jsonOf(a.correction->offset);
+  result["offset_sigma_m"] = a.correction->offset_sigma;
+  result["rotation_rad"] = jsonOf(a.correction->rotation);
+  result["near_share_corrected"] = a.correction->near_share;
+  result["rotation_sigma_rad"] = a.correction->rotation_sigma;
   return result;
 }
 
@@ -124,6 +158,8 @@ std::string toJson(const RigExamination& rig, const Findings& findings)
   for (const LidarExamination& lidar : rig.lidars) result["lidars"].push_back(jsonOf(lidar));
   result["imus"] = json::array();
   for (const ImuExamination& imu : rig.imus) result["imus"].push_back(jsonOf(imu));
+  result["pairs"] = json::array();
+  for (const PairExamination& pair : rig.pairs) result["pairs"].push_back(jsonOf(pair, rig));
   for (const auto& [origin, datagrams] : rig.strangers)
     result["strangers"].push_back(
         {{"source", origin.source.text()}, {"port", origin.destination_port}, {"datagrams", datagrams}});

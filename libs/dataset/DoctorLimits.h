@@ -96,4 +96,40 @@ struct ImuLimits
           Field{"imu_gap_not_fit", "s", "longest gap: the motion of several scans is unknown", above(0)});
   }
 };
+
+struct GeometryLimits
+{
+  double ground_tilt_warning_deg = 15;
+  double ground_tilt_not_fit_deg = 45;
+  double ground_angle_warning_deg = 3;
+  double ground_height_warning = 0.15;
+  double near_share_warning = 0.5;
+  double pose_offset_warning = 0.1;
+  double pose_offset_not_fit = 0.25;
+  double pose_angle_warning_deg = 1;
+  double pose_angle_not_fit_deg = 3;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.ground_tilt_warning_deg,
+          Field{"ground_tilt_warning_deg", "deg",
+                "ground plane's normal against the body's z: steeper than forest roads", above(0)});
+    visit(o.ground_tilt_not_fit_deg,
+          Field{"ground_tilt_not_fit_deg", "deg", "the same: the pose names a wrong axis", above(0)});
+    visit(o.ground_angle_warning_deg, Field{"ground_angle_warning_deg", "deg",
+                                            "between two lidars' ground planes: roll or pitch is wrong", above(0)});
+    visit(o.ground_height_warning,
+          Field{"ground_height_warning", "m", "between two lidars' ground planes: z is wrong", above(0)});
+    visit(o.near_share_warning,
+          Field{"near_share_warning", "",
+                "of the points that another lidar should see, those that it sees within 0.3 m", between(0, 1)});
+    visit(o.pose_offset_warning,
+          Field{"pose_offset_warning", "m", "by registration to the first lidar: a stem is seen twice", above(0)});
+    visit(o.pose_offset_not_fit, Field{"pose_offset_not_fit", "m", "the same: wider than most stems", above(0)});
+    visit(o.pose_angle_warning_deg,
+          Field{"pose_angle_warning_deg", "deg", "by registration to the first lidar: 17 cm at 10 m", above(0)});
+    visit(o.pose_angle_not_fit_deg, Field{"pose_angle_not_fit_deg", "deg", "the same: half a metre at 10 m", above(0)});
+  }
+};
 }  // namespace scanloom

@@ -13,10 +13,19 @@ std::vector<RoutedLidar> routesOf(const Rig& rig)
     routes.push_back({rig.lidars[i].name, rig.addresses[i], rig.lidars[i].decoder.get()});
   return routes;
 }
+Duration longestTurn(const Rig& rig)
+{
+  double slowest = 20;  // Hz
+  for (const BatchedLidar& lidar : rig.lidars) slowest = std::min(slowest, lidar.decoder->description().frame_rate);
+  return fromSeconds(1 / slowest);
+}
 }  // namespace
 
 RigListener::RigListener(const Rig& rig, bool poses_known)
-  : lidars_(rig.lidars), addresses_(rig.addresses), router_(routesOf(rig))
+  : lidars_(rig.lidars),
+    addresses_(rig.addresses),
+    router_(routesOf(rig)),
+    snapshots_(rig.lidars.size(), longestTurn(rig))
 {
   evidence_.imus.push_back({"imu", rig.body_imu, rig.body_T_imu});
   for (const BatchedLidar& lidar : lidars_)
@@ -40,6 +49,7 @@ void RigListener::add(const Datagram& datagram)
     case PacketKind::Lidar:
       evidence.packets.push_back(traceOf(*lidar.decoder, datagram.payload, datagram.received, blocks_));
       if (auto& stamp = evidence.packets.back().stamp) *stamp += lidar.time_offset;
+      snapshots_.add(routed->lidar, *lidar.decoder, datagram.payload, blocks_, datagram.received);
       break;
     case PacketKind::Imu:
       for (ImuSample& sample : lidar.decoder->imuSamples(datagram.payload))
@@ -67,6 +77,7 @@ RigEvidence RigListener::finish()
                     [port = origin.destination_port](const LidarAddress& address)
                     { return port == address.lidar_port || port == address.imu_port; }))
       evidence_.strangers[origin] = datagrams;
+  evidence_.snapshots = snapshots_.finish();
   auto& imus = evidence_.imus;
   imus.erase(std::remove_if(imus.begin(), imus.end(), [](const ImuEvidence& imu) { return imu.samples.empty(); }),
              imus.end());

@@ -1,6 +1,7 @@
 /** What a rig's datagrams tell, kept as far as the measures of `scanloom doctor` need it. */
 #pragma once
 #include "dataset/PacketTrace.h"
+#include "dataset/Snapshots.h"
 #include "source/Rig.h"
 
 #include <map>
@@ -27,13 +28,15 @@ struct ImuEvidence
 struct RigEvidence
 {
   std::vector<LidarEvidence> lidars;
+  std::vector<RigSnapshot> snapshots;
   std::map<Origin, std::uint64_t> strangers;  // datagrams that are no lidar's, though they came to our ports
   bool poses_known = false;                   // else every sensor frame is taken for the body's
   std::vector<ImuEvidence> imus;              // those of which samples came, the body's first
   Duration deadline{0};                       // that the batcher is configured with
 };
 
-/** Listens to a rig: datagrams in the order of arrival, from a capture or live; 56 bytes stay of each lidar packet. */
+/** Listens to a rig: datagrams in the order of arrival, from a capture or live; 64 bytes stay of each lidar packet, and
+ * all points of a few turns. */
 class RigListener
 {
  public:
@@ -49,6 +52,7 @@ class RigListener
   std::vector<BatchedLidar> lidars_;
   std::vector<LidarAddress> addresses_;
   PacketRouter router_;
+  SnapshotTaker snapshots_;
   std::vector<MeasurementBlock> blocks_;
   RigEvidence evidence_;
 };

@@ -72,9 +72,37 @@ ImuExamination examineImu(const ImuEvidence& imu, const ImuEvidence& first, cons
                           seconds(lidars.last - lidars.first));
   return seen;
 }
+std::optional<double> returnShare(const std::vector<RigSnapshot>& snapshots, std::size_t lidar)
+{
+  std::uint64_t readings = 0, returns = 0;
+  for (const RigSnapshot& snapshot : snapshots)
+  {
+    readings += snapshot[lidar].readings;
+    returns += snapshot[lidar].returns;
+  }
+  if (readings == 0) return std::nullopt;
+  return static_cast<double>(returns) / static_cast<double>(readings);
+}
+
+std::optional<GroundPlane> groundOf(const std::vector<RigSnapshot>& snapshots, std::size_t lidar,
+                                    const LidarDescription& description)
+{
+  std::vector<const PointCloud*> clouds;
+  for (const RigSnapshot& snapshot : snapshots) clouds.push_back(&snapshot[lidar].points);
+  return groundPlane(clouds, description.body_T_sensor.translation);
+}
+
+PairExamination examinePair(const RigEvidence& evidence, std::size_t lidar, std::size_t reference)
+{
+  std::vector<SnapshotPair> pairs;
+  for (const RigSnapshot& snapshot : evidence.snapshots) pairs.push_back({&snapshot[lidar], &snapshot[reference]});
+  return {lidar, reference,
+          cloudAgreement(pairs, evidence.lidars[lidar].lidar.body_T_sensor,
+                         evidence.lidars[reference].lidar.body_T_sensor)};
+}
 }  // namespace
 
-RigExamination examine(const RigEvidence& evidence, const DoctorLimits& limits)
+RigExamination examine(RigEvidence evidence, const DoctorLimits& limits)
 {
   RigExamination rig;
   rig.strangers = evidence.strangers;
@@ -82,6 +110,13 @@ RigExamination examine(const RigEvidence& evidence, const DoctorLimits& limits)
   for (const LidarEvidence& lidar : evidence.lidars)
     rig.lidars.push_back(examineLidar(lidar, evidence.deadline, limits.clocks));
   rig.poses_known = evidence.poses_known;
+  for (std::size_t i = 0; i < rig.lidars.size(); ++i)
+  {
+    rig.lidars[i].return_share = returnShare(evidence.snapshots, i);
+    rig.lidars[i].ground = groundOf(evidence.snapshots, i, rig.lidars[i].lidar);
+    rig.lidars[i].own_parts = markOwnParts(evidence.snapshots, i, rig.lidars[i].ground);
+    if (i > 0 && evidence.poses_known) rig.pairs.push_back(examinePair(evidence, i, 0));
+  }
   const TimeSpan span = spanOf(evidence.lidars);
   for (const ImuEvidence& imu : evidence.imus) rig.imus.push_back(examineImu(imu, evidence.imus.front(), span));
 

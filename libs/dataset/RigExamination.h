@@ -2,12 +2,15 @@
 #pragma once
 #include "dataset/ClockDrift.h"
 #include "dataset/ClockKind.h"
+#include "dataset/CloudAgreement.h"
 #include "dataset/Delivery.h"
 #include "dataset/DoctorLimits.h"
+#include "dataset/GroundPlane.h"
 #include "dataset/GyroAgreement.h"
 #include "dataset/GyroScale.h"
 #include "dataset/ImuTiming.h"
 #include "dataset/MeanForce.h"
+#include "dataset/OwnParts.h"
 #include "dataset/RigEvidence.h"
 #include "dataset/RotorPhase.h"
 #include "dataset/SensorFlags.h"
@@ -31,6 +34,10 @@ struct LidarExamination
   std::optional<Duration> ahead_of_first;  // against the first lidar's; not of the first itself
   std::optional<ClockDrift> drift_to_first;
   std::optional<RotorPhase> phase;
+
+  std::optional<double> return_share;  // of all readings: what came back
+  std::optional<GroundPlane> ground;
+  OwnParts own_parts;
 };
 
 struct ImuExamination
@@ -43,10 +50,18 @@ struct ImuExamination
   std::optional<double> lidar_share;      // of the lidars' time that its samples cover
 };
 
+/** Lidar `lidar`, if lidar `reference` is where it is said to be. */
+struct PairExamination
+{
+  std::size_t lidar = 0, reference = 0;
+  std::optional<CloudAgreement> agreement;
+};
+
 struct RigExamination
 {
   std::vector<LidarExamination> lidars;
   std::vector<ImuExamination> imus;
+  std::vector<PairExamination> pairs;  // each against the first, if poses are known
   bool poses_known = false;
   std::map<Origin, std::uint64_t> strangers;
   Duration deadline{0};
@@ -57,7 +72,8 @@ struct DoctorLimits
   DeliveryLimits delivery;
   ClockLimits clocks;
   ImuLimits imu;
+  GeometryLimits geometry;
 };
 
-RigExamination examine(const RigEvidence&, const DoctorLimits&);
+RigExamination examine(RigEvidence, const DoctorLimits&);
 }  // namespace scanloom

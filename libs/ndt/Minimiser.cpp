@@ -15,10 +15,22 @@ namespace
 // rewards a turn that merely widens B^-1, and locks in worse poses): near it the score may rise a little.
 constexpr double kSlack = 0.02;
 
-NormalEquations at(const Rigid& pose, Neighbourhoods& neighbourhoods, double d2)
+/** The pairs of maps that are aligned by one pose. */
+using Pairs = std::vector<Neighbourhoods*>;
+
+NormalEquations at(const Rigid& pose, const Pairs& pairs, double d2)
 {
-  neighbourhoods.moveTo(pose);
-  return normalEquations(neighbourhoods, pose, d2);
+  NormalEquations sum;
+  for (Neighbourhoods* neighbourhoods : pairs)
+  {
+    neighbourhoods->moveTo(pose);
+    const NormalEquations one = normalEquations(*neighbourhoods, pose, d2);
+    sum.value += one.value;
+    sum.gradient += one.gradient;
+    sum.curvature += one.curvature;
+    sum.met_points += one.met_points;
+  }
+  return sum;
 }
 
 /** In metres, within the range of the projector `free`. */
@@ -31,22 +43,21 @@ Vector6d dampedStep(const NormalEquations& equations, double damping, const Matr
       free * curvature * free + curvature.trace() * ((identity - free) + (damping + 1e-9) * identity);
   return -free * damped.ldlt().solve(free * scale.cwiseProduct(equations.gradient));
 }
-}  // namespace
 
-Minimum minimise(Neighbourhoods& neighbourhoods, const Rigid& guess, const RegistrationOptions& options,
+Minimum minimise(const Pairs& pairs, const Rigid& guess, const RegistrationOptions& options,
                  const std::vector<Vector6d>& locked)
 {
   Matrix6d free = Matrix6d::Identity();
   for (const Vector6d& direction : locked) free -= direction * direction.transpose();
 
-  Minimum here{guess, at(guess, neighbourhoods, options.d2), 0, false};
+  Minimum here{guess, at(guess, pairs, options.d2), 0, false};
   double damping = 0;
   while (!here.converged && here.equations.met_points > 0 && here.iterations < options.max_iterations)
   {
     ++here.iterations;
     const Vector6d step = dampedStep(here.equations, damping, free);
     const Rigid candidate = boxPlus(here.target_T_source, stepOfMetres().cwiseProduct(step));
-    const NormalEquations there = at(candidate, neighbourhoods, options.d2);
+    const NormalEquations there = at(candidate, pairs, options.d2);
 
     here.converged = step.norm() < options.tolerance;
     if (there.value <= here.equations.value + kSlack * std::abs(here.equations.value))
@@ -60,7 +71,22 @@ Minimum minimise(Neighbourhoods& neighbourhoods, const Rigid& guess, const Regis
       damping = std::max(10 * damping, 1e-3);
     }
   }
-  neighbourhoods.moveTo(here.target_T_source);
+  for (Neighbourhoods* neighbourhoods : pairs) neighbourhoods->moveTo(here.target_T_source);
   return here;
+}
+}  // namespace
+
+Minimum minimise(Neighbourhoods& neighbourhoods, const Rigid& guess, const RegistrationOptions& options,
+                 const std::vector<Vector6d>& locked)
+{
+  return minimise(Pairs{&neighbourhoods}, guess, options, locked);
+}
+
+Minimum minimise(std::vector<Neighbourhoods>& all, const Rigid& guess, const RegistrationOptions& options,
+                 const std::vector<Vector6d>& locked)
+{
+  Pairs pairs;
+  for (Neighbourhoods& neighbourhoods : all) pairs.push_back(&neighbourhoods);
+  return minimise(pairs, guess, options, locked);
 }
 }  // namespace scanloom

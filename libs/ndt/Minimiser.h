@@ -17,4 +17,8 @@ struct Minimum
 
 /** Never steps along the `locked` directions (orthonormal, in metres). Leaves the neighbourhoods at the minimum. */
 Minimum minimise(Neighbourhoods&, const Rigid& guess, const RegistrationOptions&, const std::vector<Vector6d>& locked);
+
+/** The same of several pairs of maps at once: one pose for all. */
+Minimum minimise(std::vector<Neighbourhoods>&, const Rigid& guess, const RegistrationOptions&,
+                 const std::vector<Vector6d>& locked);
 }  // namespace scanloom

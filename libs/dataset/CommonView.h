@@ -1,0 +1,17 @@
+/** What two lidars should both see, and how much of it they see in the same place. */
+#pragma once
+#include "core/PointCloud.h"
+#include "core/Rigid.h"
+
+namespace scanloom
+{
+struct CommonView
+{
+  std::size_t common = 0;  // points of A that B should see: near enough for its beams to lie 0.6 m apart at most, and
+                           // nothing in between
+  std::size_t near = 0;    // of those: with a point of B within 0.3 m
+};
+
+/** Both clouds in the body frame; A's is moved by `correction` first. */
+CommonView commonView(const PointCloud& a, const Rigid& correction, const PointCloud& b, const Rigid& body_T_b);
+}  // namespace scanloom

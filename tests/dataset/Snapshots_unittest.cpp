@@ -1,0 +1,44 @@
+#include "dataset/Snapshots.h"
+
+#include <gtest/gtest.h>
+
+#include "support/FakeLidar.h"
+
+using namespace scanloom;
+
+namespace
+{
+std::vector<RigSnapshot> taken(Duration length)
+{
+  const FakeLidar lidar;  // 640 blocks a second
+  SnapshotTaker taker(1, 100ms);
+  std::vector<MeasurementBlock> blocks;
+  for (const auto& packet : lidar.drive(Timestamp{0s}, length))
+  {
+    lidar.readBlocks(packet, blocks);
+    taker.add(0, lidar, packet, blocks, blocks.back().stamp);
+  }
+  return taker.finish();
+}
+}  // namespace
+
+TEST(SnapshotTaker, takesATurnPerSecondAtFirst)
+{
+  const auto snapshots = taken(5s);
+  ASSERT_EQ(snapshots.size(), 5u);
+  for (const RigSnapshot& snapshot : snapshots)
+  {
+    EXPECT_NEAR(static_cast<double>(snapshot[0].readings), 64 * 3, 8 * 3);  // to the packet
+    EXPECT_EQ(snapshot[0].returns, snapshot[0].readings);
+  }
+}
+
+TEST(SnapshotTaker, keepsAFewHoweverLongItTakes)
+{
+  for (const Duration length : {13s, 60s, 1000s})
+  {
+    const std::size_t snapshots = taken(length).size();
+    EXPECT_LE(snapshots, 12u);
+    EXPECT_GE(snapshots, 6u);
+  }
+}
