@@ -7,10 +7,10 @@ namespace scanloom
 {
 namespace
 {
-bool isScan(const SensorEvent& event) { return std::holds_alternative<Scan>(event); }
+bool isScan(const EventQueue::Waiting& w) { return std::holds_alternative<Scan>(w.event); }
 }  // namespace
 
-void EventQueue::push(SensorEvent event)
+void EventQueue::push(Waiting event)
 {
   {
     const std::lock_guard lock(mutex_);
@@ -39,7 +39,7 @@ void EventQueue::end(std::exception_ptr error)
   changed_.notify_one();
 }
 
-std::optional<SensorEvent> EventQueue::pop(Duration patience)
+std::optional<EventQueue::Waiting> EventQueue::pop(Duration patience)
 {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, patience, [this] { return ended_ || !events_.empty(); });
@@ -48,7 +48,7 @@ std::optional<SensorEvent> EventQueue::pop(Duration patience)
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     return std::nullopt;
   }
-  SensorEvent event = std::move(events_.front());
+  Waiting event = std::move(events_.front());
   events_.pop_front();
   scans_ -= isScan(event);
   return event;

@@ -12,6 +12,12 @@ namespace scanloom
 class EventQueue
 {
  public:
+  struct Waiting
+  {
+    SensorEvent event;
+    Timestamp newest;  // when the newest datagram was received that it was made of
+  };
+
   struct Limits
   {
     std::size_t scans = 10;
@@ -20,13 +26,13 @@ class EventQueue
 
   explicit EventQueue(const Limits& limits) : limits_(limits) {}
 
-  void push(SensorEvent);
+  void push(Waiting);
 
   /** No more will be pushed; what `error` holds is thrown by pop() after all else. */
   void end(std::exception_ptr error = nullptr);
 
   /** Nothing if nothing came within `patience`, or at the end. */
-  std::optional<SensorEvent> pop(Duration patience);
+  std::optional<Waiting> pop(Duration patience);
 
   /** The end, and all is taken. */
   bool ended() const;
@@ -41,7 +47,7 @@ class EventQueue
   Limits limits_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<SensorEvent> events_;
+  std::deque<Waiting> events_;
   std::size_t scans_ = 0;
   std::uint64_t dropped_scans_ = 0, dropped_imu_samples_ = 0;
   bool ended_ = false;

@@ -10,6 +10,8 @@ namespace scanloom
 {
 namespace
 {
+constexpr std::size_t kStrangers = 1000;
+
 /** The better a decoder understands a packet, the smaller. */
 int strangeness(PacketKind kind)
 {
@@ -59,8 +61,15 @@ PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars) : lidars_(std::move(
 std::optional<Routed> PacketRouter::route(const DatagramView& datagram)
 {
   const std::optional<Routed> routed = decide(datagram);
-  if (!routed) ++unmatched_[{datagram.destination_port, datagram.source}];
+  if (!routed) ++unmatched_[strangerOf(datagram)];
   return routed;
+}
+
+/** A network can hold more senders than memory should be spent on. */
+Origin PacketRouter::strangerOf(const DatagramView& datagram) const
+{
+  const Origin origin{datagram.destination_port, datagram.source};
+  return unmatched_.size() < kStrangers || unmatched_.count(origin) > 0 ? origin : Origin{};
 }
 
 std::optional<Routed> PacketRouter::decide(const DatagramView& datagram)

@@ -66,13 +66,14 @@ class PacketRouter
    */
   std::optional<Routed> route(const DatagramView&);
 
-  /** Datagrams that were given to no lidar. */
+  /** Datagrams that were given to no lidar; from the 1000th stranger on, under port 0 of no address. */
   const std::map<Origin, std::uint64_t>& unmatched() const { return unmatched_; }
 
  private:
   std::vector<Routed> candidates(const DatagramView&) const;
   std::vector<Routed> fromKnownSource(const std::vector<Routed>& candidates, const IpAddress& source) const;
   std::optional<Routed> decide(const DatagramView&);
+  Origin strangerOf(const DatagramView&) const;
   std::runtime_error ambiguous(const DatagramView&, const std::vector<Routed>&) const;
 
   std::vector<RoutedLidar> lidars_;

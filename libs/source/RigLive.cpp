@@ -79,6 +79,14 @@ RigLive::~RigLive()
   thread_.join();
 }
 
+std::optional<SensorEvent> RigLive::next(Duration patience)
+{
+  std::optional<EventQueue::Waiting> waiting = queue_.pop(patience);
+  if (!waiting) return std::nullopt;
+  if (std::holds_alternative<Scan>(waiting->event)) release_latency_ = receiver_.now() - waiting->newest;
+  return std::move(waiting->event);
+}
+
 void RigLive::merge()
 {
   std::exception_ptr error;
@@ -110,8 +118,7 @@ void RigLive::merge()
 void RigLive::takeUntil(Timestamp drained)
 {
   while (const std::optional<std::size_t> port = oldestBefore(drained)) takeFrom(*port);
-  if (drained == Timestamp::max() || drained <= announced_) return;
-  announced_ = drained;
+  if (drained == Timestamp::max()) return;
   stream_.advance(drained);
   giveOut();
 }
@@ -138,12 +145,13 @@ void RigLive::takeFrom(std::size_t port)
   DatagramView datagram;
   // The kernel may stamp a datagram and be interrupted before others can see it. Time does not go back for it, neither
   // now nor in the replay.
-  restamped_ += slot.received < announced_;
-  datagram.received = std::max(slot.received, announced_);
+  restamped_ += slot.received < stream_.time();
+  datagram.received = std::max(slot.received, stream_.time());
   datagram.source = slot.source;
   datagram.source_port = slot.source_port;
   datagram.destination_port = receiver_.port(port);
   datagram.payload = {slot.bytes, slot.size};
+  newest_ = datagram.received;
   if (capture_) capture_->add(datagram);
   stream_.take(datagram);
   ring.pop();
@@ -152,7 +160,7 @@ void RigLive::takeFrom(std::size_t port)
 
 void RigLive::giveOut()
 {
-  while (std::optional<SensorEvent> event = stream_.next()) queue_.push(*std::move(event));
+  while (std::optional<SensorEvent> event = stream_.next()) queue_.push({*std::move(event), newest_});
 }
 
 void RigLive::publish()

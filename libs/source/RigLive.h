@@ -30,7 +30,7 @@ class RigLive : public RigInput
   using RigInput::next;
 
   /** Also throws what ended the batching: see RigStream::take. */
-  std::optional<SensorEvent> next(Duration patience) override { return queue_.pop(patience); }
+  std::optional<SensorEvent> next(Duration patience) override;
   bool ended() const override { return queue_.ended(); }
   void stop() override { receiver_.stop(); }
   double progress() const override { return 0; }
@@ -39,6 +39,12 @@ class RigLive : public RigInput
   RigAccount account() const override;
 
   std::vector<std::string> takeWarnings() override;
+
+  /**
+   * Of the scan that next() gave last: from the kernel's stamp of the datagram that completed it (or, if a deadline
+   * did, of the newest one) to its being taken from the queue.
+   */
+  Duration releaseLatency() const { return release_latency_; }
 
   const UdpReceiver& receiver() const { return receiver_; }
 
@@ -54,7 +60,8 @@ class RigLive : public RigInput
   EventQueue queue_;
   std::unique_ptr<LiveCapture> capture_;  // none if it is not wanted
   UdpReceiver receiver_;
-  Timestamp announced_ = Timestamp::min();  // what the batcher was told of time
+  Timestamp newest_;             // datagram that was taken
+  Duration release_latency_{0};  // the consumer's own
   std::uint64_t restamped_ = 0;
   bool capture_failure_told_ = false;
 

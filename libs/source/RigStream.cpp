@@ -4,6 +4,8 @@ namespace scanloom
 {
 namespace
 {
+constexpr Duration kTick = 1ms;
+
 std::vector<RoutedLidar> routesOf(const Rig& rig)
 {
   std::vector<RoutedLidar> routes;
@@ -18,7 +20,8 @@ RigStream::RigStream(const Rig& rig)
     body_imu_(rig.body_imu),
     router_(routesOf(rig)),
     batcher_(rig.lidars, rig.batcher),
-    imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms))
+    imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms)),
+    longest_effect_(2 * imu_patience_ + 10s)
 {
 }
 
@@ -27,7 +30,6 @@ void RigStream::take(const DatagramView& datagram)
   const std::optional<Routed> routed = router_.route(datagram);
   if (!routed) return;
 
-  // Live, time may have been advanced up to this datagram already; a replay has to come to the same.
   advance(datagram.received);
   if (routed->kind == PacketKind::Imu)
   {
@@ -42,7 +44,17 @@ void RigStream::take(const DatagramView& datagram)
     release(batcher_.push(routed->lidar, datagram.payload, datagram.received));
 }
 
-void RigStream::advance(Timestamp now) { release(batcher_.advance(now)); }
+void RigStream::advance(Timestamp now)
+{
+  const Timestamp last{std::chrono::floor<std::chrono::milliseconds>(now.time_since_epoch())};
+  if (last <= time_) return;
+  if (time_ == Timestamp::min() || last - time_ > longest_effect_) time_ = last - kTick;
+  while (time_ < last)
+  {
+    time_ += kTick;
+    release(batcher_.advance(time_));
+  }
+}
 
 void RigStream::finish()
 {

@@ -7,8 +7,11 @@ namespace scanloom
 {
 /**
  * A rig's datagrams in, its IMU samples and scans out: the one way from packets to scans, for captures and sockets
- * alike. What comes out depends on the datagrams and their receive times alone, not on when and how often time was
- * advanced between them.
+ * alike.
+ *
+ * The batcher is told of time at whole milliseconds and of nothing between, each before the datagrams that were
+ * received after it: so live and replay, which learn of time in different steps, take the very same steps. What comes
+ * out depends on the datagrams and their receive times alone (but for empty scans after the last one).
  */
 class RigStream
 {
@@ -18,8 +21,11 @@ class RigStream
   /** In the order of receive times, as far as possible. Throws what PacketRouter::route and TimeBatcher::push throw. */
   void take(const DatagramView&);
 
-  /** Every datagram received before `now` was taken: nobody waits any longer for what is late. */
+  /** Every datagram received before `now` was taken. */
   void advance(Timestamp now);
+
+  /** The latest time that the batcher was told of: no datagram should be received before it. */
+  Timestamp time() const { return time_; }
 
   /** No more datagrams: all that waits comes out. */
   void finish();
@@ -47,6 +53,8 @@ class RigStream
   PacketRouter router_;
   TimeBatcher batcher_;
   Duration imu_patience_;
+  Duration longest_effect_;  // of one silence on the batcher: after it, one step is as good as many
+  Timestamp time_ = Timestamp::min();
   ImuOrder imu_order_;
   std::deque<SensorEvent> ready_;
 };

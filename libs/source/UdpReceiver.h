@@ -73,6 +73,9 @@ class UdpReceiver
   /** Everything is in the rings, nothing more will come; ask before looking into them. */
   bool ended() const { return ended_.load(std::memory_order_acquire); }
 
+  /** On the clock of the stamps. */
+  Timestamp now() const { return stamps_.at(HostClocks::now()); }
+
   UdpCounters counters(std::size_t i) const;
 
   /** How often somebody set the host's clock. */

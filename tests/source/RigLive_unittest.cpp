@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+
 namespace scanloom
 {
 namespace
@@ -170,6 +172,37 @@ TEST(RigLive, tellsTwoLidarsOnOnePortApartByTheirAddresses)  // F20
   ASSERT_GE(scans.size(), 9u);
   for (std::size_t i = 1; i + 1 < scans.size(); ++i)
     EXPECT_EQ(scans[i].columns_of, (std::vector<std::uint32_t>{64, 64}));
+}
+
+TEST(RigLive, tellsTwoLidarsOnOnePortApartByTheirSerialNumbers)  // F20
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  const RecordedLidars lidars(recording, 2000, RecordedLidars::Ports::One);
+  const Configuration configuration = Configuration::fromText(lidars.section(), "live.ini");
+  RigLive live(makeRig(readRigSettings(configuration, "lidars")));
+
+  const auto scans = scansIn(sendAndRead(lidars.datagrams(), live, 4));
+
+  EXPECT_EQ(live.receiver().ports(), 1u);
+  EXPECT_GE(scans.size(), 20u);
+  const RigAccount account = live.account();
+  for (const LidarAccount& lidar : account.lidars)
+  {
+    const char* address = lidar.name == "left" ? "127.0.0.2" : "127.0.0.3";
+    const auto sent = std::count_if(lidars.datagrams().begin(), lidars.datagrams().end(),
+                                    [&](const Datagram& datagram)
+                                    { return datagram.source.text() == address && datagram.payload.size() > 1000; });
+    EXPECT_EQ(lidar.counters.packets, static_cast<std::uint64_t>(sent)) << lidar.name;
+  }
+  std::uint64_t strangers = 0, ahead = 0;
+  for (const auto& [origin, datagrams] : account.unmatched) strangers += datagrams;
+  std::set<IpAddress> known;
+  for (const Datagram& datagram : lidars.datagrams())
+    if (datagram.payload.size() > 1000)
+      known.insert(datagram.source);
+    else
+      ahead += known.count(datagram.source) == 0;
+  EXPECT_EQ(strangers, ahead) << "IMU packets bear no serial number: their address is known from a lidar packet's on";
 }
 
 TEST(RigLive, givesScansAgainAtOnceAfterThreeSecondsOfSilence)  // F24

@@ -13,10 +13,18 @@ namespace scanloom
 class RecordedLidars
 {
  public:
-  /** The folder of a recording (recordings/sparse of the test data), of which the first datagrams are taken. */
-  RecordedLidars(std::filesystem::path recording, std::size_t datagrams) : recording_(std::move(recording))
+  enum class Ports
   {
-    for (std::uint16_t port : {7502, 7503, 7504, 7505}) ports_[port] = freeUdpPort();
+    Several,
+    One,  // for both lidars and their IMUs; then the section names no addresses: serial numbers must tell
+  };
+
+  /** The folder of a recording (recordings/sparse of the test data), of which the first datagrams are taken. */
+  RecordedLidars(std::filesystem::path recording, std::size_t datagrams, Ports ports = Ports::Several)
+    : recording_(std::move(recording)), addresses_named_(ports == Ports::Several)
+  {
+    const std::uint16_t shared = freeUdpPort();
+    for (std::uint16_t port : {7502, 7503, 7504, 7505}) ports_[port] = ports == Ports::One ? shared : freeUdpPort();
     MergedCaptures captures({recording_ / "recording.pcap"});
     for (Datagram datagram; datagrams_.size() < datagrams && captures.next(datagram);)
     {
@@ -34,8 +42,8 @@ class RecordedLidars
   {
     return "[lidars]\ndriver = CMultiLidarSensor\nprocess_rate = 100\nextrinsics = " + file("extrinsics.txt") +
            "\nlidar1_name = left\nlidar1_metadata = " + file("left.json") + portKeys(1, 7502) +
-           "\nlidar1_address = 127.0.0.2\nlidar2_name = right\nlidar2_metadata = " + file("right.json") +
-           portKeys(2, 7504) + "\nlidar2_address = 127.0.0.3\n";
+           "\nlidar2_name = right\nlidar2_metadata = " + file("right.json") + portKeys(2, 7504) +
+           (addresses_named_ ? "\nlidar1_address = 127.0.0.2\nlidar2_address = 127.0.0.3\n" : "\n");
   }
 
   /** Waits until somebody receives. */
@@ -58,5 +66,6 @@ class RecordedLidars
   std::filesystem::path recording_;
   std::map<std::uint16_t, std::uint16_t> ports_;  // of the recording: of this computer
   std::vector<Datagram> datagrams_;
+  bool addresses_named_;
 };
 }  // namespace scanloom

@@ -1,0 +1,216 @@
+/**
+ * Live input measured over the loopback interface: how late scans come, what the threads cost, whether anything is
+ * lost, whether memory grows. Lidars are OS-128, 1024x10, RNG19 (24.8 kB a packet), simulated by a process of their
+ * own.
+ *
+ *   scanloom_bench_live --sensors 8 --seconds 120             latency
+ *   scanloom_bench_live --sensors 8 --seconds 600 --speed 3   a soak
+ */
+#include "LoopbackLidars.h"
+#include "source/RigLive.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace
+{
+using namespace scanloom;
+using namespace scanloom::bench;
+
+struct Arguments
+{
+  LoopbackOptions loopback;
+  double scan_rate = 10;
+  double deadline_ms = 5;
+};
+
+struct Percentiles
+{
+  double p50, p99, p999, most;
+};
+
+/** In ms. */
+Percentiles percentilesOf(std::vector<Duration> values)
+{
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share)
+  { return 1e3 * seconds(values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))]); };
+  if (values.empty()) return {};
+  return {at(0.5), at(0.99), at(0.999), at(1)};
+}
+
+void print(const char* what, const std::vector<Duration>& values)
+{
+  const Percentiles p = percentilesOf(values);
+  fmt::print("  {:<46} p50 {:.3f}  p99 {:.3f}  p99.9 {:.3f}  max {:.3f} ms\n", what, p.p50, p.p99, p.p999, p.most);
+}
+
+double residentMegabytes()
+{
+  std::ifstream file("/proc/self/statm");
+  double total = 0, resident = 0;
+  file >> total >> resident;
+  return 1e-6 * resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+/** Seconds of CPU that each thread has used, by its name. */
+std::map<std::string, double> cpuOfThreads()
+{
+  std::map<std::string, double> cpu;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task"))
+  {
+    std::ifstream file(task.path() / "stat");
+    std::string line;
+    std::getline(file, line);
+    const std::size_t open = line.find('('), close = line.rfind(')');
+    std::istringstream rest(line.substr(close + 2));
+    std::vector<std::string> fields;  // from the third on
+    for (std::string field; rest >> field;) fields.push_back(field);
+    const double ticks = std::stod(fields[11]) + std::stod(fields[12]);
+    cpu[line.substr(open + 1, close - open - 1)] += ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+  return cpu;
+}
+
+struct Observed
+{
+  std::vector<Duration> after_packet, after_end;  // latencies
+  std::uint64_t scans = 0, incomplete = 0, columns = 0;
+  std::vector<std::pair<double, double>> memory;  // s, MB
+  std::map<std::string, double> cpu;
+  double elapsed = 0;
+};
+
+Observed observe(RigLive& live, const LoopbackLidars& lidars)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  Clock::time_point looked = start;
+  Observed observed;
+  while (!live.ended())
+  {
+    if (const auto event = live.next(50ms))
+    {
+      const Scan& scan = std::get<Scan>(*event);
+      const bool cut = observed.scans == 0 || lidars.finished();
+      ++observed.scans;
+      observed.columns += scan.columns.size();
+      observed.incomplete += !scan.complete() && !cut;
+      if (!cut)
+      {
+        observed.after_packet.push_back(live.releaseLatency());
+        observed.after_end.push_back(Clock::now().time_since_epoch() - lidars.hostTimeOf(scan.end()));
+      }
+    }
+    const Clock::time_point now = Clock::now();
+    if (now - looked >= 1s)
+    {
+      observed.memory.emplace_back(std::chrono::duration<double>(now - start).count(), residentMegabytes());
+      looked = now;
+      if (lidars.finished())
+      {
+        observed.cpu = cpuOfThreads();
+        live.stop();
+      }
+    }
+  }
+  observed.elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+  return observed;
+}
+
+/** MB per hour by least squares, of the second half: the first one fills pools. */
+double slopeOf(const std::vector<std::pair<double, double>>& memory)
+{
+  double n = 0, t = 0, m = 0, tt = 0, tm = 0;
+  for (std::size_t i = memory.size() / 2; i < memory.size(); ++i)
+  {
+    n += 1;
+    t += memory[i].first;
+    m += memory[i].second;
+    tt += memory[i].first * memory[i].first;
+    tm += memory[i].first * memory[i].second;
+  }
+  return 3600 * (n * tm - t * m) / (n * tt - t * t);
+}
+
+/** Whether every block that was sent is accounted for. */
+bool report(const Arguments& arguments, const LoopbackLidars& lidars, const RigLive& live, const Observed& observed)
+{
+  const RigAccount account = live.account();
+  const double simulated = arguments.loopback.seconds * arguments.loopback.speed;
+  const auto input = [&](const char* name) { return account.input.at(name); };
+  const std::uint64_t lost = input("datagrams_dropped") + input("datagrams_dropped_by_kernel");
+  LidarCounters sum;
+  bool exact = input("datagrams") + lost == lidars.sent();
+  for (const LidarAccount& lidar : account.lidars)
+  {
+    const LidarCounters& c = lidar.counters;
+    exact &= c.received == c.emitted + c.late + c.duplicate + c.invalid + c.before_start + c.implausible + c.dropped;
+    sum.packets += c.packets;
+    sum.received += c.received;
+    sum.emitted += c.emitted;
+    sum.late += c.late;
+    sum.lost += c.lost;
+    sum.dropped += c.dropped;
+  }
+  fmt::print("{} lidars, {:.0f} s at speed {}: {:.2f} sensor-hours; {:.0f} datagrams/s, {:.0f} MB/s; scans at {} Hz\n",
+             arguments.loopback.sensors, arguments.loopback.seconds, arguments.loopback.speed,
+             simulated * arguments.loopback.sensors / 3600,
+             static_cast<double>(lidars.sent()) / arguments.loopback.seconds,
+             1e-6 * static_cast<double>(lidars.sent() * lidars.packetBytes()) / arguments.loopback.seconds,
+             arguments.scan_rate);
+  print("release, from the last packet's kernel stamp", observed.after_packet);
+  print("release, from the scan's end", observed.after_end);
+  fmt::print("  scans {}, incomplete (deadline) {}, dropped {}; columns emitted {}, in scans {}\n", observed.scans,
+             observed.incomplete, input("scans_dropped"), sum.emitted, observed.columns);
+  fmt::print("  datagrams sent {}, received {}, dropped by kernel {}, by ring {}; packets batched {}; restamped {}\n",
+             lidars.sent(), input("datagrams"), input("datagrams_dropped_by_kernel"), input("datagrams_dropped"),
+             sum.packets, input("datagrams_restamped"));
+  fmt::print("  blocks received {}, emitted {}, late {}, dropped {}, lost {}\n", sum.received, sum.emitted, sum.late,
+             sum.dropped, sum.lost);
+  for (const auto& [name, cpu] : observed.cpu)
+    fmt::print("  thread {:<16} {:5.1f} % of a core, {:.2f} us per datagram\n", name, 100 * cpu / observed.elapsed,
+               1e6 * cpu / static_cast<double>(lidars.sent()));
+  if (!observed.memory.empty())
+    fmt::print("  memory {:.1f} MB, slope of the second half {:+.2f} MB/h\n", observed.memory.back().second,
+               slopeOf(observed.memory));
+  fmt::print("  accounts {}\n", exact ? "exact" : "NOT EXACT");
+  return exact;
+}
+
+int run(const Arguments& arguments)
+{
+  LoopbackLidars lidars(arguments.loopback);
+  lidars.start();
+  scanloom::Rig rig = lidars.rig();
+  rig.batcher.scan_rate = arguments.scan_rate;
+  rig.batcher.deadline_ms = arguments.deadline_ms;
+  RigLive live(rig);
+  for (const std::string& warning : live.takeWarnings()) fmt::print("  warning: {}\n", warning);
+  lidars.go();
+  const Observed observed = observe(live, lidars);
+  lidars.wait();
+  for (const std::string& warning : live.takeWarnings()) fmt::print("  warning: {}\n", warning);
+  return report(arguments, lidars, live, observed) ? 0 : 1;
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  CLI::App app("Live input measured over the loopback interface");
+  Arguments arguments;
+  app.add_option("--sensors", arguments.loopback.sensors, "lidars")->check(CLI::Range(1, 64));
+  app.add_option("--seconds", arguments.loopback.seconds, "of the host")->check(CLI::PositiveNumber);
+  app.add_option("--speed", arguments.loopback.speed, "seconds of the lidars per second of the host")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--scan-rate", arguments.scan_rate, "Hz")->check(CLI::PositiveNumber);
+  app.add_option("--deadline-ms", arguments.deadline_ms, "ms")->check(CLI::NonNegativeNumber);
+  CLI11_PARSE(app, argc, argv);
+  return run(arguments);
+}
