@@ -38,6 +38,7 @@ void LidarInput::replace(std::shared_ptr<const PacketDecoder> decoder)
   continuity_.emplace(description);
   sequencer_.emplace(description, deadline_);
   clock.restarted();
+  first_stamp_.reset();
   delay_.reset();
 }
 

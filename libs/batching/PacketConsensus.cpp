@@ -9,6 +9,9 @@ namespace
 // Between the columns of one packet; clocks are read to the microsecond and rotors do not jerk.
 constexpr Duration kTolerance = 1ms;
 
+// Packets without ids run on behind a part of the turn that is not sent: their blocks may lie on both sides of it.
+constexpr Duration kLongestTurn = 250ms;
+
 /** What all blocks of a packet imply alike. */
 struct Origin
 {
@@ -24,10 +27,9 @@ Origin impliedBy(const MeasurementBlock& b, Duration block_period)
 
 bool agree(const Origin& a, const Origin& b, Numbering numbering)
 {
-  // Without ids a packet bears one stamp, and its blocks may lie on both sides of a part of the turn that is not sent.
-  if (numbering == Numbering::Stamps) return true;
-  const Duration off = a.stamp - b.stamp;
-  return off <= kTolerance && -off <= kTolerance && a.measurement_id == b.measurement_id && a.frame_id == b.frame_id;
+  const Duration off = a.stamp > b.stamp ? a.stamp - b.stamp : b.stamp - a.stamp;
+  if (numbering == Numbering::Stamps) return off <= kLongestTurn;
+  return off <= kTolerance && a.measurement_id == b.measurement_id && a.frame_id == b.frame_id;
 }
 
 template <typename Value>

@@ -58,6 +58,10 @@ void TimeBatcher::replace(LidarIndex lidar, std::shared_ptr<const PacketDecoder>
 {
   lidars_[lidar].decoder = decoder;
   inputs_[lidar].replace(std::move(decoder));
+  if (scan_) return;
+  // Nothing is given out yet: what waits is of a clock that nobody can compare any more.
+  inputs_[lidar].counters.before_start += inputs_[lidar].queue.clear();
+  refreshFront(lidar);
 }
 
 void TimeBatcher::recycle(Scan&& scan) { spare_.push_back(std::move(scan)); }
@@ -140,7 +144,8 @@ std::vector<Scan> TimeBatcher::release()
   raiseDeadlines();
   Timestamp horizon = Timestamp::max();
   for (const LidarInput& input : inputs_) horizon = std::min(horizon, watermark(input));
-  horizon_ = std::max(horizon_, horizon);
+  const bool nobody_tells_the_time = horizon == Timestamp::max() && !finished_;  // all are quarantined
+  if (!nobody_tells_the_time) horizon_ = std::max(horizon_, horizon);
 
   // The first of equal stamps is that of the smaller index: the order of columns.
   for (auto oldest = std::min_element(fronts_.begin(), fronts_.end()); *oldest < horizon_;
@@ -170,11 +175,11 @@ void TimeBatcher::append(LidarIndex index)
 {
   LidarInput& input = inputs_[index];
   const MeasurementBlock& block = input.queue.front();
-  const bool in_order = !last_ || orderOf(block.stamp, index, block.measurement_id) >=
+  const bool in_order = !last_ || orderOf(block.stamp, index, block.measurement_id) >
                                       orderOf(last_->stamp, last_->sensor_id, last_->measurement_id);
   if (block.stamp < first_start_)
     ++input.counters.before_start;
-  else if (block.stamp < scan_->start || !in_order)
+  else if (block.stamp < sliceBegin() || !in_order)
     ++input.counters.late;
   else
   {
@@ -196,6 +201,8 @@ void TimeBatcher::append(LidarIndex index)
   input.queue.pop();
   refreshFront(index);
 }
+
+Timestamp TimeBatcher::sliceBegin() const { return scan_->start + scan_->period * slices_given_ / options_.slices; }
 
 Timestamp TimeBatcher::sliceEnd() const { return scan_->start + scan_->period * (slices_given_ + 1) / options_.slices; }
 

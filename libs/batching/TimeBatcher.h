@@ -86,6 +86,7 @@ class TimeBatcher
   void pass(Timestamp, std::vector<Scan>& closed);
   void append(LidarIndex);
   void giveSlice();
+  Timestamp sliceBegin() const;
   Timestamp sliceEnd() const;
   Scan closeScan();
   void markMissing(Scan&);

@@ -1,11 +1,14 @@
 #pragma once
+#include <cstdio>
 #include <cstdlib>
 
 namespace scanloom
 {
 /** A fuzz target's assertion: a broken one ends the run with the input that broke it. */
-inline void require(bool holds)
+inline void require(bool holds, int line = __builtin_LINE())
 {
-  if (!holds) std::abort();
+  if (holds) return;
+  std::fprintf(stderr, "the assertion of line %d is broken\n", line);
+  std::abort();
 }
 }  // namespace scanloom
