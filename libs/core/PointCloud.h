@@ -1,4 +1,5 @@
 #pragma once
+#include "core/Array.h"
 #include "core/Time.h"
 
 #include <Eigen/Core>
@@ -8,27 +9,48 @@
 
 namespace scanloom
 {
-/** Valid returns only, as a structure of arrays: every vector has the same length. */
+/** Memory behind the last point of a PointCloud, one pointer per field. */
+struct PointRoom
+{
+  float *x, *y, *z;
+  std::int32_t* t;
+  std::uint16_t* column;
+  std::uint8_t *intensity, *ring, *sensor_id;
+  std::uint32_t* range;
+  std::uint16_t *signal, *near_ir;
+};
+
+/** Valid returns only, as a structure of arrays: every array has the same length. */
 struct PointCloud
 {
-  std::vector<float> x, y, z;           // m, in the frame that the owner names
-  std::vector<float> intensity;         // reflectivity as the sensor scales it (Ouster: 0 to 255, calibrated)
-  std::vector<std::int32_t> t;          // ns after the owner's stamp
-  std::vector<std::uint16_t> ring;      // channel, 0 is the topmost beam
-  std::vector<std::uint16_t> column;    // measurement id of the block
-  std::vector<std::uint8_t> sensor_id;  // index of the lidar among those that are batched
-  std::vector<std::uint32_t> range;     // mm, from the sensor
-  std::vector<std::uint16_t> signal;    // photons; 0 where the packet profile has none
-  std::vector<std::uint16_t> near_ir;   // photons; 0 where the packet profile has none
+  Array<float> x, y, z;           // m, in the frame that the owner names
+  Array<std::uint8_t> intensity;  // reflectivity as the sensor scales it (Ouster: 0 to 255, calibrated)
+  Array<std::int32_t> t;          // ns after the owner's stamp
+  Array<std::uint8_t> ring;       // channel, 0 is the topmost beam
+  Array<std::uint16_t> column;    // measurement id of the block
+  Array<std::uint8_t> sensor_id;  // index of the lidar among those that are batched
+  Array<std::uint32_t> range;     // mm, from the sensor
+  Array<std::uint16_t> signal;    // photons; 0 where the packet profile has none
+  Array<std::uint16_t> near_ir;   // photons; 0 where the packet profile has none
 
   std::size_t size() const { return x.size(); }
   bool empty() const { return x.empty(); }
   std::size_t capacity() const { return x.capacity(); }
   Eigen::Vector3f position(std::size_t i) const { return {x[i], y[i], z[i]}; }
 
+  /** New points are 0 in every field. */
   void resize(std::size_t);
   void reserve(std::size_t);
   void clear() { resize(0); }
+
+  /** Memory for `count` more points, not initialised; grow() takes those that were written. */
+  PointRoom room(std::size_t count)
+  {
+    return {x.room(count),      y.room(count),         z.room(count),      t.room(count),
+            column.room(count), intensity.room(count), ring.room(count),   sensor_id.room(count),
+            range.room(count),  signal.room(count),    near_ir.room(count)};
+  }
+  void grow(std::size_t count);
 
   /** Copies point `from` of `other` to the end. */
   void append(const PointCloud& other, std::size_t from);
@@ -37,7 +59,7 @@ struct PointCloud
   void keep(const std::vector<std::uint8_t>& keep);
 };
 
-/** Calls visitor(vector) for each array of the cloud, so that nobody lists them twice. */
+/** Calls visitor(array) for each array of the cloud, so that nobody lists them twice. */
 template <typename Cloud, typename Visitor>
 void forEachField(Cloud& cloud, Visitor&& visit)
 {
@@ -52,5 +74,10 @@ void forEachField(Cloud& cloud, Visitor&& visit)
   visit(cloud.range);
   visit(cloud.signal);
   visit(cloud.near_ir);
+}
+
+inline void PointCloud::grow(std::size_t count)
+{
+  forEachField(*this, [count](auto& field) { field.grow(count); });
 }
 }  // namespace scanloom

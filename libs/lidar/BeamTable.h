@@ -1,4 +1,4 @@
-/** Geometry of a spinning lidar with the extrinsics folded in: 18 floats per beam, one cosine and sine per block. */
+/** Geometry of a spinning lidar with the extrinsics folded in: 19 floats per beam, one cosine and sine per block. */
 #pragma once
 #include "core/Rigid.h"
 
@@ -17,13 +17,22 @@ struct Beam
   double range_offset = 0;                           // the measured range minus the distance from `origin`
 };
 
+/** Coefficients of sixteen beams, so that a vector of them is one load; by coordinate, then by beam. */
+struct alignas(64) BeamBlock
+{
+  static constexpr std::size_t kBeams = 16;
+  float a[3][kBeams], b[3][kBeams], c[3][kBeams];  // metres per millimetre
+  float range_offset[kBeams];                      // mm
+  float d[3][kBeams], e[3][kBeams], f[3][kBeams];  // m
+};
+
 /**
  * With c = cos(th), s = sin(th) and the range r in mm
  *
- *   p_body = r (c A + s B + C) + (c D + s E + F)
+ *   p_body = (r - n) (c A + s B + C) + (c D + s E + F)
  *
- * which is body_T_lidar applied to (r - range_offset) [cos(th+az) cos(al), sin(th+az) cos(al), sin(al)] + Rz(th)
- * origin. A to C hold metres per millimetre, so that the integer range is converted once and without rounding.
+ * which is body_T_lidar applied to (r - n) [cos(th+az) cos(al), sin(th+az) cos(al), sin(al)] + Rz(th) origin, where n
+ * is range_offset. A to C hold metres per millimetre, so that the integer range is converted once and without rounding.
  */
 class BeamTable
 {
@@ -33,26 +42,25 @@ class BeamTable
 
   BeamTable(const std::vector<Beam>&, const Rigid& body_T_lidar);
 
-  Eigen::Index size() const { return a_.rows(); }
+  Eigen::Index size() const { return size_; }
 
   /** One point per beam in the body frame, metres. `range_mm` has size() rows, and so has `points`. */
   void project(float cos_th, float sin_th, const Eigen::Ref<const Ranges>& range_mm,
-               Eigen::Ref<Coordinates> points) const
-  {
-    for (int k = 0; k < 3; ++k)  // one coordinate at a time: that is how Eigen vectorises it
-      points.col(k) = range_mm * (cos_th * a_.col(k) + sin_th * b_.col(k) + c_.col(k)) +
-                      (cos_th * d_.col(k) + sin_th * e_.col(k) + f_.col(k));
-  }
+               Eigen::Ref<Coordinates> points) const;
 
-  /** One beam's point, for sensors whose beams fire one after another and so at an angle each. */
-  Eigen::Vector3f project(Eigen::Index beam, float cos_th, float sin_th, float range_mm) const
-  {
-    return range_mm * (cos_th * a_.row(beam) + sin_th * b_.row(beam) + c_.row(beam)) +
-           (cos_th * d_.row(beam) + sin_th * e_.row(beam) + f_.row(beam));
-  }
+  /** One beam's point. */
+  Eigen::Vector3f project(Eigen::Index beam, float cos_th, float sin_th, float range_mm) const;
+
+  /** All beams start from one point and have one range offset: then D, E, F and n are those of any beam. */
+  bool hasOneOrigin() const { return has_one_origin_; }
+
+  /** The last block is filled up with zeros. */
+  const BeamBlock* blocks() const { return blocks_.data(); }
 
  private:
-  Coordinates a_, b_, c_, d_, e_, f_;
+  Eigen::Index size_;
+  std::vector<BeamBlock> blocks_;
+  bool has_one_origin_;
 };
 
 /** Cosine and sine of each column's encoder angle, computed in double. */

@@ -1,12 +1,16 @@
 #include "lidar/Crc64.h"
 
 #include <array>
+#include <cstring>
+
+#include "lidar/Crc64Kernels.h"
 
 namespace scanloom
 {
+namespace crc64_kernels
+{
 namespace
 {
-constexpr std::uint64_t kPolynomial = 0xC96C5795D7870F42;
 constexpr std::size_t kSlices = 16;
 using Tables = std::array<std::array<std::uint64_t, 256>, kSlices>;
 
@@ -38,18 +42,35 @@ std::uint64_t slice8(std::uint64_t word, std::size_t after)
 }
 }  // namespace
 
-std::uint64_t crc64(Bytes bytes)
+std::uint64_t bySlices(std::uint64_t crc, const std::uint8_t* p, std::size_t size)
 {
-  std::uint64_t crc = ~std::uint64_t{0};
-  const std::uint8_t* p = bytes.begin();
-  for (; bytes.end() - p >= 16; p += 16)
+  const std::uint8_t* const end = p + size;
+  for (; end - p >= 16; p += 16)
   {
     std::uint64_t low, high;
     std::memcpy(&low, p, 8);
     std::memcpy(&high, p + 8, 8);
     crc = slice8(low ^ crc, 8) ^ slice8(high, 0);
   }
-  for (; p != bytes.end(); ++p) crc = kTables[0][(crc ^ *p) & 0xFF] ^ (crc >> 8);
-  return ~crc;
+  for (; p != end; ++p) crc = kTables[0][(crc ^ *p) & 0xFF] ^ (crc >> 8);
+  return crc;
 }
+}  // namespace crc64_kernels
+
+std::uint64_t crc64(Bytes bytes, Kernel kernel)
+{
+  const std::uint64_t ones = ~std::uint64_t{0};
+  switch (kernel)
+  {
+    case Kernel::Avx512:
+      return ~crc64_kernels::byVpclmul(ones, bytes.data(), bytes.size());
+    case Kernel::Avx2:
+      return ~crc64_kernels::byPclmul(ones, bytes.data(), bytes.size());
+    case Kernel::Portable:
+      break;
+  }
+  return ~crc64_kernels::bySlices(ones, bytes.data(), bytes.size());
+}
+
+std::uint64_t crc64(Bytes bytes) { return crc64(bytes, widestKernel()); }
 }  // namespace scanloom

@@ -1,5 +1,6 @@
 #pragma once
 #include "core/Bytes.h"
+#include "lidar/Kernel.h"
 
 #include <cstdint>
 
@@ -7,4 +8,7 @@ namespace scanloom
 {
 /** CRC-64/XZ: ECMA-182 polynomial, reflected (0xC96C5795D7870F42), initial value and final xor all ones. */
 std::uint64_t crc64(Bytes);
+
+/** The same by one kernel, which this machine must be able to run: for tests and benchmarks. */
+std::uint64_t crc64(Bytes, Kernel);
 }  // namespace scanloom

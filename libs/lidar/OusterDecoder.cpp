@@ -39,11 +39,11 @@ LidarDescription describe(const OusterMetadata& m, const Rigid& body_T_sensor)
   return d;
 }
 
-bool crcHolds(Bytes packet)
+bool crcHolds(Bytes packet, Kernel kernel)
 {
   const std::size_t end = packet.size() - kOusterCrcBytes;
   const auto stored = load<std::uint64_t>(packet, end);
-  return stored == kNoCrcFirmware22 || stored == kNoCrcFirmware23 || stored == crc64(packet.slice(0, end));
+  return stored == kNoCrcFirmware22 || stored == kNoCrcFirmware23 || stored == crc64(packet.slice(0, end), kernel);
 }
 }  // namespace
 
@@ -65,14 +65,19 @@ std::vector<Beam> beamsOf(const OusterMetadata& m)
 }
 
 // By value and checked again: metadata may have been put together by hand.
-OusterDecoder::OusterDecoder(OusterMetadata metadata, const Rigid& body_T_sensor)
+OusterDecoder::OusterDecoder(OusterMetadata metadata, const Rigid& body_T_sensor, Kernel kernel)
   : metadata_(parseOusterMetadata(toJson(metadata), "OusterDecoder")),
     layout_(layoutOf(metadata_)),
     description_(describe(metadata_, body_T_sensor)),
+    kernel_(kernel),
     serial_(serialNumber(metadata_)),
-    beams_(beamsOf(metadata_), body_T_sensor * rigidFromMillimetres(metadata_.lidar_to_sensor_mm)),
+    is_legacy_(layout_.isLegacy()),
+    first_column_(layout_.columnOffset(0)),
+    column_bytes_(layout_.columnBytes()),
+    channels_in_column_(layout_.columnHeaderBytes()),
     angles_(clockwiseColumns(metadata_.columns_per_frame)),
-    append_(appenderFor(*layout_.profile))
+    points_(*layout_.profile,
+            BeamTable(beamsOf(metadata_), body_T_sensor * rigidFromMillimetres(metadata_.lidar_to_sensor_mm)), kernel)
 {
 }
 
@@ -87,7 +92,7 @@ bool OusterDecoder::isForeign(Bytes packet) const
 PacketKind OusterDecoder::kindIfIntact(Bytes packet, OusterHeader header, PacketKind kind) const
 {
   if (header == OusterHeader::None) return kind;
-  if (OusterLayout::hasCrc(header) && !crcHolds(packet)) return PacketKind::BadCrc;
+  if (OusterLayout::hasCrc(header) && !crcHolds(packet, kernel_)) return PacketKind::BadCrc;
   return isForeign(packet) ? PacketKind::Foreign : kind;
 }
 
@@ -134,37 +139,45 @@ std::uint32_t OusterDecoder::columnStatus(Bytes packet, std::size_t index) const
   return load<std::uint16_t>(column, kOusterColumnFrameIdOrStatus);
 }
 
-MeasurementBlock OusterDecoder::readBlock(Bytes packet, std::size_t index, std::uint32_t packet_frame_id) const
+/** The column's bytes are known to be there. */
+MeasurementBlock OusterDecoder::readBlock(const std::uint8_t* column, std::size_t index,
+                                          std::uint32_t packet_frame_id) const
 {
-  const Bytes column = packet.slice(layout_.columnOffset(index), layout_.columnHeaderBytes());
-  const auto stamp = load<std::uint64_t>(column, kOusterColumnStamp);
+  const auto read = [column](std::size_t offset, auto value)
+  {
+    std::memcpy(&value, column + offset, sizeof value);
+    return value;
+  };
+  const auto stamp = read(kOusterColumnStamp, std::uint64_t{});
+  const auto frame_id_or_status = read(kOusterColumnFrameIdOrStatus, std::uint16_t{});
+  const bool says_valid = ((is_legacy_ ? column[column_bytes_ - 4] : frame_id_or_status) & 1) != 0;
   MeasurementBlock block;
   block.stamp = fromNanoseconds(static_cast<std::int64_t>(stamp));
-  block.measurement_id = load<std::uint16_t>(column, kOusterColumnMeasurementId);
-  block.frame_id = layout_.isLegacy() ? load<std::uint16_t>(column, kOusterColumnFrameIdOrStatus) : packet_frame_id;
+  block.measurement_id = read(kOusterColumnMeasurementId, std::uint16_t{});
+  block.frame_id = is_legacy_ ? frame_id_or_status : packet_frame_id;
   block.index = static_cast<std::uint16_t>(index);
-  block.valid = (columnStatus(packet, index) & 1) != 0 && block.measurement_id < metadata_.columns_per_frame &&
-                stamp < kOusterEndOfTime;
+  block.valid = says_valid && block.measurement_id < metadata_.columns_per_frame && stamp < kOusterEndOfTime;
   return block;
 }
 
 void OusterDecoder::readBlocks(Bytes packet, std::vector<MeasurementBlock>& blocks) const
 {
   const auto frame_id = static_cast<std::uint32_t>(loadField(packet, headerFields(layout_.lidar_header).frame_id));
-  blocks.clear();
-  for (std::size_t i = 0; i < layout_.columns; ++i) blocks.push_back(readBlock(packet, i, frame_id));
+  const std::uint8_t* column = packet.slice(first_column_, layout_.columns * column_bytes_).data();
+  blocks.resize(layout_.columns);
+  for (std::size_t i = 0; i < layout_.columns; ++i, column += column_bytes_) blocks[i] = readBlock(column, i, frame_id);
 }
 
 void OusterDecoder::appendPoints(Bytes packet, std::size_t block_index, std::int32_t t, std::uint8_t sensor_id,
                                  PointCloud& points) const
 {
   if (block_index >= layout_.columns) throw std::out_of_range("appendPoints: the packet has no such block");
-  const MeasurementBlock block = readBlock(packet, block_index, 0);
+  const Bytes column = packet.slice(first_column_ + block_index * column_bytes_, column_bytes_);
+  const MeasurementBlock block = readBlock(column.data(), block_index, 0);
   if (!block.valid) return;
-  const std::size_t channels = layout_.columnOffset(block_index) + layout_.columnHeaderBytes();
-  append_({packet.slice(channels, layout_.channelsBytes()), angles_.cosine[block.measurement_id],
-           angles_.sine[block.measurement_id], t, block.measurement_id, sensor_id},
-          beams_, points);
+  points_.append({column.data() + channels_in_column_, angles_.cosine[block.measurement_id],
+                  angles_.sine[block.measurement_id], t, block.measurement_id, sensor_id},
+                 points);
 }
 
 std::vector<ImuSample> OusterDecoder::imuSamples(Bytes packet) const { return readOusterImu(packet, layout_); }

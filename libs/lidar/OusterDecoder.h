@@ -1,6 +1,7 @@
 /** Ouster's packets: every profile of OusterProfiles.h, both header types, both IMU formats. */
 #pragma once
 #include "lidar/BeamTable.h"
+#include "lidar/Kernel.h"
 #include "lidar/OusterMetadata.h"
 #include "lidar/OusterPoints.h"
 #include "lidar/PacketDecoder.h"
@@ -24,8 +25,9 @@ namespace scanloom
 class OusterDecoder : public PacketDecoder
 {
  public:
-  /** Throws std::invalid_argument as parseOusterMetadata does where `metadata` was filled by hand. */
-  OusterDecoder(OusterMetadata metadata, const Rigid& body_T_sensor);
+  /** Throws std::invalid_argument as parseOusterMetadata does where `metadata` was filled by hand; also if this machine
+   * cannot run the kernel. */
+  OusterDecoder(OusterMetadata metadata, const Rigid& body_T_sensor, Kernel = widestKernel());
 
   const LidarDescription& description() const override { return description_; }
   PacketKind kind(Bytes packet) const override;
@@ -42,17 +44,19 @@ class OusterDecoder : public PacketDecoder
   std::uint32_t columnStatus(Bytes packet, std::size_t index) const;
 
  private:
-  MeasurementBlock readBlock(Bytes packet, std::size_t index, std::uint32_t packet_frame_id) const;
+  MeasurementBlock readBlock(const std::uint8_t* column, std::size_t index, std::uint32_t packet_frame_id) const;
   bool isForeign(Bytes packet) const;
   PacketKind kindIfIntact(Bytes packet, OusterHeader, PacketKind) const;
 
   OusterMetadata metadata_;
   OusterLayout layout_;
   LidarDescription description_;
+  Kernel kernel_;
   std::optional<std::uint64_t> serial_;
-  BeamTable beams_;
+  bool is_legacy_;
+  std::size_t first_column_, column_bytes_, channels_in_column_;  // of layout_, which computes them
   ColumnAngles angles_;
-  AppendOusterColumn append_;
+  OusterPoints points_;
 };
 
 /** The beams of a sensor in its lidar frame: documented formula of the maker's SDK (destaggering is not involved). */

@@ -60,7 +60,8 @@ CPointsMap::Ptr xyziCloud([[maybe_unused]] const PointCloud& points)
 #if SCANLOOM_HAS_XYZI
   auto map = mrpt::maps::CPointsMapXYZI::Create();
   setPositions(points, *map);
-  for (std::size_t i = 0; i < points.size(); i++) map->setPointIntensity(i, points.intensity[i] / kFullIntensity);
+  for (std::size_t i = 0; i < points.size(); i++)
+    map->setPointIntensity(i, static_cast<float>(points.intensity[i]) / kFullIntensity);
   return map;
 #else
   throw std::invalid_argument("cloud_class = CPointsMapXYZI: this MRPT has it no more, use CGenericPointsMap");
@@ -73,9 +74,15 @@ void takeField(const Field* field, Values& values)
   if (field) values.assign(field->begin(), field->end());
 }
 
+std::uint8_t reflectivity(float intensity)
+{
+  return static_cast<std::uint8_t>(std::lround(std::clamp(intensity, 0.f, 255.f)));
+}
+
 void takeFields(const CGenericPointsMap& map, PointCloud& points)
 {
-  takeField(map.getPointsBufferRef_float_field("intensity"), points.intensity);
+  if (const auto* intensity = map.getPointsBufferRef_float_field("intensity"))
+    std::transform(intensity->begin(), intensity->end(), points.intensity.begin(), reflectivity);
   takeField(map.getPointsBufferRef_uint16_field("ring"), points.ring);
   takeField(map.getPointsBufferRef_uint16_field("column"), points.column);
   takeField(map.getPointsBufferRef_uint8_field("sensor_id"), points.sensor_id);
@@ -90,7 +97,7 @@ void takeIntensity([[maybe_unused]] const CPointsMap& map, [[maybe_unused]] Poin
   const auto* xyzi = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&map);
   if (!xyzi) return;
   for (std::size_t i = 0; i < points.size(); i++)
-    points.intensity[i] = xyzi->getPointIntensity_fast(i) * kFullIntensity;
+    points.intensity[i] = reflectivity(xyzi->getPointIntensity_fast(i) * kFullIntensity);
 #endif
 }
 
@@ -137,7 +144,7 @@ std::vector<Column> columnsOf(const PointCloud& points, Timestamp start)
   return columns;
 }
 
-Duration untilAfterTheLast(const std::vector<std::int32_t>& t)
+Duration untilAfterTheLast(const Array<std::int32_t>& t)
 {
   return t.empty() ? Duration{0} : Duration{*std::max_element(t.begin(), t.end()) + 1};
 }

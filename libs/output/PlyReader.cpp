@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -122,6 +123,8 @@ std::vector<double> readValues(std::istream& file, const Header& header)
   return values;
 }
 
+std::uint8_t toByte(double value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0))); }
+
 PlyContent contentOf(const Header& header, const std::vector<double>& values)
 {
   PlyContent content;
@@ -143,8 +146,8 @@ PlyContent contentOf(const Header& header, const std::vector<double>& values)
   const bool has_z = copy("z", [&](std::size_t i, double v) { points.z[i] = static_cast<float>(v); });
   if (!has_x || !has_y || !has_z) throw std::invalid_argument("its vertices lack x, y or z");
 
-  copy("intensity", [&](std::size_t i, double v) { points.intensity[i] = static_cast<float>(v); });
-  copy("ring", [&](std::size_t i, double v) { points.ring[i] = static_cast<std::uint16_t>(v); });
+  copy("intensity", [&](std::size_t i, double v) { points.intensity[i] = toByte(v); });
+  copy("ring", [&](std::size_t i, double v) { points.ring[i] = toByte(v); });
   copy("sensor_id", [&](std::size_t i, double v) { points.sensor_id[i] = static_cast<std::uint8_t>(v); });
   copy("time", [&](std::size_t, double v) { content.stamps.push_back(header.time_origin + fromSeconds(v)); });
   return content;

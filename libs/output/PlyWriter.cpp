@@ -34,9 +34,9 @@ void PlyWriter::add(const PointCloud& points, Timestamp stamp, const Rigid& fram
   {
     const Eigen::Vector3f position = (frame_T_points * points.position(i).cast<double>().eval()).cast<float>();
     for (const float coordinate : position) put(bytes, offset, coordinate);
-    put(bytes, offset, points.intensity[i]);
+    put(bytes, offset, static_cast<float>(points.intensity[i]));
     put(bytes, offset, seconds(stamp - *origin_ + Duration{points.t[i]}));
-    put(bytes, offset, points.ring[i]);
+    put(bytes, offset, static_cast<std::uint16_t>(points.ring[i]));
     put(bytes, offset, points.sensor_id[i]);
   }
   file_.stream().write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

@@ -25,7 +25,7 @@ mrpt::maps::CPointsMapXYZI::Ptr cloudOf(const PointCloud& points, std::size_t li
   {
     if (points.sensor_id[i] != lidar) continue;
     const Eigen::Vector3f p = (sensor_T_body * points.position(i).cast<double>().eval()).cast<float>();
-    cloud->insertPointRGB(p.x(), p.y(), p.z(), points.intensity[i] / kFullReflectivity, 0, 0);
+    cloud->insertPointRGB(p.x(), p.y(), p.z(), static_cast<float>(points.intensity[i]) / kFullReflectivity, 0, 0);
   }
   return cloud;
 }

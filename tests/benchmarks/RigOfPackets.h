@@ -151,14 +151,14 @@ class Rig
 
   /** One decoder per lidar, each with its own place on the machine. */
   template <typename Decoder>
-  std::vector<BatchedLidar> lidars() const
+  std::vector<BatchedLidar> lidars(Kernel kernel) const
   {
     std::vector<BatchedLidar> lidars;
     for (std::size_t i = 0; i < turns_.size(); ++i)
     {
       const double n = static_cast<double>(i);
       const Rigid body_T_sensor = Rigid::fromXyzYawPitchRoll(0.5 * n, 1, 2, 0.7 * n, 0.1, -0.05);
-      lidars.push_back({std::to_string(i), std::make_shared<Decoder>(metadata_, body_T_sensor)});
+      lidars.push_back({std::to_string(i), std::make_shared<Decoder>(metadata_, body_T_sensor, kernel)});
     }
     return lidars;
   }

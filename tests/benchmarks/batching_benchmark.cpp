@@ -5,6 +5,7 @@
  *   merge_crc/...                                   the same, a valid CRC-64 in every packet
  *   order/...                                       TimeBatcher::push without making points
  *   decode/...                                      kind, readBlocks and appendPoints, without TimeBatcher
+ *   crc/...                                         CRC-64 alone
  *
  * One turn of packets (64) per sensor is cycled, for 20 ms of work and 20 ms of copies in turn. `us_per_packet` is the
  * median over turns, `x_memcpy` its ratio to the median of a memcpy of these packets, one by one, into one buffer.
@@ -15,7 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 
 using namespace scanloom;
 using namespace scanloom::bench;
@@ -29,18 +30,25 @@ double median(std::vector<double> values)
   return *middle;
 }
 
+/** Of this thread alone, page faults and all: what else the machine does meanwhile does not count. */
+Duration threadTime()
+{
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return std::chrono::seconds{now.tv_sec} + Duration{now.tv_nsec};
+}
+
 /** Calls `turn`, which returns how many points it made, for a while; a time per turn. */
 template <typename OneTurn>
 std::size_t repeat(Rig& rig, std::vector<double>& micros, OneTurn&& turn)
 {
-  using Clock = std::chrono::steady_clock;
   std::size_t points = 0;
-  for (Clock::duration spent{0}; spent < 20ms;)
+  for (Duration spent{0}; spent < 20ms;)
   {
     rig.advance();
-    const Clock::time_point begin = Clock::now();
+    const Duration begin = threadTime();
     points = turn();
-    const Clock::duration time = Clock::now() - begin;
+    const Duration time = threadTime() - begin;
     micros.push_back(1e6 * seconds(time));
     spent += time;
   }
@@ -89,16 +97,20 @@ class PointlessDecoder : public OusterDecoder
 };
 
 template <typename Decoder>
-void merge(benchmark::State& state, const OusterProfile& profile, int channels, int sensors, Crc crc)
+void merge(benchmark::State& state, const OusterProfile& profile, int channels, int sensors, Crc crc, Kernel kernel)
 {
   Rig rig(profile, channels, sensors, crc);
-  TimeBatcher batcher(rig.lidars<Decoder>(), {});
+  TimeBatcher batcher(rig.lidars<Decoder>(kernel), {});
   const auto oneTurn = [&]
   {
     std::size_t points = 0;
     const auto push = [&](std::size_t lidar, const Packet& packet, Timestamp received)
     {
-      for (Scan& scan : batcher.push(lidar, packet, received)) points += scan.points.size();
+      for (Scan& scan : batcher.push(lidar, packet, received))
+      {
+        points += scan.points.size();
+        batcher.recycle(std::move(scan));
+      }
     };
     rig.forEachPacket(push);
     return points;
@@ -106,10 +118,10 @@ void merge(benchmark::State& state, const OusterProfile& profile, int channels, 
   besideMemcpy(state, rig, oneTurn);
 }
 
-void decode(benchmark::State& state, const OusterProfile& profile, int channels, int sensors, Crc crc)
+void decode(benchmark::State& state, const OusterProfile& profile, int channels, int sensors, Crc crc, Kernel kernel)
 {
   Rig rig(profile, channels, sensors, crc);
-  const std::vector<BatchedLidar> lidars = rig.lidars<OusterDecoder>();
+  const std::vector<BatchedLidar> lidars = rig.lidars<OusterDecoder>(kernel);
   PointCloud points;
   std::vector<MeasurementBlock> blocks;
   const auto decodePacket = [&](std::size_t lidar, const Packet& packet, Timestamp)
@@ -129,12 +141,26 @@ void decode(benchmark::State& state, const OusterProfile& profile, int channels,
   besideMemcpy(state, rig, oneTurn);
 }
 
-using Row = void (*)(benchmark::State&, const OusterProfile&, int channels, int sensors, Crc);
-
-void add(const std::string& name, Row row, const OusterProfile& profile, int channels, int sensors, Crc crc)
+void checksum(benchmark::State& state, const OusterProfile& profile, int channels, int sensors, Crc crc, Kernel kernel)
 {
-  const std::string full = fmt::format("{}/{}/{}/{}/{}", name, profile.name, channels, sensors, "portable");
-  benchmark::RegisterBenchmark(full.c_str(), row, profile, channels, sensors, crc)->Unit(benchmark::kMillisecond);
+  Rig rig(profile, channels, sensors, crc);
+  const auto oneTurn = [&]
+  {
+    rig.forEachPacket([&](std::size_t, const Packet& packet, Timestamp)
+                      { benchmark::DoNotOptimize(crc64(packet, kernel)); });
+    return std::size_t{0};
+  };
+  besideMemcpy(state, rig, oneTurn);
+}
+
+using Row = void (*)(benchmark::State&, const OusterProfile&, int channels, int sensors, Crc, Kernel);
+
+void add(const std::string& name, Row row, const OusterProfile& profile, int channels, int sensors, Crc crc,
+         Kernel kernel)
+{
+  const std::string full = fmt::format("{}/{}/{}/{}/{}", name, profile.name, channels, sensors, nameOf(kernel));
+  benchmark::RegisterBenchmark(full.c_str(), row, profile, channels, sensors, crc, kernel)
+      ->Unit(benchmark::kMillisecond);
 }
 
 /** Measured with 1, 2, 4 and 8 sensors; the other profiles with 2. */
@@ -144,20 +170,26 @@ bool isCommon(const OusterProfile& p)
          p.name == "RNG19_RFL8_SIG16_NIR16_DUAL";
 }
 
+void addProfile(const OusterProfile& profile, Kernel kernel)
+{
+  const int channels = profile.name == "LEGACY" ? 64 : 128;
+  add("merge", merge<OusterDecoder>, profile, channels, 2, Crc::None, kernel);
+  if (!isCommon(profile)) return;
+  for (const int sensors : {1, 4, 8}) add("merge", merge<OusterDecoder>, profile, channels, sensors, Crc::None, kernel);
+  add("merge_crc", merge<OusterDecoder>, profile, channels, 2, Crc::Valid, kernel);
+  add("decode", decode, profile, channels, 1, Crc::None, kernel);
+  add("crc", checksum, profile, channels, 1, Crc::Valid, kernel);
+}
+
 const bool kRegistered = []
 {
   for (const OusterProfile& profile : kOusterProfiles)
   {
-    const int channels = profile.name == "LEGACY" ? 64 : 128;
-    for (const int sensors : {1, 2, 4, 8})
-    {
-      if (sensors != 2 && !isCommon(profile)) continue;
-      add("merge", merge<OusterDecoder>, profile, channels, sensors, Crc::None);
-      if (isCommon(profile)) add("order", merge<PointlessDecoder>, profile, channels, sensors, Crc::None);
-    }
+    for (const Kernel kernel : runnableKernels()) addProfile(profile, kernel);
     if (!isCommon(profile)) continue;
-    add("merge_crc", merge<OusterDecoder>, profile, channels, 2, Crc::Valid);
-    add("decode", decode, profile, channels, 1, Crc::None);
+    for (const int sensors : {1, 2, 4, 8})
+      add("order", merge<PointlessDecoder>, profile, profile.name == "LEGACY" ? 64 : 128, sensors, Crc::None,
+          Kernel::Portable);
   }
   return true;
 }();
