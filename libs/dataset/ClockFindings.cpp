@@ -79,11 +79,19 @@ Finding stepsFinding(const LidarExamination& seen)
           "start recording after PTP has locked, and let the master slew, not step (ptp4l: step_threshold 0)"};
 }
 
-Finding phaseFinding(const RigExamination& rig, std::size_t lidar)
+Finding phaseFinding(const RigExamination& rig, std::size_t lidar, const ClockLimits& limits)
 {
   const LidarExamination& seen = rig.lidars[lidar];
   const RotorPhase& p = *seen.phase;
   Finding finding{seen.name, "rotor phase", Verdict::Ok, "", ""};
+  const double rate = (1 + 1e-6 * p.rate_error_ppm) / p.turn;
+  if (std::abs(p.rate_error_ppm) > 1e6 * limits.rotor_tolerance)
+  {
+    finding.verdict = Verdict::Warning;
+    finding.says = fmt::format("{:.2f} Hz ({:.1f} rpm) of {:.2f} nominal", rate, 60 * rate, 1 / p.turn);
+    finding.mend = "the metadata is of another lidar_mode or rpm: write there what the sensor is set to";
+    return finding;
+  }
   finding.says = fmt::format("column 0 at {:.2f} ms of {:.0f}", 1e3 * p.at_end, 1e3 * p.turn);
   finding.says += p.steady() ? ", steady" : fmt::format(", free: {:+.0f} ppm of nominal", p.rate_error_ppm);
   const auto& first = rig.lidars.front().phase;
@@ -105,7 +113,7 @@ Findings clockFindings(const RigExamination& rig, std::size_t lidar, const Clock
   if (seen.ahead_of_first) findings.push_back(offsetFinding(seen, first, lidar, limits));
   findings.push_back(driftFinding(seen, first, lidar == 0, limits.offset_warning_ms, limits));
   findings.push_back(stepsFinding(seen));
-  if (seen.phase) findings.push_back(phaseFinding(rig, lidar));
+  if (seen.phase) findings.push_back(phaseFinding(rig, lidar, limits));
   return findings;
 }
 }  // namespace scanloom

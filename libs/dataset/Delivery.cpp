@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "batching/Sequencer.h"
+#include "batching/PacketNumbering.h"
 
 namespace scanloom
 {
@@ -34,31 +34,43 @@ void addOrder(Delivery& delivery, const PacketRun& run)
   }
 }
 
-void addLoss(Delivery& delivery, PacketRun run, Duration block_period, int columns_per_packet)
+/** Blocks that the lidar passes outside of its azimuth window, turn by turn, without a word. */
+int closedBlocks(const LidarDescription& lidar)
 {
+  int blocks = 0;
+  for (int c = 0; c < lidar.columns_per_frame; ++c) blocks += inAzimuthWindow(lidar, c) ? 0 : 1;
+  return blocks;
+}
+
+void addLoss(Delivery& delivery, PacketRun run, const LidarDescription& lidar)
+{
+  // Packets without ids do not tell a closed window from loss: a gap of that length is taken for the window.
+  const int closed = lidar.numbering == Numbering::Stamps ? closedBlocks(lidar) : 0;
+  const std::int64_t harmless = closed > 0 ? 1 + closed / lidar.columns_per_packet : 0;
   std::sort(run.begin(), run.end(),
             [](const NumberedPacket& a, const NumberedPacket& b) { return a.packet < b.packet; });
   for (std::size_t i = 1; i < run.size(); ++i)
   {
     const std::int64_t step = run[i].packet - run[i - 1].packet;
-    if (step <= 1) continue;
+    if (step - 1 <= harmless) continue;
     const auto missing = static_cast<std::uint64_t>(step - 1);
     ++delivery.gaps;
     delivery.lost += missing;
     delivery.longest_gap = std::max(delivery.longest_gap, missing);
-    delivery.longest_gap_time =
-        std::max(delivery.longest_gap_time, (run[i].block - run[i - 1].block - columns_per_packet) * block_period);
+    delivery.longest_gap_time = std::max(
+        delivery.longest_gap_time, (run[i].block - run[i - 1].block - lidar.columns_per_packet) * lidar.blockPeriod());
   }
 }
 
 void addRates(Delivery& delivery, const std::vector<PacketRun>& runs, const LidarDescription& lidar)
 {
-  const PacketNumbering numbering(lidar);
-  int columns = 0;
-  for (int c = 0; c < lidar.columns_per_frame; ++c) columns += inAzimuthWindow(lidar, c) ? 1 : 0;
-  delivery.nominal_packet_rate =
-      lidar.frame_rate * static_cast<double>(numbering.sentBefore(numbering.packetsPerTurn()));
+  const int columns = lidar.columns_per_frame - closedBlocks(lidar);
   delivery.nominal_block_rate = lidar.frame_rate * columns;
+  const PacketNumbering numbering(lidar);
+  delivery.nominal_packet_rate =
+      lidar.numbering == Numbering::Stamps
+          ? delivery.nominal_block_rate / lidar.columns_per_packet
+          : lidar.frame_rate * static_cast<double>(numbering.sentBefore(numbering.packetsPerTurn()));
 
   Timestamp first = Timestamp::max(), last = Timestamp::min();
   for (const PacketRun& run : runs)
@@ -87,7 +99,7 @@ Delivery deliveryOf(const std::vector<PacketRun>& runs, const LidarDescription& 
       delivery.valid_blocks += packet.trace->valid_blocks;
     }
     addOrder(delivery, run);
-    addLoss(delivery, run, lidar.blockPeriod(), lidar.columns_per_packet);
+    addLoss(delivery, run, lidar);
   }
   delivery.restarts = runs.empty() ? 0 : runs.size() - 1;
   addRates(delivery, runs, lidar);

@@ -23,12 +23,14 @@ Finding rateFinding(const LidarExamination& seen, const DeliveryLimits& limits)
   if (!d.packet_rate) return finding;
   finding.says = fmt::format("{:.1f} packets/s of {:.1f} nominal, {:.1f} blocks/s of {:.1f}", *d.packet_rate,
                              d.nominal_packet_rate, *d.block_rate, d.nominal_block_rate);
-  const bool off = std::abs(*d.packet_rate / d.nominal_packet_rate - 1) > limits.rate_tolerance;
-  finding.verdict = off ? Verdict::Warning : Verdict::Ok;
-  if (off && d.lossShare() < limits.rate_tolerance)
-    finding.mend = "the ids show no such loss: the metadata is of another lidar_mode; fetch it again from the sensor";
-  else if (off)
-    finding.mend = "see loss";
+  const double sent_rate = *d.packet_rate * static_cast<double>(d.sent()) / static_cast<double>(d.packets);
+  if (std::abs(sent_rate / d.nominal_packet_rate - 1) <= limits.rate_tolerance)
+  {
+    finding.verdict = Verdict::Ok;
+    return finding;
+  }
+  finding.verdict = Verdict::Warning;
+  finding.mend = "by the ids no packet is missing for that: fetch the metadata again, the lidar_mode was changed";
   return finding;
 }
 
@@ -110,8 +112,10 @@ Findings deliveryFindings(const LidarExamination& seen, const DeliveryLimits& li
 {
   Findings findings;
   if (seen.delivery.packets == 0)
-    findings.push_back({seen.name, "packets", Verdict::NotFit, fmt::format("none at port {}", seen.lidar.lidar_port),
-                        "set udp_dest of the sensor to this computer, and the key 'port' to its udp_port_lidar"});
+    findings.push_back(
+        {seen.name, "packets", Verdict::NotFit, fmt::format("none at port {}", seen.lidar.lidar_port),
+         "set the sensor's destination (Ouster: udp_dest) to this computer and the key 'port' to its port; strangers "
+         "there mean that the metadata is another sensor's"});
   else
     findings = {rateFinding(seen, limits), lossFinding(seen, limits), orderFinding(seen), blocksFinding(seen, limits)};
   addDamage(findings, seen, limits);

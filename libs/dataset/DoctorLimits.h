@@ -18,8 +18,9 @@ struct DeliveryLimits
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.rate_tolerance, Field{"rate_tolerance", "",
-                                  "packet rate off nominal by more warns: no motor is that far off", between(0, 1)});
+    visit(o.rate_tolerance,
+          Field{"rate_tolerance", "", "rate of packets, lost ones included, off nominal: no motor is that far off",
+                between(0, 1)});
     visit(o.loss_warning,
           Field{"loss_warning", "", "share of lost packets: a wired network loses none", between(0, 1)});
     visit(o.loss_not_fit,
@@ -43,6 +44,7 @@ struct ClockLimits
   double drift_warning_ppm = 5;
   double drift_time = 5;
   double step_ms = 1;
+  double rotor_tolerance = 0.02;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -57,6 +59,8 @@ struct ClockLimits
                 "clock rate against the first lidar's, if larger than three standard deviations: nobody disciplines it",
                 above(0)});
     visit(o.drift_time, Field{"drift_time", "s", "no drift is told from less recording", above(0)});
+    visit(o.rotor_tolerance,
+          Field{"rotor_tolerance", "", "turn rate off nominal: no motor is that far off", between(0, 1)});
     visit(o.step_ms, Field{"step_ms", "ms", "a jump of stamps that no rotor makes is the clock's", above(0)});
   }
 };

@@ -1,6 +1,6 @@
 #include "dataset/PacketRuns.h"
 
-#include "batching/Sequencer.h"
+#include "batching/PacketNumbering.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -27,10 +27,45 @@ bool stampsAgree(const PacketTrace& before, const PacketTrace& after, double tur
   const double measured = seconds(*after.stamp - *before.stamp) * lidar.frame_rate;
   return std::abs(measured - turns) < 1 + 0.01 * turns;
 }
+constexpr Duration kClockWasSet = 500ms;
+
+/** From one packet to another by stamps, or by arrival where the clock was set in between. */
+Duration elapsed(const PacketTrace& from, const PacketTrace& to)
+{
+  const Duration by_stamp = *to.stamp - *from.stamp, by_arrival = to.received - from.received;
+  return std::chrono::abs(by_stamp - by_arrival) > kClockWasSet ? by_arrival : by_stamp;
+}
+
+std::vector<PacketRun> runByStamps(const std::vector<PacketTrace>& traces, const LidarDescription& lidar)
+{
+  const double packet_period = seconds(lidar.blockPeriod()) * lidar.columns_per_packet;
+  const auto columns = static_cast<std::int64_t>(lidar.columns_per_frame);
+  PacketRun run;
+  NumberedPacket newest;
+  for (const PacketTrace& trace : traces)
+  {
+    if (!trace.stamp) continue;
+    NumberedPacket packet{trace.measurement_id, 0, &trace};
+    if (!run.empty())
+    {
+      const double time = seconds(elapsed(*newest.trace, trace));
+      packet.packet = newest.packet + std::llround(time / packet_period);
+      // The rotor stands in this column once a turn: in the turn that the time tells.
+      const double there = static_cast<double>(newest.block) + time * lidar.frame_rate * static_cast<double>(columns);
+      packet.block += std::llround((there - trace.measurement_id) / static_cast<double>(columns)) * columns;
+    }
+    if (run.empty() || packet.packet > newest.packet) newest = packet;
+    run.push_back(packet);
+  }
+  if (run.empty()) return {};
+  return {run};
+}
 }  // namespace
 
 std::vector<PacketRun> packetRuns(const std::vector<PacketTrace>& traces, const LidarDescription& lidar)
 {
+  if (lidar.numbering == Numbering::Stamps) return runByStamps(traces, lidar);
+
   const PacketNumbering numbering(lidar);
   const auto modulus = static_cast<std::int64_t>(lidar.frame_id_modulus);
   const std::int64_t columns = lidar.columns_per_frame, most = kTurnsThatReorderingSpans * columns;

@@ -18,8 +18,10 @@ struct NumberedPacket
 using PacketRun = std::vector<NumberedPacket>;
 
 /**
- * A lidar has started again where its init id changes, and where its ids jump by more than four turns, unless the
- * stamps went on by as much: then packets were lost. The result points into `traces`.
+ * By Numbering::Ids, a lidar has started again where its init id changes, and where its ids jump by more than four
+ * turns, unless the stamps went on by as much: then packets were lost. By Numbering::Stamps there is one run: blocks
+ * follow the rotor's column, packets the stamps at their regular distance; where the stamps jump against the arrival by
+ * more than 0.5 s, the clock was set and the arrival counts. The result points into `traces`.
  */
 std::vector<PacketRun> packetRuns(const std::vector<PacketTrace>& traces, const LidarDescription&);
 }  // namespace scanloom

@@ -1,7 +1,15 @@
 #include "dataset/PacketTrace.h"
 
+#include <cmath>
+
 namespace scanloom
 {
+Timestamp unwrapped(Timestamp stamp, Duration round, Timestamp expected)
+{
+  if (round == Duration{0}) return stamp;
+  return stamp + std::llround(seconds(expected - stamp) / seconds(round)) * round;
+}
+
 bool inAzimuthWindow(const LidarDescription& lidar, int column)
 {
   return lidar.first_column <= lidar.last_column ? column >= lidar.first_column && column <= lidar.last_column

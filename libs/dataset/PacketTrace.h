@@ -22,6 +22,9 @@ struct PacketTrace
 /** `packet` must be of PacketKind::Lidar; `blocks` is room for its headers. */
 PacketTrace traceOf(const PacketDecoder&, Bytes packet, Timestamp received, std::vector<MeasurementBlock>& blocks);
 
+/** Of the stamps that a clock shows which counts modulo `round`: the one nearest to `expected`. 0: it does not wrap. */
+Timestamp unwrapped(Timestamp stamp, Duration round, Timestamp expected);
+
 /** Whether the lidar measures there: its azimuth window is [first_column, last_column] and may wrap around 0. */
 bool inAzimuthWindow(const LidarDescription&, int column);
 }  // namespace scanloom

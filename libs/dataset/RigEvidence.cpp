@@ -25,7 +25,8 @@ RigListener::RigListener(const Rig& rig, bool poses_known)
   : lidars_(rig.lidars),
     addresses_(rig.addresses),
     router_(routesOf(rig)),
-    snapshots_(rig.lidars.size(), longestTurn(rig))
+    snapshots_(rig.lidars.size(), longestTurn(rig)),
+    delays_(rig.lidars.size(), Duration{0})
 {
   evidence_.imus.push_back({"imu", rig.body_imu, rig.body_T_imu});
   for (const BatchedLidar& lidar : lidars_)
@@ -47,9 +48,7 @@ void RigListener::add(const Datagram& datagram)
   switch (routed->kind)
   {
     case PacketKind::Lidar:
-      evidence.packets.push_back(traceOf(*lidar.decoder, datagram.payload, datagram.received, blocks_));
-      if (auto& stamp = evidence.packets.back().stamp) *stamp += lidar.time_offset;
-      snapshots_.add(routed->lidar, *lidar.decoder, datagram.payload, blocks_, datagram.received);
+      addPacket(routed->lidar, datagram);
       break;
     case PacketKind::Imu:
       for (ImuSample& sample : lidar.decoder->imuSamples(datagram.payload))
@@ -68,6 +67,20 @@ void RigListener::add(const Datagram& datagram)
     case PacketKind::Foreign:
       break;
   }
+}
+
+void RigListener::addPacket(std::size_t index, const Datagram& datagram)
+{
+  const BatchedLidar& lidar = lidars_[index];
+  PacketTrace trace = traceOf(*lidar.decoder, datagram.payload, datagram.received, blocks_);
+  if (trace.stamp)
+  {
+    const Duration round = lidar.decoder->description().stamp_modulus;
+    trace.stamp = unwrapped(*trace.stamp + lidar.time_offset, round, datagram.received - delays_[index]);
+    delays_[index] = datagram.received - *trace.stamp;
+  }
+  evidence_.lidars[index].packets.push_back(trace);
+  snapshots_.add(index, *lidar.decoder, datagram.payload, blocks_, datagram.received);
 }
 
 RigEvidence RigListener::finish()

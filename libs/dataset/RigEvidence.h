@@ -49,10 +49,13 @@ class RigListener
   RigEvidence finish();
 
  private:
+  void addPacket(std::size_t lidar, const Datagram&);
+
   std::vector<BatchedLidar> lidars_;
   std::vector<LidarAddress> addresses_;
   PacketRouter router_;
   SnapshotTaker snapshots_;
+  std::vector<Duration> delays_;  // of each lidar's latest packet; 0 at first: wrapping stamps are near host time
   std::vector<MeasurementBlock> blocks_;
   RigEvidence evidence_;
 };

@@ -49,7 +49,7 @@ std::optional<RotorPhase> rotorPhase(const std::vector<PacketRun>& runs, const L
   RotorPhase phase;
   phase.turn = 1 / lidar.frame_rate;
   const NumberedPacket& first = packets.front();
-  const double period = seconds(lidar.blockPeriod());
+  const double period = phase.turn / lidar.columns_per_frame;  // exactly: blockPeriod() is off by up to 2.6 ppm
   std::vector<Sample2d> late;  // of each packet against a rotor that turns nominally; x in blocks
   std::vector<double> residuals;
   for (const NumberedPacket& packet : packets)

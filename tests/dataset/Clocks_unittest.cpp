@@ -4,9 +4,13 @@
 #include <cmath>
 #include <random>
 
+#include "dataset/CaptureRig.h"
 #include "dataset/ClockDrift.h"
 #include "dataset/ClockKind.h"
+#include "dataset/RigExamination.h"
 #include "dataset/RotorPhase.h"
+#include "source/MergedCaptures.h"
+#include "support/TestData.h"
 #include "traces.h"
 
 using namespace scanloom;
@@ -152,4 +156,30 @@ TEST(RotorPhase, needsTurns)
 {
   EXPECT_FALSE(rotorPhase(packetRuns(tracesOf(kLidar, 2), kLidar), kLidar, 1ms));
   EXPECT_FALSE(rotorPhase({}, kLidar, 1ms));
+}
+
+TEST(RotorPhase, ofARecordedVelodyneIsThatOfItsAzimuths)
+{
+  // By the azimuth and time fields of the first and last packets' own bytes: 706.50 rpm, while the metadata says 600.
+  SCANLOOM_NEEDS_DATA(capture, "other-lidars/Kitware+VeloView/Testing/Data/monterey-first-100-packets.pcap");
+  const Rig rig = captureRig({capture}, {SCANLOOM_SOURCE_DIR "/params/lidars/velodyne_hdl32e.json"});
+  RigListener listener(rig, false);
+  MergedCaptures captures(rig.captures);
+  double hundredths = 0;
+  std::optional<std::pair<int, std::uint32_t>> first, last;  // azimuth, us
+  for (Datagram datagram; captures.next(datagram);)
+  {
+    listener.add(datagram);
+    if (datagram.payload.size() != 1206) continue;
+    const int azimuth = load<std::uint16_t>(datagram.payload, 2);
+    if (last) hundredths += (azimuth - last->first + 36000) % 36000;
+    last = {azimuth, load<std::uint32_t>(datagram.payload, 1200)};
+    if (!first) first = last;
+  }
+  const double rate = hundredths / 36000 / (1e-6 * (last->second - first->second));
+  const RigExamination seen = examine(listener.finish(), {});
+  EXPECT_NEAR(10 * (1 + 1e-6 * seen.lidars.front().phase->rate_error_ppm), rate, 0.005 * rate);
+  EXPECT_NEAR(60 * rate, 706.5, 0.1);
+  EXPECT_EQ(seen.lidars.front().delivery.lost, 0u);
+  EXPECT_EQ(seen.lidars.front().delivery.duplicates, 0u);
 }

@@ -127,3 +127,49 @@ TEST(Delivery, ofNothingIsNothing)
   EXPECT_FALSE(delivery.packet_rate);
   EXPECT_DOUBLE_EQ(delivery.lossShare(), 0);
 }
+
+namespace
+{
+/** As a Velodyne: no ids, stamps of the hour. */
+LidarDescription stampedLidar()
+{
+  LidarDescription lidar = smallLidar();
+  lidar.numbering = Numbering::Stamps;
+  lidar.frame_id_modulus = 1;
+  lidar.fixed_block_period = 1562500ns;
+  return lidar;
+}
+
+std::vector<PacketTrace> stampedTraces(int turns)
+{
+  return tracesOf(stampedLidar(), turns, [](std::int64_t, PacketTrace& trace) { trace.frame_id = 0; });
+}
+}  // namespace
+
+TEST(Delivery, withoutIdsLossIsWhatTheStampsLeaveRoomFor)
+{
+  const LidarDescription lidar = stampedLidar();
+  const Delivery whole = deliveryOf(packetRuns(stampedTraces(50), lidar), lidar);
+  EXPECT_EQ(whole.lost + whole.duplicates + whole.reordered + whole.restarts, 0u);
+  EXPECT_DOUBLE_EQ(whole.nominal_packet_rate, 80);
+
+  const auto traces = without(stampedTraces(50), 100, 3);
+  const Delivery holed = deliveryOf(packetRuns(traces, lidar), lidar);
+  EXPECT_EQ(holed.lost, 3u);
+  EXPECT_EQ(holed.longest_gap_time, 24 * lidar.blockPeriod());
+}
+
+TEST(Delivery, withoutIdsAClockThatIsSetIsNoLoss)
+{
+  const LidarDescription lidar = stampedLidar();
+  auto traces = stampedTraces(50);
+  for (std::size_t i = 200; i < traces.size(); ++i) *traces[i].stamp += 37s;
+  EXPECT_EQ(deliveryOf(packetRuns(traces, lidar), lidar).lost, 0u);
+}
+
+TEST(PacketTrace, stampsOfTheHourGoOnAfterIt)
+{
+  EXPECT_EQ(unwrapped(Timestamp{3599s}, 1h, Timestamp{1750003198s}), Timestamp{1750003199s});  // 486111.999 h
+  EXPECT_EQ(unwrapped(Timestamp{1s}, 1h, Timestamp{1750003201s}), Timestamp{1750003201s});
+  EXPECT_EQ(unwrapped(Timestamp{1s}, 0h, Timestamp{1750003201s}), Timestamp{1s});
+}
