@@ -11,6 +11,9 @@ namespace scanloom
 {
 namespace
 {
+// A consumer that is late returns many at once.
+constexpr std::size_t kMostSpareScans = 4;
+
 auto orderOf(Timestamp stamp, std::size_t sensor_id, std::uint16_t measurement_id)
 {
   return std::make_tuple(stamp, sensor_id, measurement_id);
@@ -64,7 +67,10 @@ void TimeBatcher::replace(LidarIndex lidar, std::shared_ptr<const PacketDecoder>
   refreshFront(lidar);
 }
 
-void TimeBatcher::recycle(Scan&& scan) { spare_.push_back(std::move(scan)); }
+void TimeBatcher::recycle(Scan&& scan)
+{
+  if (spare_.size() < kMostSpareScans) spare_.push_back(std::move(scan));
+}
 
 std::vector<Notice> TimeBatcher::takeNotices() { return std::exchange(notices_, {}); }
 
