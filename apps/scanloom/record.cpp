@@ -100,7 +100,8 @@ Recorded record(RigInput& input, const Rig& rig, const DriverOptions& driver, do
     if (const std::optional<SensorEvent> event = input.next(100ms))
     {
       writer.write(*toObservation(*event, rig, driver));
-      ++(std::holds_alternative<Scan>(*event) ? recorded.scans : recorded.imu_samples);
+      if (std::holds_alternative<Scan>(*event)) ++recorded.scans;
+      if (std::holds_alternative<SensorImu>(*event)) ++recorded.imu_samples;
     }
     writer.secure();
     display.update(input);

@@ -110,7 +110,7 @@ void CMultiLidarSensor::handOver(Time now)
 void CMultiLidarSensor::give(const mrpt::obs::CObservation::Ptr& observation, Time now)
 {
   latest_stamp_ = std::max(latest_stamp_, observation->timestamp);
-  const bool is_scan = IS_CLASS(*observation, mrpt::obs::CObservationPointCloud);
+  const bool is_scan = IS_CLASS(*observation, mrpt::obs::CObservationPointCloud) && !isSlice(*observation);
   if (is_scan && isDecimated()) return;
   (is_scan ? scans_given_ : others_given_)->add(observation, now);
   appendObservation(observation);

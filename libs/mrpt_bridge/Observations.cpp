@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace scanloom
 {
@@ -155,6 +156,13 @@ CloudClass cloudClassFromName(const std::string& name)
   if (name == "CGenericPointsMap") return CloudClass::CGenericPointsMap;
   if (name == "CPointsMapXYZI") return CloudClass::CPointsMapXYZI;
   throw std::invalid_argument(fmt::format("cloud_class = {}: must be CGenericPointsMap or CPointsMapXYZI", name));
+}
+
+bool isSlice(const mrpt::obs::CObservation& observation)
+{
+  const std::string& label = observation.sensorLabel;
+  const std::size_t length = std::strlen(kSliceSuffix);
+  return label.size() > length && label.compare(label.size() - length, length, kSliceSuffix) == 0;
 }
 
 mrpt::obs::CObservationPointCloud::Ptr toObservation(const Scan& scan, CloudClass cloud, const std::string& label)

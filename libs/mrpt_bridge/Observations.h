@@ -16,6 +16,10 @@ namespace scanloom
 {
 /** MOLA's default labels, so that its pipelines find our sensors unchanged. */
 inline constexpr const char* kLidarLabel = "lidar";
+inline constexpr const char* kSliceSuffix = "_slice";  // of the label of clouds that scans hold again
+
+/** By its label. */
+bool isSlice(const mrpt::obs::CObservation&);
 inline constexpr const char* kImuLabel = "imu";
 inline constexpr const char* kHeaderLabel = "scanloom";
 

@@ -8,6 +8,7 @@ namespace
 {
 RecordedEvent eventOf(const mrpt::obs::CObservation::Ptr& observation, const std::optional<RecordingHeader>& header)
 {
+  if (isSlice(*observation)) return observation;
   if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get()))
     return RecordedScan{fromObservation(*cloud, header), cloud->sensorLabel};
   if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(observation.get()))

@@ -1,5 +1,7 @@
 #include "mrpt_bridge/RigObservations.h"
 
+#include <utility>
+
 namespace scanloom
 {
 namespace
@@ -9,6 +11,7 @@ Timestamp beforeEverything(const std::optional<SensorEvent>& first, Duration per
 {
   if (!first) return {};
   if (const auto* scan = std::get_if<Scan>(&*first)) return scan->start;
+  if (const auto* part = std::get_if<ScanPart>(&*first)) return part->scan.start;
   return std::get<SensorImu>(*first).sample.stamp - period;
 }
 }  // namespace
@@ -26,6 +29,8 @@ mrpt::obs::CObservation::Ptr toObservation(const SensorEvent& event, const Rig& 
 {
   if (const auto* scan = std::get_if<Scan>(&event))
     return toObservation(*scan, cloudClassFromName(options.cloud_class), options.sensorLabel);
+  if (const auto* part = std::get_if<ScanPart>(&event))
+    return toObservation(part->scan, cloudClassFromName(options.cloud_class), options.sensorLabel + kSliceSuffix);
 
   const auto& imu = std::get<SensorImu>(event);
   if (imu.sensor == SensorImu::kBody) return toObservation(imu.sample, rig.body_T_imu, options.imu_label);
@@ -47,13 +52,11 @@ mrpt::obs::CObservation::Ptr RigObservations::next()
   if (!header_given_)
   {
     header_given_ = true;
-    event_ = input_->next();
+    first_ = input_->next();
     const RecordingHeader header = recordingHeader(rig_);
-    return toObservation(header, beforeEverything(event_, header.period()));
+    return toObservation(header, beforeEverything(first_, header.period()));
   }
-  if (!event_) return nullptr;
-  auto observation = toObservation(*event_, rig_, options_);
-  event_ = input_->next();
-  return observation;
+  const std::optional<SensorEvent> event = first_ ? std::exchange(first_, std::nullopt) : input_->next();
+  return event ? toObservation(*event, rig_, options_) : nullptr;
 }
 }  // namespace scanloom

@@ -36,7 +36,7 @@ class RigObservations
   Rig rig_;
   DriverOptions options_;
   std::unique_ptr<RigInput> input_;
-  std::optional<SensorEvent> event_;  // the next one; read ahead once, for the header's stamp
+  std::optional<SensorEvent> first_;  // read before the header, for its stamp
   bool header_given_ = false;
 };
 }  // namespace scanloom

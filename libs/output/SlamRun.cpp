@@ -81,10 +81,10 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
     {
       if (sample->sensor == imu) slam.addImu(sample->sample);
     }
-    else
+    else if (auto* scan = std::get_if<Scan>(&*event))
     {
       ++scans;
-      keep(slam.addScan(std::get<Scan>(std::move(*event))));
+      keep(slam.addScan(std::move(*scan)));
       going = keepGoing(input.progress(), scans);
     }
   }

@@ -5,28 +5,31 @@
 
 namespace scanloom
 {
-namespace
+EventQueue::EventQueue(const Limits& limits)
 {
-bool isScan(const EventQueue::Waiting& w) { return std::holds_alternative<Scan>(w.event); }
-}  // namespace
+  kinds_[SensorEvent(Scan{}).index()].limit = limits.scans;
+  kinds_[SensorEvent(ScanPart{}).index()].limit = limits.scan_parts;
+  kinds_[SensorEvent(SensorImu{}).index()].limit = limits.imu_samples;
+}
 
 void EventQueue::push(Waiting event)
 {
   {
     const std::lock_guard lock(mutex_);
-    scans_ += isScan(event);
+    Kind& kind = kinds_[event.event.index()];
+    ++kind.waiting;
     events_.push_back(std::move(event));
-    if (scans_ > limits_.scans) dropOldest(true);
-    if (events_.size() - scans_ > limits_.imu_samples) dropOldest(false);
+    if (kind.waiting > kind.limit) dropOldest(events_.back().event.index());
   }
   changed_.notify_one();
 }
 
-void EventQueue::dropOldest(bool scan)
+void EventQueue::dropOldest(std::size_t kind)
 {
-  events_.erase(std::find_if(events_.begin(), events_.end(), [scan](const auto& e) { return isScan(e) == scan; }));
-  scans_ -= scan;
-  ++(scan ? dropped_scans_ : dropped_imu_samples_);
+  events_.erase(
+      std::find_if(events_.begin(), events_.end(), [kind](const auto& e) { return e.event.index() == kind; }));
+  --kinds_[kind].waiting;
+  ++kinds_[kind].dropped;
 }
 
 void EventQueue::end(std::exception_ptr error)
@@ -50,7 +53,7 @@ std::optional<EventQueue::Waiting> EventQueue::pop(Duration patience)
   }
   Waiting event = std::move(events_.front());
   events_.pop_front();
-  scans_ -= isScan(event);
+  --kinds_[event.event.index()].waiting;
   return event;
 }
 
@@ -58,23 +61,5 @@ bool EventQueue::ended() const
 {
   const std::lock_guard lock(mutex_);
   return ended_ && events_.empty() && !error_;
-}
-
-std::size_t EventQueue::scans() const
-{
-  const std::lock_guard lock(mutex_);
-  return scans_;
-}
-
-std::uint64_t EventQueue::droppedScans() const
-{
-  const std::lock_guard lock(mutex_);
-  return dropped_scans_;
-}
-
-std::uint64_t EventQueue::droppedImuSamples() const
-{
-  const std::lock_guard lock(mutex_);
-  return dropped_imu_samples_;
 }
 }  // namespace scanloom

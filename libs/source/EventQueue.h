@@ -1,6 +1,7 @@
 #pragma once
 #include "source/RigInput.h"
 
+#include <array>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -21,10 +22,11 @@ class EventQueue
   struct Limits
   {
     std::size_t scans = 10;
+    std::size_t scan_parts = 10;
     std::size_t imu_samples = 100'000;
   };
 
-  explicit EventQueue(const Limits& limits) : limits_(limits) {}
+  explicit EventQueue(const Limits&);
 
   void push(Waiting);
 
@@ -37,19 +39,30 @@ class EventQueue
   /** The end, and all is taken. */
   bool ended() const;
 
-  std::size_t scans() const;
-  std::uint64_t droppedScans() const;
-  std::uint64_t droppedImuSamples() const;
+  std::size_t scans() const { return kind<Scan>().waiting; }
+  std::uint64_t droppedScans() const { return kind<Scan>().dropped; }
+  std::uint64_t droppedScanParts() const { return kind<ScanPart>().dropped; }
+  std::uint64_t droppedImuSamples() const { return kind<SensorImu>().dropped; }
 
  private:
-  void dropOldest(bool scan);
+  struct Kind
+  {
+    std::size_t limit = 0, waiting = 0;
+    std::uint64_t dropped = 0;
+  };
 
-  Limits limits_;
+  template <typename Event>
+  Kind kind() const
+  {
+    const std::lock_guard lock(mutex_);
+    return kinds_[SensorEvent(Event{}).index()];
+  }
+  void dropOldest(std::size_t kind);
+
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Waiting> events_;
-  std::size_t scans_ = 0;
-  std::uint64_t dropped_scans_ = 0, dropped_imu_samples_ = 0;
+  std::array<Kind, std::variant_size_v<SensorEvent>> kinds_;  // by the index of the variant
   bool ended_ = false;
   std::exception_ptr error_;
 };

@@ -14,11 +14,17 @@
 
 namespace scanloom
 {
+/** What one slice adds to its scan, with `slices` above 1: given out before the scan, which holds it again. */
+struct ScanPart
+{
+  Scan scan;
+};
+
 /**
  * IMU samples and scans; both in time order. A sample comes before a scan if it is older than the scan's end by one
  * deadline or more: nobody waits for IMU packets, and they may be as late as lidar packets.
  */
-using SensorEvent = std::variant<Scan, SensorImu>;
+using SensorEvent = std::variant<Scan, SensorImu, ScanPart>;
 
 struct LidarAccount
 {

@@ -63,7 +63,7 @@ const Rig& withoutRecordedImu(const Rig& rig)
 
 RigLive::RigLive(const Rig& rig)
   : stream_(withoutRecordedImu(rig)),
-    queue_({rig.live.scans_waiting}),
+    queue_({rig.live.scans_waiting, rig.live.scans_waiting * static_cast<std::size_t>(rig.batcher.slices)}),
     capture_(rig.live.capture.empty() ? nullptr : std::make_unique<LiveCapture>(rig.live.capture)),
     receiver_(receiverOptions(rig)),
     account_(stream_.account()),
@@ -198,6 +198,7 @@ RigAccount RigLive::account() const
   account.input["socket_errors"] = sum.errors;
   account.input["host_clock_steps"] = receiver_.clockSteps();
   account.input["scans_dropped"] = queue_.droppedScans();
+  account.input["slices_dropped"] = queue_.droppedScanParts();
   account.input["imu_samples_dropped"] = queue_.droppedImuSamples();
   account.input["datagrams_not_captured"] = capture_ ? capture_->dropped() : 0;
   account.scans_waiting = queue_.scans();

@@ -23,6 +23,8 @@ RigStream::RigStream(const Rig& rig)
     imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms)),
     longest_effect_(2 * imu_patience_ + 10s)
 {
+  if (rig.batcher.slices > 1)
+    batcher_.onSlice([this](const ScanSlice& slice) { ready_.emplace_back(ScanPart{copyOf(slice)}); });
 }
 
 void RigStream::take(const DatagramView& datagram)

@@ -17,6 +17,8 @@ class RigStream
 {
  public:
   explicit RigStream(const Rig&);
+  RigStream(const RigStream&) = delete;
+  RigStream& operator=(const RigStream&) = delete;
 
   /** In the order of receive times, as far as possible. Throws what PacketRouter::route and TimeBatcher::push throw. */
   void take(const DatagramView&);

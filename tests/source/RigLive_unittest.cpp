@@ -259,4 +259,33 @@ TEST(RigLive, doesNotReplaceACapture)
   }
   EXPECT_EQ(contentOf(folder / "live.pcap"), "precious");
 }
+
+TEST(RigStream, givesEachSliceBeforeTheScanThatHoldsItAgain)
+{
+  LiveRig lidars(2);
+  lidars.rig.batcher.slices = 4;
+  RigStream stream(lidars.rig);
+  std::vector<Scan> parts, scans;
+  const auto collect = [&]
+  {
+    while (const std::optional<SensorEvent> event = stream.next())
+    {
+      if (const auto* part = std::get_if<ScanPart>(&*event)) parts.push_back(part->scan);
+      const auto* scan = std::get_if<Scan>(&*event);
+      if (!scan) continue;
+      scans.push_back(*scan);
+      ASSERT_EQ(parts.size(), 4 * scans.size());
+      EXPECT_EQ(parts.back().end(), scan->end());
+    }
+  };
+  for (const Datagram& datagram : lidars.drive(1s))
+  {
+    stream.take(datagram);
+    collect();
+  }
+  stream.finish();
+  collect();
+  ASSERT_GE(scans.size(), 8u);
+  EXPECT_EQ(columnsIn(parts), columnsIn(scans));
+}
 }  // namespace scanloom

@@ -109,6 +109,8 @@ inline void expectTheSame(const std::vector<SensorEvent>& a, const std::vector<S
     ASSERT_EQ(a[i].index(), b[i].index()) << "event " << i;
     if (const Scan* scan = std::get_if<Scan>(&a[i]))
       expectTheSame(*scan, std::get<Scan>(b[i]));
+    else if (const ScanPart* part = std::get_if<ScanPart>(&a[i]))
+      expectTheSame(part->scan, std::get<ScanPart>(b[i]).scan);
     else
     {
       const auto& one = std::get<SensorImu>(a[i]);
