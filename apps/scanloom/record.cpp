@@ -165,7 +165,12 @@ int run(const RecordArguments& arguments)
   const Recorded recorded = record(*input, rig, settings.driver, arguments.seconds, writer);
   for (const std::string& warning : input->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
   report(arguments, recorded, input->account());
-  return interrupted() ? kInterrupted : kDone;
+  if (interrupted()) return kInterrupted;
+  if (live && recorded.scans == 0)
+    throw std::runtime_error(
+        "no scan was recorded: see that the lidars' destination (udp_dest) is this computer, that their ports are the "
+        "configured ones, and that no firewall is between ('scanloom doctor' looks closer)");
+  return kDone;
 }
 
 std::function<int()> addOptions(CLI::App& app)

@@ -140,6 +140,8 @@ void CMultiLidarSensor::logWarnings()
 void CMultiLidarSensor::logAccount() const
 {
   const RigAccount account = observations_->account();
+  for (const auto& [what, count] : account.input)
+    if (count > 0 && what.find("dropped") != std::string::npos) MRPT_LOG_WARN_STREAM(what << ": " << count);
   for (const auto& [name, c] : account.lidars)
   {
     MRPT_LOG_INFO_STREAM(name << ": " << c.packets << " packets, " << c.emitted << " columns, " << c.points

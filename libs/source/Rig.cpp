@@ -33,12 +33,25 @@ Rigid poseOf(const std::string& key, const std::string& pose, const std::string&
           : fmt::format("{} has no T_body_{} (give it there, or as {})", rig.extrinsics, sensor, key));
 }
 
+IpAddress ipAddressOf(const std::string& key, const std::string& text)
+{
+  try
+  {
+    return IpAddress::parse(text);
+  }
+  catch (const std::invalid_argument& problem)
+  {
+    throw ConfigError(fmt::format("{}: {}", key, problem.what()));
+  }
+}
+
 LidarAddress addressOf(const LidarOptions& options, const LidarDescription& lidar)
 {
   LidarAddress address;
   address.lidar_port = options.port ? static_cast<std::uint16_t>(options.port) : lidar.lidar_port;
   address.imu_port = options.imu_port ? static_cast<std::uint16_t>(options.imu_port) : lidar.imu_port;
-  if (!options.address.empty()) address.source = IpAddress::parse(options.address);
+  if (!options.address.empty())
+    address.source = ipAddressOf(fmt::format("lidar '{}', key 'address'", options.name), options.address);
   if (address.lidar_port == 0)
     throw ConfigError(
         fmt::format("lidar '{}': {} names no UDP port: give its key 'port'", options.name, options.metadata));
@@ -75,7 +88,7 @@ std::vector<std::filesystem::path> splitByComma(const std::string& list)
 LiveOptions liveOptions(const RigOptions& options)
 {
   LiveOptions live;
-  if (!options.bind_address.empty()) live.bind_address = IpAddress::parse(options.bind_address);
+  if (!options.bind_address.empty()) live.bind_address = ipAddressOf("bind_address", options.bind_address);
   live.receive_buffer = static_cast<std::size_t>(1e6 * options.receive_buffer);
   live.scans_waiting = static_cast<std::size_t>(options.scans_waiting);
   live.capture = options.pcap_output;

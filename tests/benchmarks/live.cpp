@@ -5,11 +5,13 @@
  *
  *   scanloom_bench_live --sensors 8 --seconds 120             latency
  *   scanloom_bench_live --sensors 8 --seconds 600 --speed 3   a soak
+ *   scanloom_bench_live --sensors 2 --seconds 600 --busy 4    with all cores under stress
  */
 #include "LoopbackLidars.h"
 #include "source/RigLive.h"
 
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
@@ -28,6 +30,35 @@ struct Arguments
   LoopbackOptions loopback;
   double scan_rate = 10;
   double deadline_ms = 5;
+  int busy = 0;
+};
+
+/** Processes that do nothing but use the processor. */
+class BusyProcesses
+{
+ public:
+  explicit BusyProcesses(int count)
+  {
+    for (int i = 0; i < count; ++i)
+    {
+      processes_.push_back(fork());
+      volatile std::uint64_t turns = 0;
+      while (processes_.back() == 0) turns = turns + 1;
+    }
+  }
+  BusyProcesses(const BusyProcesses&) = delete;
+  BusyProcesses& operator=(const BusyProcesses&) = delete;
+  ~BusyProcesses()
+  {
+    for (const pid_t process : processes_)
+    {
+      kill(process, SIGKILL);
+      waitpid(process, nullptr, 0);
+    }
+  }
+
+ private:
+  std::vector<pid_t> processes_;
 };
 
 struct Percentiles
@@ -111,7 +142,8 @@ Observed observe(RigLive& live, const LoopbackLidars& lidars)
     const Clock::time_point now = Clock::now();
     if (now - looked >= 1s)
     {
-      observed.memory.emplace_back(std::chrono::duration<double>(now - start).count(), residentMegabytes());
+      if (!lidars.finished())
+        observed.memory.emplace_back(std::chrono::duration<double>(now - start).count(), residentMegabytes());
       looked = now;
       if (lidars.finished())
       {
@@ -188,6 +220,7 @@ int run(const Arguments& arguments)
 {
   LoopbackLidars lidars(arguments.loopback);
   lidars.start();
+  const BusyProcesses busy(arguments.busy);
   scanloom::Rig rig = lidars.rig();
   rig.batcher.scan_rate = arguments.scan_rate;
   rig.batcher.deadline_ms = arguments.deadline_ms;
@@ -211,6 +244,8 @@ int main(int argc, char** argv)
       ->check(CLI::PositiveNumber);
   app.add_option("--scan-rate", arguments.scan_rate, "Hz")->check(CLI::PositiveNumber);
   app.add_option("--deadline-ms", arguments.deadline_ms, "ms")->check(CLI::NonNegativeNumber);
+  app.add_option("--busy", arguments.busy, "processes that keep the processor busy meanwhile")
+      ->check(CLI::Range(0, 256));
   CLI11_PARSE(app, argc, argv);
   return run(arguments);
 }

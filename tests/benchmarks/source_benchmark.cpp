@@ -14,7 +14,6 @@ using namespace scanloom;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kBytes = 24832;
-constexpr int kBurst = 512;  // datagrams that wait when the draining begins
 
 /** A socket in which a burst waits. */
 class WaitingBurst
@@ -26,9 +25,9 @@ class WaitingBurst
     datagram_.destination_port = socket_.port();
     datagram_.payload.assign(kBytes, 7);
   }
-  void send()
+  void send(std::int64_t count)
   {
-    for (int i = 0; i < kBurst; ++i) sender_.send(datagram_);
+    for (std::int64_t i = 0; i < count; ++i) sender_.send(datagram_);
   }
   int descriptor() const { return socket_.descriptor(); }
 
@@ -74,22 +73,24 @@ void measure(benchmark::State& state, Drain&& drain)
 {
   WaitingBurst burst;
   std::int64_t received = 0;
+  double elapsed = 0;
   for (auto _ : state)
   {
-    burst.send();
+    burst.send(state.range(0));
     const Clock::time_point start = Clock::now();
-    int got = 0;
-    while (got < kBurst)
+    std::int64_t got = 0;
+    while (got < state.range(0))
     {
       const int n = drain(burst.descriptor());
       if (n <= 0) return state.SkipWithError("datagrams were lost: the receive buffer is too small");
       got += n;
     }
-    state.SetIterationTime(std::chrono::duration<double>(Clock::now() - start).count());
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    state.SetIterationTime(seconds);
+    elapsed += seconds;
     received += got;
   }
-  state.counters["us_per_datagram"] = benchmark::Counter(1e-6 * static_cast<double>(received),
-                                                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["us_per_datagram"] = 1e6 * elapsed / static_cast<double>(received);
 }
 
 void recvmmsgOf32(benchmark::State& state)
@@ -102,7 +103,8 @@ void recvmmsgOf32(benchmark::State& state)
             return recvmmsg(socket, messages.headers.data(), 32, MSG_DONTWAIT, nullptr);
           });
 }
-BENCHMARK(recvmmsgOf32)->Name("drain/recvmmsg(32)")->UseManualTime();
+BENCHMARK(recvmmsgOf32)->Name("drain/recvmmsg(32)")->UseManualTime()->Arg(32)->Arg(512);  // datagrams that wait: in the
+                                                                                          // cache, and not
 
 void selectAndRecvmsg(benchmark::State& state)
 {
@@ -119,7 +121,8 @@ void selectAndRecvmsg(benchmark::State& state)
             return recvmsg(socket, &messages.headers[0].msg_hdr, MSG_DONTWAIT) > 0 ? 1 : 0;
           });
 }
-BENCHMARK(selectAndRecvmsg)->Name("drain/select+recvmsg")->UseManualTime();
+BENCHMARK(selectAndRecvmsg)->Name("drain/select+recvmsg")->UseManualTime()->Arg(32)->Arg(512);  // datagrams that wait:
+                                                                                                // in the cache, and not
 
 void selectAndRecvfrom(benchmark::State& state)
 {
@@ -140,5 +143,9 @@ void selectAndRecvfrom(benchmark::State& state)
                        : 0;
           });
 }
-BENCHMARK(selectAndRecvfrom)->Name("drain/select+recvfrom")->UseManualTime();
+BENCHMARK(selectAndRecvfrom)
+    ->Name("drain/select+recvfrom")
+    ->UseManualTime()
+    ->Arg(32)
+    ->Arg(512);  // datagrams that wait: in the cache, and not
 }  // namespace

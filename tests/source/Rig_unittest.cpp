@@ -52,6 +52,28 @@ TEST(RigOptions, saysWhenNoSectionHasTheDriver)
             std::string::npos);
 }
 
+TEST(Rig, namesTheKeyOfAnAddressThatIsNone)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const auto complaint = [&](const std::string& line)
+  {
+    const Configuration configuration = Configuration::fromText(iniOf(folder.string(), line), "x.ini");
+    try
+    {
+      makeRig(readRigSettings(configuration, "rig"));
+    }
+    catch (const ConfigError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint("bind_address = 10.0.0\n"),
+            "bind_address: '10.0.0' is no IP address: write it as 192.168.1.10 or fe80::1");
+  EXPECT_EQ(complaint("lidar2_address = left\n"),
+            "lidar 'right', key 'address': 'left' is no IP address: write it as 192.168.1.10 or fe80::1");
+}
+
 TEST(RigReplay, weavesBothLidarsOfARecordingWithExactAccounts)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");

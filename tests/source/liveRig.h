@@ -23,6 +23,7 @@ struct LiveRig
 
   explicit LiveRig(std::size_t lidars, Ports ports = Ports::Several)
   {
+    rig.batcher.deadline_ms = 300;  // a busy machine may keep the sender waiting in the middle of a round
     const std::uint16_t shared = freeUdpPort();
     for (std::size_t i = 0; i < lidars; ++i)
     {
