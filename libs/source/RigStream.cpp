@@ -23,8 +23,7 @@ RigStream::RigStream(const Rig& rig)
     imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms)),
     longest_effect_(2 * imu_patience_ + 10s)
 {
-  if (rig.batcher.slices > 1)
-    batcher_.onSlice([this](const ScanSlice& slice) { ready_.emplace_back(ScanPart{copyOf(slice)}); });
+  if (rig.batcher.slices > 1) batcher_.onSlice([this](const ScanSlice& slice) { parts_.push_back({copyOf(slice)}); });
 }
 
 void RigStream::take(const DatagramView& datagram)
@@ -77,9 +76,19 @@ void RigStream::release(std::vector<Scan> scans)
   for (Scan& scan : scans)
   {
     releaseImu(scan.end() - imu_patience_);
+    releaseParts(scan.end());
     ready_.emplace_back(std::move(scan));
   }
+  releaseParts(Timestamp::max());
   if (const auto horizon = batcher_.horizon()) releaseImu(*horizon - imu_patience_);
+}
+
+/** Those that are over by `end`: where one packet completes several scans, the batcher gives the slices of all first.
+ */
+void RigStream::releaseParts(Timestamp end)
+{
+  for (; !parts_.empty() && parts_.front().scan.end() <= end; parts_.pop_front())
+    ready_.emplace_back(std::move(parts_.front()));
 }
 
 void RigStream::releaseImu(Timestamp horizon)

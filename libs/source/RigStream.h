@@ -48,6 +48,7 @@ class RigStream
  private:
   void release(std::vector<Scan> scans);
   void releaseImu(Timestamp horizon);
+  void releaseParts(Timestamp end);
 
   std::vector<BatchedLidar> lidars_;
   std::vector<ImuSample> body_imu_;
@@ -58,6 +59,7 @@ class RigStream
   Duration longest_effect_;  // of one silence on the batcher: after it, one step is as good as many
   Timestamp time_ = Timestamp::min();
   ImuOrder imu_order_;
+  std::deque<ScanPart> parts_;  // on their way from the batcher
   std::deque<SensorEvent> ready_;
 };
 }  // namespace scanloom

@@ -25,7 +25,7 @@ EventQueue::Waiting imuAt(Duration stamp)
 
 TEST(EventQueue, dropsTheOldestScanWhenFullAndKeepsImuSamples)
 {
-  EventQueue queue({2, 100});
+  EventQueue queue(EventQueue::Limits{2, 2, 100});
   for (int i = 0; i < 5; ++i)
   {
     queue.push(imuAt(i * 1s));
@@ -49,7 +49,7 @@ TEST(EventQueue, dropsTheOldestScanWhenFullAndKeepsImuSamples)
 
 TEST(EventQueue, boundsImuSamplesToo)
 {
-  EventQueue queue({2, 3});
+  EventQueue queue(EventQueue::Limits{2, 2, 3});
   for (int i = 0; i < 10; ++i) queue.push(imuAt(i * 1s));
   EXPECT_EQ(queue.droppedImuSamples(), 7u);
   EXPECT_EQ(std::get<SensorImu>(queue.pop(0s)->event).sample.stamp, Timestamp{7s});
@@ -57,7 +57,7 @@ TEST(EventQueue, boundsImuSamplesToo)
 
 TEST(EventQueue, wakesWhoeverWaits)
 {
-  EventQueue queue({2, 3});
+  EventQueue queue(EventQueue::Limits{2, 2, 3});
   std::thread maker([&] { queue.push(scanAt(1s)); });
   EXPECT_TRUE(queue.pop(10s));
   maker.join();
@@ -65,7 +65,7 @@ TEST(EventQueue, wakesWhoeverWaits)
 
 TEST(EventQueue, throwsWhatEndedItAfterAllElse)
 {
-  EventQueue queue({2, 3});
+  EventQueue queue(EventQueue::Limits{2, 2, 3});
   queue.push(scanAt(1s));
   queue.end(std::make_exception_ptr(std::runtime_error("clocks")));
   EXPECT_TRUE(queue.pop(0s));
