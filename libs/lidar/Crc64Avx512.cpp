@@ -7,8 +7,10 @@
 #define VPCLMUL_INLINE [[gnu::target("avx512f,avx512dq,vpclmulqdq"), gnu::always_inline]] inline
 
 // gcc 12 takes its own _mm512_undefined_epi32() for a mistake (GCC bug 105593).
+#ifndef __clang__  // which knows no such warning
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
 
 namespace scanloom::crc64_kernels
 {

@@ -1,7 +1,7 @@
 /** Eight channels at a time; what has no return is squeezed out by a permutation from a table. */
 #include "lidar/OusterKernels.h"
 
-#include <immintrin.h>
+#include <x86intrin.h>
 
 #define AVX2 [[gnu::target("avx2,popcnt,prfchw")]]
 #define AVX2_INLINE [[gnu::target("avx2,popcnt,prfchw"), gnu::always_inline]] inline

@@ -1,11 +1,13 @@
 /** Sixteen channels at a time; what has no return is squeezed out by a permutation that vpcompressd makes. */
 #include "lidar/OusterKernels.h"
 
-#include <immintrin.h>
+#include <x86intrin.h>
 
 // gcc 12 takes its own _mm512_undefined_epi32() for a mistake (GCC bug 105593).
+#ifndef __clang__  // which knows no such warning
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
 
 #define AVX512 [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl,avx512vbmi,popcnt,prfchw")]]
 #define AVX512_INLINE \
@@ -138,8 +140,8 @@ AVX512_INLINE std::size_t writeBlock(const std::uint8_t* channels, const Column&
   const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const __m512i order = _mm512_maskz_compress_epi32(seen, lanes);
   const __m512i signal = field<kProfile, Fields<kReturn>::kSignal>(channels);
-  const __m512i small = _mm512_ternarylogic_epi32(field<kProfile, Fields<kReturn>::kReflectivity>(channels),
-                                                  field<kProfile, OusterField::NearIr, 16>(channels), rings, 0xFE);
+  const __m512i small = _mm512_ternarylogic_epi32((field<kProfile, Fields<kReturn>::kReflectivity>(channels)),
+                                                  (field<kProfile, OusterField::NearIr, 16>(channels)), rings, 0xFE);
   const __m512i apart_small = apart(_mm512_permutexvar_epi32(order, small));
   const __m512 along = _mm512_sub_ps(_mm512_cvtepi32_ps(range), column.range_offset);
 

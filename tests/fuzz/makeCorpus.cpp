@@ -1,7 +1,6 @@
 /**
- * Writes seeds for the fuzz targets from recordings: a folder per target below OUT. Each is cut to the size and led by the first bytes
- * that its target expects.
- *   scanloom_fuzz_corpus RECORDINGS INIS OUT
+ * Writes seeds for the fuzz targets from recordings: a folder per target below OUT. Each is cut to the size and led by
+ * the first bytes that its target expects. scanloom_fuzz_corpus RECORDINGS INIS OUT
  */
 #include <cstdio>
 #include <fstream>
@@ -9,8 +8,8 @@
 #include <map>
 
 #include "../lidar/simpleMetadata.h"
-#include "lidar/OusterDecoder.h"
 #include "lidar/MetadataKeys.h"
+#include "lidar/OusterDecoder.h"
 #include "lidar/VelodynePacket.h"
 #include "source/CaptureReader.h"
 
