@@ -70,7 +70,7 @@ class RawlogInput : public SensorInput
   std::optional<SensorEvent> next() override
   {
     if (ahead_.empty()) return read();
-    SensorEvent event = std::move(ahead_.front());
+    std::optional<SensorEvent> event(std::move(ahead_.front()));
     ahead_.pop_front();
     return event;
   }

@@ -51,9 +51,9 @@ std::optional<EventQueue::Waiting> EventQueue::pop(Duration patience)
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     return std::nullopt;
   }
-  Waiting event = std::move(events_.front());
+  std::optional<Waiting> event(std::move(events_.front()));
   events_.pop_front();
-  --kinds_[event.event.index()].waiting;
+  --kinds_[event->event.index()].waiting;
   return event;
 }
 

@@ -66,7 +66,7 @@ void RigStream::finish()
 std::optional<SensorEvent> RigStream::next()
 {
   if (ready_.empty()) return std::nullopt;
-  SensorEvent event = std::move(ready_.front());
+  std::optional<SensorEvent> event(std::move(ready_.front()));
   ready_.pop_front();
   return event;
 }
