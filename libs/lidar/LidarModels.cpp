@@ -44,13 +44,18 @@ const std::vector<LidarFamily>& lidarFamilies()
 
 std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_file, const Rigid& body_T_sensor)
 {
-  const std::string text = readMetadataText(metadata_file);
+  return makeDecoder(readMetadataText(metadata_file), metadata_file, body_T_sensor);
+}
+
+std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_text, const std::string& name,
+                                           const Rigid& body_T_sensor)
+{
   std::string expected;
   for (const LidarFamily& family : lidarFamilies())
   {
-    if (family.recognises(text)) return family.make(text, metadata_file, body_T_sensor);
+    if (family.recognises(metadata_text)) return family.make(metadata_text, name, body_T_sensor);
     expected += fmt::format("{}{}", expected.empty() ? "" : ", or ", family.described);
   }
-  throw std::invalid_argument(fmt::format("{}: belongs to no known lidar; expected {}", metadata_file, expected));
+  throw std::invalid_argument(fmt::format("{}: belongs to no known lidar; expected {}", name, expected));
 }
 }  // namespace scanloom

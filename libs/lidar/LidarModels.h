@@ -24,4 +24,8 @@ const std::vector<LidarFamily>& lidarFamilies();
  * expected).
  */
 std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_file, const Rigid& body_T_sensor);
+
+/** The same from the text; `name` stands for it in errors. */
+std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_text, const std::string& name,
+                                           const Rigid& body_T_sensor);
 }  // namespace scanloom

@@ -160,6 +160,7 @@ std::string fetchOusterConfig(SensorHttp& sensor)
 
 bool setOusterDestination(SensorHttp& sensor, const IpAddress& destination)
 {
+  refuseUnlessRunning(sensor);  // it may be starting anew because of us
   const std::string wanted = destination.text();
   if (textOf(currentConfig(sensor), "udp_dest") == wanted) return false;
   if (sensor.post(kConfig + "?reinit=true&persist=false", json{{"udp_dest", wanted}}.dump())) return true;

@@ -26,7 +26,7 @@ std::string fetchOusterConfig(SensorHttp&);
 /**
  * Lets the sensor send its packets to `destination` (udp_dest) until it is switched off: the only function that writes
  * to a sensor. One that sends there already is left alone; any other starts anew, which takes seconds and changes its
- * init id. True if it was written to. Throws SensorHttpError.
+ * init id. True if it was written to. Throws SensorHttpError, also for a sensor that is not RUNNING.
  */
 bool setOusterDestination(SensorHttp&, const IpAddress& destination);
 }  // namespace scanloom

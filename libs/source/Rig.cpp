@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 
-#include "lidar/LidarModels.h"
 #include "source/Extrinsics.h"
 
 namespace scanloom
@@ -43,19 +42,6 @@ IpAddress ipAddressOf(const std::string& key, const std::string& text)
   {
     throw ConfigError(fmt::format("{}: {}", key, problem.what()));
   }
-}
-
-LidarAddress addressOf(const LidarOptions& options, const LidarDescription& lidar)
-{
-  LidarAddress address;
-  address.lidar_port = options.port ? static_cast<std::uint16_t>(options.port) : lidar.lidar_port;
-  address.imu_port = options.imu_port ? static_cast<std::uint16_t>(options.imu_port) : lidar.imu_port;
-  if (!options.address.empty())
-    address.source = ipAddressOf(fmt::format("lidar '{}', key 'address'", options.name), options.address);
-  if (address.lidar_port == 0)
-    throw ConfigError(
-        fmt::format("lidar '{}': {} names no UDP port: give its key 'port'", options.name, options.metadata));
-  return address;
 }
 
 bool wanted(const std::string& name, const std::vector<std::string>& only)
@@ -109,11 +95,17 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
   {
     const LidarOptions& options = settings.lidars[i];
     if (!wanted(options.name, only)) continue;
-    const Rigid body_T_sensor =
-        poseOf(fmt::format("lidar{}_pose", i + 1), options.pose, options.name, settings.rig, poses);
-    std::shared_ptr<const PacketDecoder> decoder = makeDecoder(options.metadata, body_T_sensor);
-    rig.addresses.push_back(addressOf(options, decoder->description()));
-    rig.lidars.push_back({options.name, std::move(decoder), fromSeconds(options.time_offset)});
+    RigSensor sensor;
+    sensor.options = options;
+    sensor.body_T_sensor = poseOf(fmt::format("lidar{}_pose", i + 1), options.pose, options.name, settings.rig, poses);
+    rig.sensors.push_back(std::move(sensor));
+  }
+  askForMetadata(rig.sensors, rig.captures.empty() ? MetadataNeed::OfSome : MetadataNeed::OfAll);
+  for (const RigSensor& sensor : rig.sensors)
+  {
+    std::shared_ptr<const PacketDecoder> decoder = decoderOf(sensor);
+    rig.addresses.push_back(addressOf(sensor, decoder.get()));
+    rig.lidars.push_back({sensor.options.name, std::move(decoder), fromSeconds(sensor.options.time_offset)});
   }
   if (!settings.rig.imu_csv.empty())
   {

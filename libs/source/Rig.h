@@ -4,6 +4,7 @@
 #include "source/EurocImu.h"
 #include "source/PacketRouter.h"
 #include "source/RigOptions.h"
+#include "source/RigSensor.h"
 
 #include <filesystem>
 #include <optional>
@@ -23,8 +24,9 @@ struct LiveOptions
 
 struct Rig
 {
-  std::vector<BatchedLidar> lidars;  // a lidar's place here is its sensor_id
+  std::vector<BatchedLidar> lidars;  // a lidar's place here is its sensor_id; without decoder while it is not known
   std::vector<LidarAddress> addresses;
+  std::vector<RigSensor> sensors;
   std::vector<std::filesystem::path> captures;
   std::vector<ImuSample> body_imu;  // empty if there is none
   Rigid body_T_imu;
@@ -33,8 +35,9 @@ struct Rig
 };
 
 /**
- * Reads metadata, extrinsics and the body's IMU. `only` names the lidars to use, in any order; empty means all.
- * Throws ConfigError for a name that no lidar has and a pose that is given nowhere, and what the readers throw.
+ * Reads or asks for metadata, reads extrinsics and the body's IMU. `only` names the lidars to use, in any order; empty
+ * means all. Throws ConfigError for a name that no lidar has and a pose that is given nowhere, and what the readers
+ * throw.
  */
 Rig makeRig(const RigSettings&, const std::vector<std::string>& only = {});
 }  // namespace scanloom

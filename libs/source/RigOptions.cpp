@@ -61,7 +61,10 @@ RigSettings readRigSettings(const Configuration& configuration, const std::strin
   settings.driver = configuration.read<DriverOptions>(section);
   settings.rig = configuration.read<RigOptions>(section);
   settings.batcher = configuration.read<BatcherOptions>(section);
-  for (std::size_t i = 0; configuration.has(section, prefixOf(i) + "metadata"); ++i)
+  const auto exists = [&](std::size_t i) {
+    return configuration.has(section, prefixOf(i) + "metadata") || configuration.has(section, prefixOf(i) + "address");
+  };
+  for (std::size_t i = 0; exists(i); ++i)
   {
     settings.lidars.push_back(configuration.read<LidarOptions>(section, {}, prefixOf(i)));
     if (settings.lidars.back().name.empty()) settings.lidars.back().name = fmt::format("lidar{}", i + 1);
@@ -69,7 +72,12 @@ RigSettings readRigSettings(const Configuration& configuration, const std::strin
 
   std::vector<std::string> problems = unknownKeys(configuration, section, settings.lidars.size());
   if (settings.lidars.empty())
-    problems.push_back(fmt::format("[{}] lidar1_metadata is missing: no lidar is configured", section));
+    problems.push_back(
+        fmt::format("[{}] neither lidar1_metadata nor lidar1_address is given: no lidar is configured", section));
+  for (std::size_t i = 0; i < settings.lidars.size(); ++i)
+    if (settings.lidars[i].metadata.empty() && settings.lidars[i].address.empty())
+      problems.push_back(fmt::format("[{0}] {1}metadata and {1}address are empty: give a file, or the sensor's address",
+                                     section, prefixOf(i)));
   for (std::size_t i = 0; i < settings.lidars.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (sameName(settings.lidars[i].name, settings.lidars[j].name))

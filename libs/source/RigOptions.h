@@ -9,7 +9,7 @@
 
 namespace scanloom
 {
-/** One lidar; the keys bear the prefix lidar1_, lidar2_, ... */
+/** One lidar; the keys bear the prefix lidar1_, lidar2_, ...; it exists where metadata or address is given. */
 struct LidarOptions
 {
   std::string name;
@@ -19,18 +19,25 @@ struct LidarOptions
   int port = 0;
   int imu_port = 0;
   double time_offset = 0;
+  bool configure_sensor = false;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.name, Field{"name", "", "what the lidar is called in the output; 'lidar1' if empty"});
-    visit(o.metadata, Field{"metadata", "", "the sensor's metadata JSON file; a lidar exists where this is given"});
+    visit(o.metadata,
+          Field{"metadata", "", "the sensor's metadata JSON file; empty: asked of the sensor at its address"});
     visit(o.pose,
           Field{"pose", "m, deg", "sensor frame in the body frame: [x y z yaw pitch roll]; empty: from extrinsics"});
-    visit(o.address, Field{"address", "", "the sensor's IP address; needed only where ports and serials do not tell"});
+    visit(o.address, Field{"address", "",
+                           "the sensor's IP address (or address:port of its web page): where metadata are asked for "
+                           "if no file is given, and whose packets these are"});
     visit(o.port, Field{"port", "", "UDP port of its lidar packets; 0: from the metadata", between(0, 65535)});
     visit(o.imu_port, Field{"imu_port", "", "UDP port of its IMU packets; 0: from the metadata", between(0, 65535)});
     visit(o.time_offset, Field{"time_offset", "s", "added to its stamps", between(-1e6, 1e6)});
+    visit(o.configure_sensor,
+          Field{"configure_sensor", "",
+                "true: a sensor asked for its metadata may be told to send its packets to this computer"});
   }
 };
 
@@ -97,7 +104,7 @@ struct RigSettings
   DriverOptions driver;
   RigOptions rig;
   BatcherOptions batcher;
-  std::vector<LidarOptions> lidars;  // lidar1_, lidar2_, ... as far as metadata is given
+  std::vector<LidarOptions> lidars;  // lidar1_, lidar2_, ... as far as metadata or address is given
 };
 
 /** Every key of such a section, with lidar1_ for all lidars: for manuals and default files. */

@@ -152,8 +152,8 @@ std::string SensorHttp::get(const std::string& endpoint)
   if (std::optional<std::string> answer = request("GET", endpoint, "")) return *std::move(answer);
   throw error(
       SensorFault::Refused, endpoint,
-      "there is no such endpoint (404): this is no Ouster sensor, or its firmware is older than 2.1; update it, "
-      "or save its metadata to a file and name that in the key 'metadata'");
+      "there is no such endpoint (404): this is no Ouster sensor, or its firmware is older than 2.1. Update it, "
+      "or name a file with its metadata in the key 'metadata' (for other makers: params/lidars/)");
 }
 
 std::optional<std::string> SensorHttp::find(const std::string& endpoint) { return request("GET", endpoint, ""); }
