@@ -89,7 +89,7 @@ class Display
   std::optional<LiveStatus> live_;
 };
 
-Recorded record(RigInput& input, const Rig& rig, const DriverOptions& driver, double seconds, RawlogWriter& writer)
+Recorded record(RigInput& input, Rig rig, const DriverOptions& driver, double seconds, RawlogWriter& writer)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -99,6 +99,7 @@ Recorded record(RigInput& input, const Rig& rig, const DriverOptions& driver, do
   {
     if (const std::optional<SensorEvent> event = input.next(100ms))
     {
+      input.refresh(rig);
       writer.write(*toObservation(*event, rig, driver));
       if (std::holds_alternative<Scan>(*event)) ++recorded.scans;
       if (std::holds_alternative<SensorImu>(*event)) ++recorded.imu_samples;
@@ -143,7 +144,9 @@ RawlogOptions rawlogOptions(const RecordOptions& record, const RigSettings& sett
 int run(const RecordArguments& arguments)
 {
   const Loaded<RecordSettings> loaded = load<RecordSettings>(arguments.configuration);
-  const RigSettings settings = readRigSettings(loaded.configuration, rigSection(loaded.configuration));
+  RigSettings settings = readRigSettings(loaded.configuration, rigSection(loaded.configuration));
+  if (arguments.configuration.dry_run)
+    for (LidarOptions& lidar : settings.lidars) lidar.configure_sensor = false;
   const bool live = settings.rig.pcap_input.empty();
   std::vector<std::filesystem::path> outputs{arguments.output};
   if (live && !settings.rig.pcap_output.empty()) outputs.emplace_back(settings.rig.pcap_output);

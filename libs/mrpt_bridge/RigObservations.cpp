@@ -14,14 +14,23 @@ Timestamp beforeEverything(const std::optional<SensorEvent>& first, Duration per
   if (const auto* part = std::get_if<ScanPart>(&*first)) return part->scan.start;
   return std::get<SensorImu>(*first).sample.stamp - period;
 }
+
+/** Of a lidar whose sensor has not answered yet, only the pose is known. */
+LidarDescription descriptionOf(const Rig& rig, LidarIndex lidar)
+{
+  if (rig.lidars[lidar].decoder) return rig.lidars[lidar].decoder->description();
+  LidarDescription unknown;
+  unknown.body_T_sensor = rig.sensors.at(lidar).body_T_sensor;
+  return unknown;
+}
 }  // namespace
 
 RecordingHeader recordingHeader(const Rig& rig)
 {
   RecordingHeader header;
   header.scan_rate = rig.batcher.scan_rate;
-  for (const BatchedLidar& lidar : rig.lidars)
-    header.lidars.push_back(recordedLidar(lidar.name, lidar.decoder->description()));
+  for (LidarIndex i = 0; i < rig.lidars.size(); ++i)
+    header.lidars.push_back(recordedLidar(rig.lidars[i].name, descriptionOf(rig, i)));
   return header;
 }
 
@@ -53,10 +62,12 @@ mrpt::obs::CObservation::Ptr RigObservations::next()
   {
     header_given_ = true;
     first_ = input_->next();
+    input_->refresh(rig_);
     const RecordingHeader header = recordingHeader(rig_);
     return toObservation(header, beforeEverything(first_, header.period()));
   }
   const std::optional<SensorEvent> event = first_ ? std::exchange(first_, std::nullopt) : input_->next();
+  input_->refresh(rig_);
   return event ? toObservation(*event, rig_, options_) : nullptr;
 }
 }  // namespace scanloom

@@ -1,7 +1,6 @@
 #include "simulation/DatagramStream.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
@@ -16,14 +15,12 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-int openSocket(const IpAddress& source)
+FileDescriptor openSocket(const IpAddress& source)
 {
   const SocketAddress own = SocketAddress::of(source, 0);
-  const int descriptor = ::socket(own.storage.ss_family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (descriptor >= 0 && ::bind(descriptor, own.get(), own.length) == 0) return descriptor;
-  const std::string reason = std::strerror(errno);
-  if (descriptor >= 0) ::close(descriptor);
-  throw std::runtime_error(fmt::format("no UDP socket can be bound to {}: {}", source.text(), reason));
+  FileDescriptor socket(::socket(own.storage.ss_family, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (socket.isOpen() && ::bind(socket.number(), own.get(), own.length) == 0) return socket;
+  throw std::runtime_error(fmt::format("no UDP socket can be bound to {}: {}", source.text(), std::strerror(errno)));
 }
 }  // namespace
 
@@ -48,7 +45,6 @@ DatagramStream::~DatagramStream()
 {
   stop_ = true;
   wait();
-  ::close(socket_);
 }
 
 void DatagramStream::wait()
@@ -71,7 +67,7 @@ void DatagramStream::run(const std::vector<Datagram>& datagrams, const IpAddress
     const SocketAddress to = SocketAddress::of(destination, datagram.destination_port);
     const auto size = static_cast<ssize_t>(datagram.payload.size());
     const bool done =
-        ::sendto(socket_, datagram.payload.data(), datagram.payload.size(), 0, to.get(), to.length) == size;
+        ::sendto(socket_.number(), datagram.payload.data(), datagram.payload.size(), 0, to.get(), to.length) == size;
     ++(done ? sent_ : refused_);
   }
 }

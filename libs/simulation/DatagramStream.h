@@ -1,6 +1,7 @@
 /** A recording played to UDP ports in its own rhythm. */
 #pragma once
 #include "source/Datagram.h"
+#include "source/FileDescriptor.h"
 
 #include <atomic>
 #include <chrono>
@@ -45,7 +46,7 @@ class DatagramStream
  private:
   void run(const std::vector<Datagram>&, const IpAddress& destination, const StreamOptions&);
 
-  int socket_ = -1;
+  FileDescriptor socket_;
   std::atomic<bool> stop_{false};
   std::atomic<std::uint64_t> sent_{0}, refused_{0};
   std::thread thread_;

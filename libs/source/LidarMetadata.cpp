@@ -34,12 +34,12 @@ LidarMetadata metadataOf(SensorHttp& http, LidarSensor& sensor)
 MetadataAnswer metadataOf(const LidarOptions& lidar, const SensorHttpLimits& limits)
 {
   MetadataAnswer answer;
-  answer.sensor = sensorOf(lidar);
   if (!lidar.metadata.empty())
   {
     answer.metadata = LidarMetadata{readMetadataText(lidar.metadata), lidar.metadata};
     return answer;
   }
+  answer.sensor = sensorOf(lidar);
   if (!answer.sensor)
     throw ConfigError(fmt::format("lidar '{}' has neither 'metadata' nor 'address': give one", lidar.name));
   try

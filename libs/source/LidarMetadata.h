@@ -39,7 +39,7 @@ struct MetadataAnswer
 {
   std::optional<LidarMetadata> metadata;
   std::optional<SensorHttpError> failure;
-  std::optional<LidarSensor> sensor;  // whom to ask again
+  std::optional<LidarSensor> sensor;  // whom to ask again; none where a file is given: it is kept
 };
 
 /**

@@ -38,6 +38,13 @@ bool listensTo(const LidarAddress& address, const DatagramView& datagram)
   return port != 0 && (port == address.lidar_port || port == address.imu_port);
 }
 
+void refuseWithoutPort(const std::string& label, const LidarAddress& address)
+{
+  if (address.lidar_port == 0)
+    throw std::invalid_argument(
+        fmt::format("lidar '{}' has no UDP port: give its key 'port', or metadata that names one", label));
+}
+
 /** Those that understand the packet best; none if it is foreign to all. */
 std::vector<Routed> bestOf(std::vector<Routed> candidates)
 {
@@ -52,10 +59,14 @@ std::vector<Routed> bestOf(std::vector<Routed> candidates)
 
 PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars) : lidars_(std::move(lidars))
 {
-  for (const RoutedLidar& lidar : lidars_)
-    if (lidar.address.lidar_port == 0)
-      throw std::invalid_argument(
-          fmt::format("lidar '{}' has no UDP port: give its key 'port', or metadata that names one", lidar.label));
+  for (const RoutedLidar& lidar : lidars_) refuseWithoutPort(lidar.label, lidar.address);
+}
+
+void PacketRouter::replace(std::size_t lidar, const LidarAddress& address, const PacketDecoder* decoder)
+{
+  refuseWithoutPort(lidars_[lidar].label, address);
+  lidars_[lidar].address = address;
+  lidars_[lidar].decoder = decoder;
 }
 
 std::optional<Routed> PacketRouter::route(const DatagramView& datagram)
@@ -99,7 +110,7 @@ std::vector<Routed> PacketRouter::candidates(const DatagramView& datagram) const
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
     const LidarAddress& address = lidars_[i].address;
-    if (listensTo(address, datagram) && address.source.has_value() == named)
+    if (lidars_[i].decoder && listensTo(address, datagram) && address.source.has_value() == named)
       candidates.push_back({i, lidars_[i].decoder->kind(datagram.payload)});
   }
   return candidates;

@@ -24,7 +24,7 @@ struct RoutedLidar
 {
   std::string label;  // what the configuration calls the lidar
   LidarAddress address;
-  const PacketDecoder* decoder = nullptr;  // must outlive the router
+  const PacketDecoder* decoder = nullptr;  // must outlive the router; null: not known yet, no datagram is this lidar's
 };
 
 struct Routed
@@ -65,6 +65,9 @@ class PacketRouter
    * apart.
    */
   std::optional<Routed> route(const DatagramView&);
+
+  /** The lidar is another one from here on. Throws as the constructor does. */
+  void replace(std::size_t lidar, const LidarAddress&, const PacketDecoder*);
 
   /** Datagrams that were given to no lidar; from the 1000th stranger on, under port 0 of no address. */
   const std::map<Origin, std::uint64_t>& unmatched() const { return unmatched_; }

@@ -62,6 +62,9 @@ class RigInput
 
   virtual RigAccount account() const = 0;
 
+  /** Live, lidars may become known or other ones on the way: their decoders in use are put into `rig`. */
+  virtual void refresh(Rig&) const {}
+
   /** What a person should hear of, since the last call: of the lidars, the sockets, the disk. */
   virtual std::vector<std::string> takeWarnings() = 0;
 

@@ -1,5 +1,6 @@
 #include "source/RigLive.h"
 
+#include <fmt/format.h>
 #include <pthread.h>
 
 #include <algorithm>
@@ -53,6 +54,23 @@ UdpReceiverOptions receiverOptions(const Rig& rig)
   return options;
 }
 
+std::vector<std::shared_ptr<const PacketDecoder>> decodersOf(const Rig& rig)
+{
+  std::vector<std::shared_ptr<const PacketDecoder>> decoders;
+  for (const BatchedLidar& lidar : rig.lidars) decoders.push_back(lidar.decoder);
+  return decoders;
+}
+
+std::vector<std::string> warningsOfStart(const Rig& rig, const UdpReceiver& receiver)
+{
+  std::vector<std::string> warnings = receiver.warnings();
+  for (const RigSensor& sensor : rig.sensors)
+    if (!sensor.metadata)
+      warnings.push_back(
+          fmt::format("lidar '{}' joins when its sensor answers: {}", sensor.options.name, sensor.failure));
+  return warnings;
+}
+
 const Rig& withoutRecordedImu(const Rig& rig)
 {
   if (!rig.body_imu.empty())
@@ -66,8 +84,10 @@ RigLive::RigLive(const Rig& rig)
     queue_({rig.live.scans_waiting, rig.live.scans_waiting * static_cast<std::size_t>(rig.batcher.slices)}),
     capture_(rig.live.capture.empty() ? nullptr : std::make_unique<LiveCapture>(rig.live.capture)),
     receiver_(receiverOptions(rig)),
+    sensors_(rig),
+    decoders_(decodersOf(rig)),
     account_(stream_.account()),
-    warnings_(receiver_.warnings()),
+    warnings_(warningsOfStart(rig, receiver_)),
     thread_([this] { merge(); })
 {
   ::pthread_setname_np(thread_.native_handle(), "scanloom-merge");
@@ -174,11 +194,43 @@ void RigLive::publish()
       capture_failure_told_ = true;
       warnings.push_back(failure + ": datagrams are captured no more; scans go on");
     }
+  followSensors(warnings);
 
   const std::lock_guard lock(mutex_);
   account_ = std::move(account);
   for (std::string& warning : warnings)
     if (warnings_.size() < kWarningsKept) warnings_.push_back(std::move(warning));
+}
+
+void RigLive::followSensors(std::vector<std::string>& warnings)
+{
+  for (const LidarIndex lidar : stream_.takeDoubted()) sensors_.doubt(lidar);
+  for (LiveSensors::Change& change : sensors_.takeChanges(warnings))
+  {
+    {
+      const std::lock_guard lock(mutex_);  // first: whoever gets an event finds the decoder that it is from
+      decoders_[change.lidar] = change.decoder;
+    }
+    if (!receivesAt(change.address.lidar_port))
+      warnings.push_back(
+          fmt::format("{} sends its packets to UDP port {}, where nobody listens: give the key 'port' "
+                      "and start anew",
+                      change.metadata.name, change.address.lidar_port));
+    stream_.replace(change.lidar, std::move(change.decoder), change.address);
+  }
+}
+
+bool RigLive::receivesAt(std::uint16_t port) const
+{
+  for (std::size_t i = 0; i < receiver_.ports(); ++i)
+    if (receiver_.port(i) == port) return true;
+  return false;
+}
+
+void RigLive::refresh(Rig& rig) const
+{
+  const std::lock_guard lock(mutex_);
+  for (LidarIndex i = 0; i < decoders_.size(); ++i) rig.lidars[i].decoder = decoders_[i];
 }
 
 RigAccount RigLive::account() const

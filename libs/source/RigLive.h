@@ -1,6 +1,7 @@
 #pragma once
 #include "source/EventQueue.h"
 #include "source/LiveCapture.h"
+#include "source/LiveSensors.h"
 #include "source/RigStream.h"
 #include "source/UdpReceiver.h"
 
@@ -39,6 +40,7 @@ class RigLive : public RigInput
   RigAccount account() const override;
 
   std::vector<std::string> takeWarnings() override;
+  void refresh(Rig&) const override;
 
   /**
    * Of the scan that next() gave last: from the kernel's stamp of the datagram that completed it (or, if a deadline
@@ -55,6 +57,8 @@ class RigLive : public RigInput
   void takeFrom(std::size_t port);
   void giveOut();
   void publish();
+  bool receivesAt(std::uint16_t port) const;
+  void followSensors(std::vector<std::string>& warnings);
 
   RigStream stream_;
   EventQueue queue_;
@@ -65,9 +69,12 @@ class RigLive : public RigInput
   std::uint64_t restamped_ = 0;
   bool capture_failure_told_ = false;
 
+  LiveSensors sensors_;
+
   mutable std::mutex mutex_;
-  RigAccount account_;                 // as of the latest publication
-  std::vector<std::string> warnings_;  // until they are taken, or too many
-  std::thread thread_;                 // last: it uses all of the above
+  std::vector<std::shared_ptr<const PacketDecoder>> decoders_;  // in use
+  RigAccount account_;                                          // as of the latest publication
+  std::vector<std::string> warnings_;                           // until they are taken, or too many
+  std::thread thread_;                                          // last: it uses all of the above
 };
 }  // namespace scanloom

@@ -33,7 +33,7 @@ LidarAddress addressOf(const RigSensor& lidar, const PacketDecoder* decoder)
   LidarAddress address;
   address.lidar_port = portOf(lidar.options.port, decoder, &LidarDescription::lidar_port, kUsualLidarPort);
   address.imu_port = portOf(lidar.options.imu_port, decoder, &LidarDescription::imu_port, kUsualImuPort);
-  if (lidar.sensor) address.source = lidar.sensor->address.ip;
+  if (const auto sensor = sensorOf(lidar.options)) address.source = sensor->address.ip;
   if (address.lidar_port == 0)
     throw ConfigError(
         fmt::format("lidar '{}': {} names no UDP port: give its key 'port'", lidar.options.name, lidar.metadata->name));

@@ -12,7 +12,7 @@ struct RigSensor
 {
   LidarOptions options;
   Rigid body_T_sensor;
-  std::optional<LidarSensor> sensor;      // none: it can't be asked
+  std::optional<LidarSensor> sensor;      // none: its metadata are in a file
   std::optional<LidarMetadata> metadata;  // none: not known yet
   std::string failure;                    // then: why
 };

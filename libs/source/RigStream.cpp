@@ -1,5 +1,7 @@
 #include "source/RigStream.h"
 
+#include <utility>
+
 namespace scanloom
 {
 namespace
@@ -21,7 +23,8 @@ RigStream::RigStream(const Rig& rig)
     router_(routesOf(rig)),
     batcher_(rig.lidars, rig.batcher),
     imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms)),
-    longest_effect_(2 * imu_patience_ + 10s)
+    longest_effect_(2 * imu_patience_ + 10s),
+    strange_(rig.lidars.size(), 0)
 {
   if (rig.batcher.slices > 1) batcher_.onSlice([this](const ScanSlice& slice) { parts_.push_back({copyOf(slice)}); });
 }
@@ -63,6 +66,25 @@ void RigStream::finish()
   releaseImu(Timestamp::max());
 }
 
+void RigStream::replace(LidarIndex lidar, std::shared_ptr<const PacketDecoder> decoder, const LidarAddress& address)
+{
+  router_.replace(lidar, address, decoder.get());
+  batcher_.replace(lidar, decoder);
+  lidars_[lidar].decoder = std::move(decoder);
+}
+
+std::vector<LidarIndex> RigStream::takeDoubted()
+{
+  std::vector<LidarIndex> doubted = std::exchange(restarted_, {});
+  for (LidarIndex i = 0; i < lidars_.size(); ++i)
+  {
+    const LidarCounters& counters = batcher_.counters(i);
+    const std::uint64_t strange = counters.malformed_packets + counters.doubtful_packets;
+    if (std::exchange(strange_[i], strange) != strange) doubted.push_back(i);
+  }
+  return doubted;
+}
+
 std::optional<SensorEvent> RigStream::next()
 {
   if (ready_.empty()) return std::nullopt;
@@ -101,7 +123,11 @@ void RigStream::releaseImu(Timestamp horizon)
 std::vector<std::string> RigStream::takeWarnings()
 {
   std::vector<std::string> warnings;
-  for (const Notice& notice : batcher_.takeNotices()) warnings.push_back(textOf(notice, lidars_[notice.lidar].name));
+  for (const Notice& notice : batcher_.takeNotices())
+  {
+    warnings.push_back(textOf(notice, lidars_[notice.lidar].name));
+    if (notice.kind == Notice::Kind::Restarted) restarted_.push_back(notice.lidar);
+  }
   return warnings;
 }
 

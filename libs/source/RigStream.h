@@ -32,6 +32,13 @@ class RigStream
   /** No more datagrams: all that waits comes out. */
   void finish();
 
+  /** The lidar is another one from here on, or is known at last. */
+  void replace(LidarIndex, std::shared_ptr<const PacketDecoder>, const LidarAddress&);
+
+  /** Lidars that started anew, or sent packets that fit neither their decoder nor what came before, since the last
+   * call. */
+  std::vector<LidarIndex> takeDoubted();
+
   /** The next event that is ready. */
   std::optional<SensorEvent> next();
 
@@ -61,5 +68,7 @@ class RigStream
   ImuOrder imu_order_;
   std::deque<ScanPart> parts_;  // on their way from the batcher
   std::deque<SensorEvent> ready_;
+  std::vector<std::uint64_t> strange_;  // packets per lidar that fit nothing, as of takeDoubted()
+  std::vector<LidarIndex> restarted_;
 };
 }  // namespace scanloom

@@ -1,9 +1,11 @@
 #include "source/SocketAddress.h"
 
 #include <netinet/in.h>
-#include <unistd.h>
 
+#include <cstddef>
 #include <cstring>
+
+#include "source/FileDescriptor.h"
 
 namespace scanloom
 {
@@ -51,14 +53,12 @@ std::optional<IpAddress> ownAddressTowards(const IpAddress& remote)
 {
   constexpr std::uint16_t kAnyPort = 9;  // connecting a UDP socket only looks up the route
   const SocketAddress target = SocketAddress::of(remote, kAnyPort);
-  const int descriptor = ::socket(target.storage.ss_family, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (descriptor < 0) return std::nullopt;
+  const FileDescriptor socket(::socket(target.storage.ss_family, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   SocketAddress own;
   own.length = sizeof own.storage;
-  const bool found = ::connect(descriptor, target.get(), target.length) == 0 &&
-                     ::getsockname(descriptor, reinterpret_cast<sockaddr*>(&own.storage), &own.length) == 0;
-  ::close(descriptor);
-  if (!found) return std::nullopt;
+  if (!socket.isOpen() || ::connect(socket.number(), target.get(), target.length) != 0 ||
+      ::getsockname(socket.number(), reinterpret_cast<sockaddr*>(&own.storage), &own.length) != 0)
+    return std::nullopt;
   return own.ip();
 }
 }  // namespace scanloom
