@@ -144,9 +144,7 @@ RawlogOptions rawlogOptions(const RecordOptions& record, const RigSettings& sett
 int run(const RecordArguments& arguments)
 {
   const Loaded<RecordSettings> loaded = load<RecordSettings>(arguments.configuration);
-  RigSettings settings = readRigSettings(loaded.configuration, rigSection(loaded.configuration));
-  if (arguments.configuration.dry_run)
-    for (LidarOptions& lidar : settings.lidars) lidar.configure_sensor = false;
+  const RigSettings settings = readRigSettings(loaded.configuration, rigSection(loaded.configuration));
   const bool live = settings.rig.pcap_input.empty();
   std::vector<std::filesystem::path> outputs{arguments.output};
   if (live && !settings.rig.pcap_output.empty()) outputs.emplace_back(settings.rig.pcap_output);

@@ -45,7 +45,8 @@ MetadataAnswer metadataOf(const LidarOptions& lidar, const SensorHttpLimits& lim
   try
   {
     SensorHttp http(answer.sensor->address, limits);
-    answer.metadata = metadataOf(http, *answer.sensor);
+    LidarSensor only_asked{answer.sensor->address};
+    answer.metadata = metadataOf(http, only_asked);
   }
   catch (const SensorHttpError& failure)
   {

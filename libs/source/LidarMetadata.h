@@ -44,7 +44,7 @@ struct MetadataAnswer
 
 /**
  * The file if the key 'metadata' names one, the sensor otherwise. Throws std::invalid_argument if the file can't be
- * read, ConfigError if neither is given; what goes wrong with a sensor is in the answer.
+ * read, ConfigError if neither is given; what goes wrong with a sensor is in the answer. Writes to no sensor.
  */
 MetadataAnswer metadataOf(const LidarOptions&, const SensorHttpLimits& = kRigHttpLimits);
 

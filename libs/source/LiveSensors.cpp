@@ -30,9 +30,11 @@ LiveSensors::LiveSensors(const Rig& rig) : capture_(rig.live.capture)
   for (const RigSensor& sensor : rig.sensors) lidars_.push_back({sensor, sensor.options.name, 0, false, std::nullopt});
   for (LidarIndex i = 0; i < lidars_.size(); ++i)
   {
-    const RigSensor& lidar = lidars_[i].sensor;
-    if (!lidar.metadata) inquiries_.ask(i, *lidar.sensor, lidar.failure);
-    if (lidar.metadata && lidar.sensor) saveMetadata(lidars_[i]);
+    RigSensor& lidar = lidars_[i].sensor;
+    if (!lidar.sensor) continue;
+    if (!lidar.metadata || lidar.sensor->configure) inquiries_.ask(i, *lidar.sensor, lidar.failure);
+    lidar.sensor->configure = false;  // later on it is only asked
+    if (lidar.metadata) saveMetadata(lidars_[i]);
   }
 }
 

@@ -20,7 +20,7 @@ class LiveSensors
   static constexpr Duration kBetweenDoubts = 2s;
 
   /**
-   * Begins to ask those that are not known. What sensors say is written beside the rig's capture, if it has one:
+   * Begins to ask those that are not known, and to configure those that may be. What sensors say is written beside the rig's capture, if it has one:
    * without it nobody could read the packets (x.pcap: x.left.json, and x.left.2.json after a change).
    */
   explicit LiveSensors(const Rig&);

@@ -131,6 +131,14 @@ Columns columnsOf(const std::vector<Scan>& scans, std::uint8_t sensor, std::uint
   return columns;
 }
 
+std::vector<std::string> writesTo(const FakeSensor& sensor)
+{
+  std::vector<std::string> requests = sensor.requests();
+  const auto asks = [](const std::string& request) { return request.rfind("GET ", 0) == 0; };
+  requests.erase(std::remove_if(requests.begin(), requests.end(), asks), requests.end());
+  return requests;
+}
+
 std::string joined(const std::vector<std::string>& lines)
 {
   std::string text;
@@ -282,4 +290,17 @@ TEST_F(TwoSensors, oneThatSendsToAPortNobodyListensAtIsNamed)
     told += joined(live.takeWarnings());
   }
   EXPECT_NE(told.find(fmt::format("UDP port {}, where nobody listens", port_b_)), std::string::npos) << told;
+}
+
+TEST_F(TwoSensors, areToldToSendHereIfTheyMayBeConfigured)
+{
+  const Rig with_wish = rig("lidar2_configure_sensor = true\n");
+  EXPECT_TRUE(writesTo(b_).empty());
+  {
+    RigLive live(with_wish);
+    for (int i = 0; i < 300 && writesTo(b_).empty(); ++i) std::this_thread::sleep_for(10ms);
+    std::this_thread::sleep_for(600ms);  // nor is it told again
+  }
+  EXPECT_EQ(writesTo(b_).size(), 1u);
+  EXPECT_TRUE(writesTo(a_).empty());
 }

@@ -151,16 +151,21 @@ TEST(RigFromSensors, aLidarNeedsMetadataOrAnAddress)
   EXPECT_THROW(makeRig(settingsOf(lidarIni(1, "address", "os-122.local"))), ConfigError);
 }
 
-TEST(RigFromSensors, configuresASensorOnceAndOnlyIfAskedTo)
+TEST(RigFromSensors, writesToNoSensorBeforeItIsLive)
+{
+  const FakeSensor sensor(someMetadata());
+  const Rig rig = makeRig(settingsOf(lidarIni(1, "address", sensor.address(), "lidar1_configure_sensor = true\n")));
+  EXPECT_FALSE(writes(sensor));
+  EXPECT_TRUE(rig.sensors[0].sensor->configure);
+}
+
+TEST(SensorInquiries, configureASensorOnceAndAskItWhenItHasStartedAnew)
 {
   FakeSensorOptions options;
   options.initialising = 300ms;
   const FakeSensor sensor(someMetadata(), options);
-  const Rig rig = makeRig(settingsOf(lidarIni(1, "address", sensor.address(), "lidar1_configure_sensor = true\n")));
-  EXPECT_EQ(rig.lidars[0].decoder, nullptr);  // it starts anew
-
   SensorInquiries inquiries;
-  inquiries.ask(0, *rig.sensors[0].sensor);
+  inquiries.ask(0, {addressOf(sensor), true});
   const auto answers = waitForAnswer(inquiries);
   ASSERT_EQ(answers.size(), 1u);
   const auto config = nlohmann::json::parse(answers[0].metadata.text)["config_params"];
