@@ -18,6 +18,7 @@ struct BatchedLidar
 
 struct BatcherOptions
 {
+  std::string batching = "time";
   double scan_rate = 10.0;
   double scan_phase_ms = 0.0;
   int slices = 1;
@@ -29,6 +30,9 @@ struct BatcherOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
+    visit(o.batching, Field{"batching", "",
+                            "by time, or whole turns of each lidar behind each other for comparison: nearest_turns or "
+                            "one_turn_of_each, which know none of the keys below"});
     visit(o.scan_rate,
           Field{"scan_rate", "Hz", "scans per second, whatever the lidars' own rates are", between(0.1, 1000)});
     visit(o.scan_phase_ms,

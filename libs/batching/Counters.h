@@ -1,4 +1,6 @@
 #pragma once
+#include "lidar/PacketDecoder.h"
+
 #include <cstdint>
 
 namespace scanloom
@@ -36,6 +38,9 @@ struct LidarCounters
 
   std::uint64_t sent() const { return received + lost; }
 };
+
+/** Whether it is a lidar packet; any other is counted for what it is. */
+bool countUnlessLidar(PacketKind, LidarCounters&);
 
 /** Calls visit(name, count) for each, under the names of reports. */
 template <typename Visitor>

@@ -78,25 +78,7 @@ void LidarInput::hear(Timestamp received)
 
 bool LidarInput::isLidarPacket(Bytes packet)
 {
-  switch (decoder_ ? decoder_->kind(packet) : PacketKind::Other)
-  {
-    case PacketKind::Lidar:
-      return true;
-    case PacketKind::Malformed:
-      ++counters.malformed_packets;
-      return false;
-    case PacketKind::BadCrc:
-      ++counters.bad_crc_packets;
-      return false;
-    case PacketKind::Foreign:
-      ++counters.foreign_packets;
-      return false;
-    case PacketKind::Imu:
-    case PacketKind::Other:
-      break;
-  }
-  ++counters.other_packets;
-  return false;
+  return countUnlessLidar(decoder_ ? decoder_->kind(packet) : PacketKind::Other, counters);
 }
 
 /** The blocks that are valid and agree with each other; the others are counted. */

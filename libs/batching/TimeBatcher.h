@@ -3,7 +3,7 @@
  * EuroCOW 2025, section 2.1. Where the paper waits for every lidar, watermarks with deadlines bound the wait.
  */
 #pragma once
-#include "batching/BatcherOptions.h"
+#include "batching/Batcher.h"
 #include "batching/LidarInput.h"
 #include "batching/Notice.h"
 #include "batching/Scan.h"
@@ -19,11 +19,9 @@ namespace scanloom
  * Packets in, scans out, in one total order (stamp, sensor_id, measurement_id). The result depends on the packets and
  * their record times alone; where all lidars share a clock, any arrival order within the deadline gives the same bits.
  */
-class TimeBatcher
+class TimeBatcher : public Batcher
 {
  public:
-  using SliceSink = std::function<void(const ScanSlice&)>;
-
   /** Throws std::invalid_argument without lidars, with more than 256, or for an unknown other_clock. */
   TimeBatcher(const std::vector<BatchedLidar>&, const BatcherOptions&);
 
@@ -32,38 +30,38 @@ class TimeBatcher
    * the deadlines. IMU packets are not for here: see ImuOrder. With other_clock = refuse, throws std::runtime_error if
    * the lidars' clocks differ by more than max_clock_skew at the start.
    */
-  std::vector<Scan> push(LidarIndex, Bytes packet, Timestamp received);
+  std::vector<Scan> push(LidarIndex, Bytes packet, Timestamp received) override;
 
   /** Time has passed without a packet. */
-  std::vector<Scan> advance(Timestamp now);
+  std::vector<Scan> advance(Timestamp now) override;
 
   /** No more packets: everything that waits comes out; the scan that is cut by the end is marked incomplete. */
-  std::vector<Scan> finish();
+  std::vector<Scan> finish() override;
 
   /** Called in push, advance and finish for each slice as soon as it is complete: see ScanSlice. */
-  void onSlice(SliceSink sink) { on_slice_ = std::move(sink); }
+  void onSlice(SliceSink sink) override { on_slice_ = std::move(sink); }
 
   /** The lidar is another one from here on, or is known at last; what waits is still read by the old decoder. */
   void replace(LidarIndex, std::shared_ptr<const PacketDecoder>);
 
   /** The memory of a scan that nobody needs any more, for those to come. */
-  void recycle(Scan&&);
+  void recycle(Scan&&) override;
 
   /** Everything before this stamp has been given out. */
-  std::optional<Timestamp> horizon() const;
+  std::optional<Timestamp> horizon() const override;
 
   /** What is added to this lidar's stamps at present, its IMU's included. */
-  Duration timeOffset(LidarIndex lidar) const { return inputs_[lidar].clock.offset(); }
+  Duration timeOffset(LidarIndex lidar) const override { return inputs_[lidar].clock.offset(); }
 
   /** What a person should hear of, since the last call. */
-  std::vector<Notice> takeNotices();
+  std::vector<Notice> takeNotices() override;
 
   /** At most queue_packets. */
   std::size_t waitingPackets(LidarIndex lidar) const { return inputs_[lidar].queue.packets(); }
 
-  const LidarCounters& counters(LidarIndex lidar) const { return inputs_[lidar].counters; }
+  const LidarCounters& counters(LidarIndex lidar) const override { return inputs_[lidar].counters; }
   const LidarClock& clock(LidarIndex lidar) const { return inputs_[lidar].clock; }
-  const std::vector<BatchedLidar>& lidars() const { return lidars_; }
+  const std::vector<BatchedLidar>& lidars() const override { return lidars_; }
 
  private:
   void take(LidarIndex, Bytes packet, Timestamp received);

@@ -19,6 +19,9 @@ constexpr double kNearestAtMost = 0.55;
 // Per lidar, if the others give none to go with them.
 constexpr std::size_t kTurnsThatWait = 4;
 
+// Of those whose consumer has done with them.
+constexpr std::size_t kMostSpareScans = 4;
+
 Duration distance(const Turn& a, const Turn& b) { return std::chrono::abs(a.middle() - b.middle()); }
 }  // namespace
 
@@ -56,24 +59,7 @@ bool WholeTurns::accepts(LidarIndex index, Bytes packet)
 {
   const PacketDecoder& decoder = *inputs_[index].decoder;
   LidarCounters& count = lidars_[index].counters;
-  switch (decoder.kind(packet))
-  {
-    case PacketKind::Lidar:
-      break;
-    case PacketKind::Malformed:
-      ++count.malformed_packets;
-      return false;
-    case PacketKind::BadCrc:
-      ++count.bad_crc_packets;
-      return false;
-    case PacketKind::Foreign:
-      ++count.foreign_packets;
-      return false;
-    case PacketKind::Imu:
-    case PacketKind::Other:
-      ++count.other_packets;
-      return false;
-  }
+  if (!countUnlessLidar(decoder.kind(packet), count)) return false;
   decoder.readBlocks(packet, blocks_);
   if (blocks_.empty()) return false;
   ++count.packets;
@@ -175,9 +161,26 @@ void WholeTurns::releaseSet(std::vector<Scan>& scans)
   set_began_.reset();
 }
 
-Scan WholeTurns::concatenate(ChosenTurns turns)
+void WholeTurns::recycle(Scan&& scan)
+{
+  if (spare_.size() < kMostSpareScans) spare_.push_back(std::move(scan));
+}
+
+Scan WholeTurns::emptyScan()
 {
   Scan scan;
+  if (spare_.empty()) return scan;
+  std::swap(scan.points, spare_.back().points);
+  std::swap(scan.columns, spare_.back().columns);
+  spare_.pop_back();
+  scan.points.clear();
+  scan.columns.clear();
+  return scan;
+}
+
+Scan WholeTurns::concatenate(ChosenTurns turns)
+{
+  Scan scan = emptyScan();
   scan.columns_of.assign(lidars_.size(), 0);
   scan.start = Timestamp::max();
   Timestamp end = Timestamp::min();

@@ -4,7 +4,7 @@
  * phase of the rotors; see doc/batching.md, "Against whole turns".
  */
 #pragma once
-#include "batching/TimeBatcher.h"
+#include "batching/Batcher.h"
 #include "batching/TurnCollector.h"
 
 #include <deque>
@@ -40,29 +40,39 @@ enum class TurnGrouping
  *
  * Host time plays no role: a lidar that falls silent amid a turn keeps that turn until it is heard again.
  */
-class WholeTurns
+class WholeTurns : public Batcher
 {
  public:
   /** Throws std::invalid_argument without lidars, with more than 256 and for one without a decoder. */
   explicit WholeTurns(std::vector<BatchedLidar>, TurnGrouping = TurnGrouping::Nearest);
 
   /** Scans completed by this packet, oldest first. */
-  std::vector<Scan> push(LidarIndex, Bytes packet, Timestamp received);
+  std::vector<Scan> push(LidarIndex, Bytes packet, Timestamp received) override;
 
   /** Time has passed without a packet: nothing follows from it. */
-  std::vector<Scan> advance(Timestamp) { return {}; }
+  std::vector<Scan> advance(Timestamp) override { return {}; }
 
   /** No more packets: what can still become a scan comes out, with turns that the end of input cut. */
-  std::vector<Scan> finish();
+  std::vector<Scan> finish() override;
 
   /**
    * Where packets come in order, no scan to come begins before this stamp; a lidar not heard yet, or silent for four
    * turns, is not waited for. None at the start.
    */
-  std::optional<Timestamp> horizon() const;
+  std::optional<Timestamp> horizon() const override;
 
-  const LidarCounters& counters(LidarIndex lidar) const { return lidars_[lidar].counters; }
-  const std::vector<BatchedLidar>& lidars() const { return inputs_; }
+  Duration timeOffset(LidarIndex lidar) const override { return inputs_[lidar].time_offset; }
+
+  /** Never called: a turn has no slices. */
+  void onSlice(SliceSink) override {}
+
+  /** None: turns are what they are, whatever becomes of a lidar or its clock. */
+  std::vector<Notice> takeNotices() override { return {}; }
+
+  void recycle(Scan&&) override;
+
+  const LidarCounters& counters(LidarIndex lidar) const override { return lidars_[lidar].counters; }
+  const std::vector<BatchedLidar>& lidars() const override { return inputs_; }
 
  private:
   struct Lidar
@@ -83,6 +93,7 @@ class WholeTurns
   ChosenTurns chooseNearest();
   void addToSet(LidarIndex, Turn, std::vector<Scan>&);
   void releaseSet(std::vector<Scan>&);
+  Scan emptyScan();
   Scan concatenate(ChosenTurns);
   static void drop(Lidar&);
 
@@ -91,6 +102,7 @@ class WholeTurns
   std::vector<Lidar> lidars_;
   ChosenTurns set_;                       // OneOfEach: under collection
   std::optional<Timestamp> set_began_;    // OneOfEach: end of its first turn
+  std::vector<Scan> spare_;               // for their memory
   std::vector<MeasurementBlock> blocks_;  // of the packet in hand; kept for its memory
   bool finished_ = false;
 };
