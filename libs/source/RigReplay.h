@@ -21,7 +21,7 @@ class RigReplay : public RigInput
   RigAccount account() const override;
   std::vector<std::string> takeWarnings() override { return stream_.takeWarnings(); }
 
-  const TimeBatcher& batcher() const { return stream_.batcher(); }
+  const Batcher& batcher() const { return stream_.batcher(); }
   const PacketRouter& router() const { return stream_.router(); }
   CaptureCounters captureCounters() const { return captures_.counters(); }
   std::uint64_t lateImuSamples() const { return stream_.lateImuSamples(); }

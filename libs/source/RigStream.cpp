@@ -21,12 +21,12 @@ RigStream::RigStream(const Rig& rig)
   : lidars_(rig.lidars),
     body_imu_(rig.body_imu),
     router_(routesOf(rig)),
-    batcher_(rig.lidars, rig.batcher),
+    batcher_(makeBatcher(rig.lidars, rig.batcher)),
     imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms)),
     longest_effect_(2 * imu_patience_ + 10s),
     strange_(rig.lidars.size(), 0)
 {
-  if (rig.batcher.slices > 1) batcher_.onSlice([this](const ScanSlice& slice) { parts_.push_back({copyOf(slice)}); });
+  if (rig.batcher.slices > 1) batcher_->onSlice([this](const ScanSlice& slice) { parts_.push_back({copyOf(slice)}); });
 }
 
 void RigStream::take(const DatagramView& datagram)
@@ -40,12 +40,12 @@ void RigStream::take(const DatagramView& datagram)
     const BatchedLidar& lidar = lidars_[routed->lidar];
     for (ImuSample sample : lidar.decoder->imuSamples(datagram.payload))
     {
-      sample.stamp += batcher_.timeOffset(routed->lidar);
+      sample.stamp += batcher_->timeOffset(routed->lidar);
       imu_order_.add({static_cast<int>(routed->lidar), sample});
     }
   }
   else
-    release(batcher_.push(routed->lidar, datagram.payload, datagram.received));
+    release(batcher_->push(routed->lidar, datagram.payload, datagram.received));
 }
 
 void RigStream::advance(Timestamp now)
@@ -56,20 +56,20 @@ void RigStream::advance(Timestamp now)
   while (time_ < last)
   {
     time_ += kTick;
-    release(batcher_.advance(time_));
+    release(batcher_->advance(time_));
   }
 }
 
 void RigStream::finish()
 {
-  release(batcher_.finish());
+  release(batcher_->finish());
   releaseImu(Timestamp::max());
 }
 
 void RigStream::replace(LidarIndex lidar, std::shared_ptr<const PacketDecoder> decoder, const LidarAddress& address)
 {
   router_.replace(lidar, address, decoder.get());
-  batcher_.replace(lidar, decoder);
+  batcher_->replace(lidar, decoder);
   lidars_[lidar].decoder = std::move(decoder);
 }
 
@@ -78,7 +78,7 @@ std::vector<LidarIndex> RigStream::takeDoubted()
   std::vector<LidarIndex> doubted = std::exchange(restarted_, {});
   for (LidarIndex i = 0; i < lidars_.size(); ++i)
   {
-    const LidarCounters& counters = batcher_.counters(i);
+    const LidarCounters& counters = batcher_->counters(i);
     const std::uint64_t strange = counters.malformed_packets + counters.doubtful_packets;
     if (std::exchange(strange_[i], strange) != strange) doubted.push_back(i);
   }
@@ -102,7 +102,7 @@ void RigStream::release(std::vector<Scan> scans)
     ready_.emplace_back(std::move(scan));
   }
   releaseParts(Timestamp::max());
-  if (const auto horizon = batcher_.horizon()) releaseImu(*horizon - imu_patience_);
+  if (const auto horizon = batcher_->horizon()) releaseImu(*horizon - imu_patience_);
 }
 
 /** Those that are over by `end`: where one packet completes several scans, the batcher gives the slices of all first.
@@ -123,7 +123,7 @@ void RigStream::releaseImu(Timestamp horizon)
 std::vector<std::string> RigStream::takeWarnings()
 {
   std::vector<std::string> warnings;
-  for (const Notice& notice : batcher_.takeNotices())
+  for (const Notice& notice : batcher_->takeNotices())
   {
     warnings.push_back(textOf(notice, lidars_[notice.lidar].name));
     if (notice.kind == Notice::Kind::Restarted) restarted_.push_back(notice.lidar);
@@ -134,7 +134,7 @@ std::vector<std::string> RigStream::takeWarnings()
 RigAccount RigStream::account() const
 {
   RigAccount account;
-  for (LidarIndex i = 0; i < lidars_.size(); ++i) account.lidars.push_back({lidars_[i].name, batcher_.counters(i)});
+  for (LidarIndex i = 0; i < lidars_.size(); ++i) account.lidars.push_back({lidars_[i].name, batcher_->counters(i)});
   account.unmatched = router_.unmatched();
   account.late_imu_samples = imu_order_.late();
   return account;

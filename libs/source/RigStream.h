@@ -20,7 +20,7 @@ class RigStream
   RigStream(const RigStream&) = delete;
   RigStream& operator=(const RigStream&) = delete;
 
-  /** In the order of receive times, as far as possible. Throws what PacketRouter::route and TimeBatcher::push throw. */
+  /** In the order of receive times, as far as possible. Throws what PacketRouter::route and Batcher::push throw. */
   void take(const DatagramView&);
 
   /** Every datagram received before `now` was taken. */
@@ -48,7 +48,7 @@ class RigStream
   /** Without `input`, which the stream does not know. */
   RigAccount account() const;
 
-  const TimeBatcher& batcher() const { return batcher_; }
+  const Batcher& batcher() const { return *batcher_; }
   const PacketRouter& router() const { return router_; }
   std::uint64_t lateImuSamples() const { return imu_order_.late(); }
 
@@ -61,7 +61,7 @@ class RigStream
   std::vector<ImuSample> body_imu_;
   std::size_t next_body_imu_ = 0;
   PacketRouter router_;
-  TimeBatcher batcher_;
+  std::unique_ptr<Batcher> batcher_;
   Duration imu_patience_;
   Duration longest_effect_;  // of one silence on the batcher: after it, one step is as good as many
   Timestamp time_ = Timestamp::min();
