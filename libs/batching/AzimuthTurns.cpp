@@ -116,7 +116,7 @@ class AzimuthTurns : public TurnCollector
   {
     turn_.whole = turn_.whole && ended;
     over.push_back(std::move(turn_));
-    turn_ = Turn{};
+    turn_ = emptyTurn();
   }
 
   std::shared_ptr<const PacketDecoder> decoder_;

@@ -31,7 +31,7 @@ struct NewestTurn
   std::uint32_t frame_id = 0;
   std::size_t first_expected = 0;  // the packets before this went out before we listened
   std::vector<bool> arrived;       // by packet of the turn
-  std::optional<Turn> turn = Turn{};
+  std::optional<Turn> turn;
 };
 
 class FrameIdTurns : public TurnCollector
@@ -119,7 +119,7 @@ class FrameIdTurns : public TurnCollector
 
   void beginTurn(std::uint32_t frame_id, std::size_t first_expected)
   {
-    newest_ = NewestTurn{frame_id, first_expected, std::vector<bool>(sent_.size())};
+    newest_ = NewestTurn{frame_id, first_expected, std::vector<bool>(sent_.size()), emptyTurn()};
   }
 
   void addColumns(Bytes packet, const std::vector<MeasurementBlock>& blocks, LidarCounters& count)

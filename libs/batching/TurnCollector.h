@@ -30,6 +30,15 @@ class TurnCollector
 
   /** The smallest stamp of the turn under way; none between two turns. */
   virtual std::optional<Timestamp> underWaySince() const = 0;
+
+  /** The memory of a turn that nobody needs any more, for those to come. */
+  void recycle(Turn&& turn) { spare_.push_back(std::move(turn)); }
+
+ protected:
+  Turn emptyTurn();
+
+ private:
+  std::vector<Turn> spare_;
 };
 
 /** For packets with frame ids: a turn is out with its last packet, or when a later one begins without it. */

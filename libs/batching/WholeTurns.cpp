@@ -206,11 +206,12 @@ Scan WholeTurns::concatenate(ChosenTurns turns)
       column.first_point += first_point;
       scan.columns.push_back(column);
     }
-    for (std::size_t p = 0; p < turns[i]->points.size(); ++p) scan.points.append(turns[i]->points, p);
+    scan.points.append(turns[i]->points);
     for (std::size_t p = first_point; p < scan.points.size(); ++p) scan.points.t[p] += later;
     scan.columns_of[i] = static_cast<std::uint32_t>(turns[i]->columns.size());
     lidars_[i].counters.emitted += turns[i]->columns.size();
     lidars_[i].counters.points += turns[i]->points.size();
+    lidars_[i].turns->recycle(std::move(*turns[i]));
   }
   return scan;
 }
@@ -218,6 +219,7 @@ Scan WholeTurns::concatenate(ChosenTurns turns)
 void WholeTurns::drop(Lidar& lidar)
 {
   lidar.counters.dropped += lidar.waiting.front().columns.size();
+  lidar.turns->recycle(std::move(lidar.waiting.front()));
   lidar.waiting.pop_front();
 }
 

@@ -1,5 +1,6 @@
 #include "core/PointCloud.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace scanloom
@@ -12,6 +13,24 @@ void PointCloud::resize(std::size_t n)
 void PointCloud::reserve(std::size_t n)
 {
   forEachField(*this, [n](auto& field) { field.reserve(n); });
+}
+
+void PointCloud::append(const PointCloud& other)
+{
+  const PointRoom to = room(other.size());
+  const auto copy = [](const auto& from, auto* target) { std::copy(from.begin(), from.end(), target); };
+  copy(other.x, to.x);
+  copy(other.y, to.y);
+  copy(other.z, to.z);
+  copy(other.intensity, to.intensity);
+  copy(other.t, to.t);
+  copy(other.ring, to.ring);
+  copy(other.column, to.column);
+  copy(other.sensor_id, to.sensor_id);
+  copy(other.range, to.range);
+  copy(other.signal, to.signal);
+  copy(other.near_ir, to.near_ir);
+  grow(other.size());
 }
 
 void PointCloud::append(const PointCloud& other, std::size_t i)

@@ -52,6 +52,9 @@ struct PointCloud
   }
   void grow(std::size_t count);
 
+  /** Copies all points of `other` to the end. */
+  void append(const PointCloud& other);
+
   /** Copies point `from` of `other` to the end. */
   void append(const PointCloud& other, std::size_t from);
 
