@@ -35,6 +35,9 @@ class Batcher
   /** Called in push, advance and finish for each slice as soon as it is complete: see ScanSlice. */
   virtual void onSlice(SliceSink) = 0;
 
+  /** The lidar is another one from here on, or is known at last; what waits is still read by the old decoder. */
+  virtual void replace(LidarIndex, std::shared_ptr<const PacketDecoder>) = 0;
+
   /** The memory of a scan that nobody needs any more, for those to come. */
   virtual void recycle(Scan&&) = 0;
 

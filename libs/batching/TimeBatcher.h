@@ -42,7 +42,7 @@ class TimeBatcher : public Batcher
   void onSlice(SliceSink sink) override { on_slice_ = std::move(sink); }
 
   /** The lidar is another one from here on, or is known at last; what waits is still read by the old decoder. */
-  void replace(LidarIndex, std::shared_ptr<const PacketDecoder>);
+  void replace(LidarIndex, std::shared_ptr<const PacketDecoder>) override;
 
   /** The memory of a scan that nobody needs any more, for those to come. */
   void recycle(Scan&&) override;

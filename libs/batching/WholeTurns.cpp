@@ -35,14 +35,26 @@ WholeTurns::WholeTurns(std::vector<BatchedLidar> lidars, TurnGrouping grouping)
     if (!inputs_[i].decoder)
       throw std::invalid_argument(
           fmt::format("lidar '{}' is not known yet: whole turns need its metadata at the start", inputs_[i].name));
-    const LidarDescription& description = inputs_[i].decoder->description();
-    const auto make = description.numbering == Numbering::Ids ? makeFrameIdTurns : makeAzimuthTurns;
-    lidars_.push_back({make(inputs_[i].decoder, inputs_[i].time_offset, static_cast<std::uint8_t>(i)),
-                       fromSeconds(1 / description.frame_rate),
-                       {},
-                       {},
-                       {}});
+    lidars_.emplace_back();
+    collect(i);
   }
+}
+
+void WholeTurns::collect(LidarIndex lidar)
+{
+  const LidarDescription& description = inputs_[lidar].decoder->description();
+  const auto make = description.numbering == Numbering::Ids ? makeFrameIdTurns : makeAzimuthTurns;
+  lidars_[lidar].turns =
+      make(inputs_[lidar].decoder, inputs_[lidar].time_offset, static_cast<std::uint8_t>(lidar));
+  lidars_[lidar].period = fromSeconds(1 / description.frame_rate);
+}
+
+void WholeTurns::replace(LidarIndex lidar, std::shared_ptr<const PacketDecoder> decoder)
+{
+  for (Turn& turn : lidars_[lidar].turns->finish(lidars_[lidar].counters))
+    lidars_[lidar].waiting.push_back(std::move(turn));
+  inputs_[lidar].decoder = std::move(decoder);
+  collect(lidar);
 }
 
 std::vector<Scan> WholeTurns::push(LidarIndex index, Bytes packet, Timestamp received)

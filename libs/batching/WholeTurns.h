@@ -69,6 +69,9 @@ class WholeTurns : public Batcher
   /** None: turns are what they are, whatever becomes of a lidar or its clock. */
   std::vector<Notice> takeNotices() override { return {}; }
 
+  /** What was heard of the turn under way is taken for a turn. */
+  void replace(LidarIndex, std::shared_ptr<const PacketDecoder>) override;
+
   void recycle(Scan&&) override;
 
   const LidarCounters& counters(LidarIndex lidar) const override { return lidars_[lidar].counters; }
@@ -78,7 +81,7 @@ class WholeTurns : public Batcher
   struct Lidar
   {
     std::unique_ptr<TurnCollector> turns;
-    Duration period;  // nominal, of a turn
+    Duration period{0};  // nominal, of a turn
     LidarCounters counters;
     std::deque<Turn> waiting;                    // oldest first
     std::optional<Timestamp> newest_turn_began;  // given out or waiting
@@ -86,6 +89,7 @@ class WholeTurns : public Batcher
   };
   using ChosenTurns = std::vector<std::optional<Turn>>;  // by lidar
 
+  void collect(LidarIndex);
   bool accepts(LidarIndex, Bytes packet);
   void add(LidarIndex, Turn, std::vector<Scan>&);
   void releaseNearest(std::vector<Scan>&);
