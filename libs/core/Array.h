@@ -33,7 +33,12 @@ class Array
   Array() = default;
   Array(std::initializer_list<T> values) { assign(values.begin(), values.end()); }
   Array(const Array& other) { assign(other.begin(), other.end()); }
-  Array(Array&& other) noexcept { swap(other); }
+  Array(Array&& other) noexcept
+    : begin_(std::exchange(other.begin_, nullptr)),
+      end_(std::exchange(other.end_, nullptr)),
+      limit_(std::exchange(other.limit_, nullptr))
+  {
+  }
   Array& operator=(const Array& other)
   {
     if (this != &other) assign(other.begin(), other.end());

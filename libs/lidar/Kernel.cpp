@@ -13,7 +13,7 @@ bool hasAvx512()
 {
   return hasAvx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
          __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-         __builtin_cpu_supports("vpclmulqdq");
+         __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("vpclmulqdq");
 }
 
 std::vector<Kernel> findRunnable()

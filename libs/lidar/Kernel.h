@@ -9,7 +9,7 @@ enum class Kernel
 {
   Portable,  // what every machine of the build's target has
   Avx2,      // AVX2, BMI2, PCLMULQDQ: Intel since 2013, AMD since 2015
-  Avx512,    // F, BW, DQ, VL, VPCLMULQDQ: Intel servers since 2021, AMD since 2022
+  Avx512,    // F, BW, DQ, VL, VBMI, VPCLMULQDQ: Intel servers since 2021, AMD since 2022
 };
 
 std::string_view nameOf(Kernel);

@@ -55,4 +55,36 @@ struct Fields
   static constexpr OusterField kReflectivity = kFirst ? OusterField::Reflectivity : OusterField::Reflectivity2;
   static constexpr OusterField kSignal = kFirst ? OusterField::Signal : OusterField::Signal2;
 };
+/**
+ * Asks for the lines that the next column is going to fill. Stores leave the processor in order, so each one whose line
+ * is still far away holds up all that follow it, those of other fields too.
+ */
+constexpr std::size_t kAhead = 128;  // points
+
+/** Once per block of sixteen points: a line of each field of four bytes. */
+[[gnu::always_inline]] inline void fetchWideFields(const PointRoom& to, std::size_t n)
+{
+  __builtin_prefetch(to.x + n + kAhead, 1);
+  __builtin_prefetch(to.y + n + kAhead, 1);
+  __builtin_prefetch(to.z + n + kAhead, 1);
+  __builtin_prefetch(to.range + n + kAhead, 1);
+  __builtin_prefetch(to.t + n + kAhead, 1);
+}
+
+/** Once per column. */
+[[gnu::always_inline]] inline void fetchNarrowFields(const PointRoom& to, std::size_t n)
+{
+  for (std::size_t ahead = kAhead; ahead < 2 * kAhead; ahead += 32)
+  {
+    __builtin_prefetch(to.signal + n + ahead, 1);
+    __builtin_prefetch(to.near_ir + n + ahead, 1);
+    __builtin_prefetch(to.column + n + ahead, 1);
+  }
+  for (std::size_t ahead = kAhead; ahead < 2 * kAhead; ahead += 64)
+  {
+    __builtin_prefetch(to.intensity + n + ahead, 1);
+    __builtin_prefetch(to.ring + n + ahead, 1);
+    __builtin_prefetch(to.sensor_id + n + ahead, 1);
+  }
+}
 }  // namespace scanloom::ouster_kernels

@@ -125,16 +125,6 @@ AVX2_INLINE __m256i apart(__m256i words)
   return _mm256_permutevar8x32_epi32(_mm256_shuffle_epi8(words, within_halves), across);
 }
 
-/** Asks for lines that are written soon; else every store waits for its own. The narrower fields follow by themselves.
- */
-AVX2_INLINE void fetchAhead(const PointRoom& to, std::size_t n)
-{
-  constexpr std::size_t kAhead = 128;  // points: a column
-  for (float* line : {to.x, to.y, to.z}) _m_prefetchw(line + n + kAhead);
-  _m_prefetchw(to.range + n + kAhead);
-  _m_prefetchw(to.t + n + kAhead);
-}
-
 /** The returns of the eight channels from `ring` on go to `to`, from the n-th on. Returns how many there are. */
 template <std::size_t kProfile, Return kReturn>
 AVX2_INLINE std::size_t writeBlock(const std::uint8_t* channels, const Column& column, const BeamBlock& beams,
@@ -154,7 +144,7 @@ AVX2_INLINE std::size_t writeBlock(const std::uint8_t* channels, const Column& c
   const __m128i lanes = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kOrders.lanes[set]));
   const __m256i order = _mm256_cvtepu8_epi32(lanes);
 
-  if (ring % 16 == 0) fetchAhead(to, n);
+  if (ring % 16 == 0) fetchWideFields(to, n);
   const std::size_t first = ring % BeamBlock::kBeams;
   const __m256 along = _mm256_sub_ps(_mm256_cvtepi32_ps(range), column.range_offset);
   _mm256_storeu_ps(to.x + n, _mm256_permutevar8x32_ps(coordinate(column, beams, first, 0, along), order));
@@ -162,8 +152,12 @@ AVX2_INLINE std::size_t writeBlock(const std::uint8_t* channels, const Column& c
   _mm256_storeu_ps(to.z + n, _mm256_permutevar8x32_ps(coordinate(column, beams, first, 2, along), order));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to.range + n), _mm256_permutevar8x32_epi32(range, order));
 
-  const __m256i signal = _mm256_permutevar8x32_epi32(field<kProfile, Fields<kReturn>::kSignal>(channels), order);
-  const __m256i signals = _mm256_permute4x64_epi64(_mm256_packus_epi32(signal, signal), 0x08);
+  __m256i signals = _mm256_setzero_si256();
+  if constexpr (Move<kProfile, Fields<kReturn>::kSignal>::kPresent)
+  {
+    const __m256i signal = _mm256_permutevar8x32_epi32(field<kProfile, Fields<kReturn>::kSignal>(channels), order);
+    signals = _mm256_permute4x64_epi64(_mm256_packus_epi32(signal, signal), 0x08);
+  }
   _mm_storeu_si128(reinterpret_cast<__m128i*>(to.signal + n), _mm256_castsi256_si128(signals));
 
   const __m256i small = _mm256_or_si256(field<kProfile, Fields<kReturn>::kReflectivity>(channels),
@@ -193,6 +187,7 @@ AVX2 std::size_t writeReturn(const OusterColumnView& view, const BeamBlock* bloc
                              const PointRoom& to, std::size_t n)
 {
   constexpr std::size_t kBytes = kOusterProfiles[kProfile].channel_bytes;
+  fetchNarrowFields(to, n);
   const Column column = columnOf(view, *blocks);
   const std::uint8_t* channels = view.channels;
   std::size_t ring = 0;

@@ -113,14 +113,13 @@ AVX512_INLINE __m512i apart(__m512i words)
   return _mm512_permutexvar_epi8(_mm512_load_si512(kFrom), words);
 }
 
-/** Asks for lines that are written soon; else every store waits for its own. The narrower fields follow by themselves.
- */
-AVX512_INLINE void fetchAhead(const PointRoom& to, std::size_t n)
+/** The lower halves of sixteen words; one permutation, where _mm512_cvtepi32_epi16 would be two. */
+AVX512_INLINE __m256i lowerHalves(__m512i words)
 {
-  constexpr std::size_t kAhead = 128;  // points: a column
-  for (float* line : {to.x, to.y, to.z}) _m_prefetchw(line + n + kAhead);
-  _m_prefetchw(to.range + n + kAhead);
-  _m_prefetchw(to.t + n + kAhead);
+  alignas(64) static constexpr std::uint8_t kFrom[64] = {0,  1,  4,  5,  8,  9,  12, 13, 16, 17, 20,
+                                                         21, 24, 25, 28, 29, 32, 33, 36, 37, 40, 41,
+                                                         44, 45, 48, 49, 52, 53, 56, 57, 60, 61};
+  return _mm512_castsi512_si256(_mm512_permutexvar_epi8(_mm512_load_si512(kFrom), words));
 }
 
 /** The returns of sixteen channels go to `to`, from the n-th on. Returns how many there are. */
@@ -139,18 +138,20 @@ AVX512_INLINE std::size_t writeBlock(const std::uint8_t* channels, const Column&
   }
   const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
   const __m512i order = _mm512_maskz_compress_epi32(seen, lanes);
-  const __m512i signal = field<kProfile, Fields<kReturn>::kSignal>(channels);
   const __m512i small = _mm512_ternarylogic_epi32((field<kProfile, Fields<kReturn>::kReflectivity>(channels)),
                                                   (field<kProfile, OusterField::NearIr, 16>(channels)), rings, 0xFE);
   const __m512i apart_small = apart(_mm512_permutexvar_epi32(order, small));
   const __m512 along = _mm512_sub_ps(_mm512_cvtepi32_ps(range), column.range_offset);
 
-  fetchAhead(to, n);
+  fetchWideFields(to, n);
   _mm512_storeu_ps(to.x + n, _mm512_permutexvar_ps(order, coordinate(column, beams, 0, along)));
   _mm512_storeu_ps(to.y + n, _mm512_permutexvar_ps(order, coordinate(column, beams, 1, along)));
   _mm512_storeu_ps(to.z + n, _mm512_permutexvar_ps(order, coordinate(column, beams, 2, along)));
   _mm512_storeu_si512(to.range + n, _mm512_permutexvar_epi32(order, range));
-  _mm256_storeu_epi16(to.signal + n, _mm512_cvtepi32_epi16(_mm512_permutexvar_epi32(order, signal)));
+  __m256i signal = _mm256_setzero_si256();
+  if constexpr (Move<kProfile, Fields<kReturn>::kSignal>::kPresent)
+    signal = lowerHalves(_mm512_permutexvar_epi32(order, field<kProfile, Fields<kReturn>::kSignal>(channels)));
+  _mm256_storeu_epi16(to.signal + n, signal);
   _mm256_storeu_epi16(to.near_ir + n, _mm512_extracti64x4_epi64(apart_small, 1));
   _mm_storeu_epi8(to.intensity + n, _mm512_castsi512_si128(apart_small));
   _mm_storeu_epi8(to.ring + n, _mm512_extracti32x4_epi32(apart_small, 1));
@@ -174,6 +175,7 @@ AVX512 std::size_t writeReturn(const OusterColumnView& view, const BeamBlock* bl
                                const PointRoom& to, std::size_t n)
 {
   constexpr std::size_t kBytes = kOusterProfiles[kProfile].channel_bytes;
+  fetchNarrowFields(to, n);
   const Column column = columnOf(view, *blocks);
   const std::uint8_t* channels = view.channels;
   __m512i rings = _mm512_slli_epi32(_mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15), 8);

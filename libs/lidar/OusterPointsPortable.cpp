@@ -126,6 +126,7 @@ std::size_t writeReturn(const OusterColumnView& view, const BeamBlock* blocks, s
                         std::size_t n)
 {
   constexpr std::size_t kBytes = kOusterProfiles[kProfile].channel_bytes;
+  fetchNarrowFields(to, n);
   const Column column = columnOf(view, *blocks);
   const std::uint8_t* channels = view.channels;
   Readings readings;
@@ -136,6 +137,7 @@ std::size_t writeReturn(const OusterColumnView& view, const BeamBlock* blocks, s
     if (!whole) std::memcpy(last, channels, (beams - ring) * kBytes);
     read<kProfile, kReturn>(whole ? channels : last, ring, readings);
     project(column, *blocks, readings);
+    fetchWideFields(to, n);
     n = squeeze(readings, to, n);
   }
   return n;
