@@ -158,6 +158,14 @@ std::string toJson(const RigExamination& rig, const Findings& findings)
   for (const LidarExamination& lidar : rig.lidars) result["lidars"].push_back(jsonOf(lidar));
   result["imus"] = json::array();
   for (const ImuExamination& imu : rig.imus) result["imus"].push_back(jsonOf(imu));
+  if (rig.sockets)
+    result["sockets"] = {{"datagrams", rig.sockets->counters.datagrams},
+                         {"filtered", rig.sockets->counters.filtered},
+                         {"truncated", rig.sockets->counters.truncated},
+                         {"dropped", rig.sockets->counters.dropped},
+                         {"dropped_by_kernel", rig.sockets->counters.kernel_drops},
+                         {"errors", rig.sockets->counters.errors},
+                         {"host_clock_steps", rig.sockets->clock_steps}};
   result["pairs"] = json::array();
   for (const PairExamination& pair : rig.pairs) result["pairs"].push_back(jsonOf(pair, rig));
   for (const auto& [origin, datagrams] : rig.strangers)

@@ -61,6 +61,19 @@ Verdict worstOf(const Findings& findings)
   return worst;
 }
 
+std::string summaryOf(const Findings& findings)
+{
+  const auto count = [&findings](Verdict verdict)
+  {
+    return std::count_if(findings.begin(), findings.end(),
+                         [verdict](const Finding& f) { return f.verdict == verdict; });
+  };
+  const auto bad = count(Verdict::NotFit), warnings = count(Verdict::Warning);
+  const std::string fit =
+      bad > 0 ? fmt::format("NOT FIT for SLAM for {} reason{}", bad, bad == 1 ? "" : "s") : "fit for SLAM";
+  return fit + (warnings > 0 ? fmt::format(", {} warning{}", warnings, warnings == 1 ? "" : "s") : "");
+}
+
 std::string toText(const Findings& findings, std::size_t width)
 {
   std::string text, about;

@@ -7,8 +7,8 @@ namespace scanloom
 {
 enum class Verdict
 {
-  Ok,
   NotMeasured,
+  Ok,
   Warning,
   NotFit,
 };
@@ -24,7 +24,11 @@ struct Finding
 };
 using Findings = std::vector<Finding>;
 
+/** Verdict::Ok at least. */
 Verdict worstOf(const Findings&);
+
+/** "fit for SLAM, 2 warnings": one line. */
+std::string summaryOf(const Findings&);
 
 /** A table of at most `width` columns, grouped by what the findings are about. */
 std::string toText(const Findings&, std::size_t width = 100);

@@ -73,11 +73,12 @@ Finding groundsFinding(const LidarExamination& seen, const LidarExamination& fir
 Findings groundFindings(const RigExamination& rig, std::size_t lidar, const GeometryLimits& limits)
 {
   const LidarExamination &seen = rig.lidars[lidar], &first = rig.lidars.front();
-  if (!seen.return_share) return {};
-  Findings findings{
-      {seen.name, "returns", Verdict::Ok, fmt::format("{:.1f} % of the readings", 100 * *seen.return_share), ""},
-      groundFinding(seen, rig.poses_known, limits),
-      ownPartsFinding(seen)};
+  Findings findings;
+  if (seen.return_share)
+    findings.push_back(
+        {seen.name, "returns", Verdict::Ok, fmt::format("{:.1f} % of the readings", 100 * *seen.return_share), ""});
+  findings.push_back(groundFinding(seen, rig.poses_known, limits));
+  findings.push_back(ownPartsFinding(seen));
   if (lidar > 0 && rig.poses_known && seen.ground && first.ground)
     findings.push_back(groundsFinding(seen, first, limits));
   return findings;

@@ -10,6 +10,7 @@ namespace
 {
 constexpr double kDegree = M_PI / 180;
 constexpr double kStandardGravity = 9.80665;
+constexpr Duration kMotionAveragesOut = 2s;
 
 Finding timingFinding(const ImuExamination& imu, const ImuLimits& limits)
 {
@@ -52,6 +53,8 @@ Finding gravityFinding(const ImuExamination& imu, const ImuLimits& limits)
   {
     case ForceUnit::MetresPerSecondSquared:
       if (std::abs(magnitude - kStandardGravity) <= limits.gravity_warning) return finding;
+      finding.verdict = Verdict::NotMeasured;
+      if (imu.timing.last - imu.timing.first < kMotionAveragesOut) return finding;
       finding.verdict = Verdict::Warning;
       finding.mend = "calibrate the accelerometer (six positions), or record a standstill to tell bias from motion";
       return finding;

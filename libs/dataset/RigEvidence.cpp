@@ -39,7 +39,7 @@ RigListener::RigListener(const Rig& rig, bool poses_known)
   evidence_.deadline = fromSeconds(1e-3 * rig.batcher.deadline_ms);
 }
 
-void RigListener::add(const Datagram& datagram)
+void RigListener::add(const DatagramView& datagram)
 {
   const std::optional<Routed> routed = router_.route(datagram);
   if (!routed) return;
@@ -69,7 +69,7 @@ void RigListener::add(const Datagram& datagram)
   }
 }
 
-void RigListener::addPacket(std::size_t index, const Datagram& datagram)
+void RigListener::addPacket(std::size_t index, const DatagramView& datagram)
 {
   const BatchedLidar& lidar = lidars_[index];
   PacketTrace trace = traceOf(*lidar.decoder, datagram.payload, datagram.received, blocks_);

@@ -2,7 +2,9 @@
 #pragma once
 #include "dataset/PacketTrace.h"
 #include "dataset/Snapshots.h"
+#include "source/PacketRouter.h"
 #include "source/Rig.h"
+#include "source/UdpReceiver.h"
 
 #include <map>
 #include <string>
@@ -25,11 +27,21 @@ struct ImuEvidence
   Rigid body_T_imu;
 };
 
+/** What live sockets tell of themselves. */
+struct SocketAccount
+{
+  UdpCounters counters;
+  std::uint64_t clock_steps = 0;      // of the computer
+  std::vector<std::string> warnings;  // for a person
+};
+
 struct RigEvidence
 {
   std::vector<LidarEvidence> lidars;
   std::vector<RigSnapshot> snapshots;
   std::map<Origin, std::uint64_t> strangers;  // datagrams that are no lidar's, though they came to our ports
+  std::optional<SocketAccount> sockets;       // live only
+  bool packets_known = true;                  // false for a rawlog, which holds none
   bool poses_known = false;                   // else every sensor frame is taken for the body's
   std::vector<ImuEvidence> imus;              // those of which samples came, the body's first
   Duration deadline{0};                       // that the batcher is configured with
@@ -44,12 +56,13 @@ class RigListener
   RigListener(const Rig&, bool poses_known);
 
   /** Throws what PacketRouter::route throws. */
-  void add(const Datagram&);
+  void add(const DatagramView&);
+  void add(SocketAccount account) { evidence_.sockets = std::move(account); }
 
   RigEvidence finish();
 
  private:
-  void addPacket(std::size_t lidar, const Datagram&);
+  void addPacket(std::size_t lidar, const DatagramView&);
 
   std::vector<BatchedLidar> lidars_;
   std::vector<LidarAddress> addresses_;

@@ -16,15 +16,21 @@ Duration leastDelayLately(const std::vector<Arrival>& arrivals)
   return least;
 }
 
+LidarExamination nameOnly(const LidarEvidence& evidence)
+{
+  LidarExamination seen;
+  seen.name = evidence.name;
+  seen.lidar = evidence.lidar;
+  return seen;
+}
+
 LidarExamination examineLidar(const LidarEvidence& evidence, Duration deadline, const ClockLimits& limits)
 {
   const Duration least_step = fromSeconds(1e-3 * limits.step_ms);
   const std::vector<PacketRun> runs = packetRuns(evidence.packets, evidence.lidar);
   const std::vector<Arrival> arrivals = arrivalsOn(runs, evidence.lidar, least_step);
 
-  LidarExamination seen;
-  seen.name = evidence.name;
-  seen.lidar = evidence.lidar;
+  LidarExamination seen = nameOnly(evidence);
   seen.delivery = deliveryOf(runs, evidence.lidar);
   seen.malformed = evidence.malformed;
   seen.bad_crc = evidence.bad_crc;
@@ -108,7 +114,10 @@ RigExamination examine(RigEvidence evidence, const DoctorLimits& limits)
   rig.strangers = evidence.strangers;
   rig.deadline = evidence.deadline;
   for (const LidarEvidence& lidar : evidence.lidars)
-    rig.lidars.push_back(examineLidar(lidar, evidence.deadline, limits.clocks));
+    rig.lidars.push_back(evidence.packets_known ? examineLidar(lidar, evidence.deadline, limits.clocks)
+                                                : nameOnly(lidar));
+  rig.sockets = evidence.sockets;
+  rig.packets_known = evidence.packets_known;
   rig.poses_known = evidence.poses_known;
   for (std::size_t i = 0; i < rig.lidars.size(); ++i)
   {

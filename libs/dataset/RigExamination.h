@@ -62,6 +62,8 @@ struct RigExamination
   std::vector<LidarExamination> lidars;
   std::vector<ImuExamination> imus;
   std::vector<PairExamination> pairs;  // each against the first, if poses are known
+  std::optional<SocketAccount> sockets;
+  bool packets_known = true;
   bool poses_known = false;
   std::map<Origin, std::uint64_t> strangers;
   Duration deadline{0};

@@ -21,6 +21,31 @@ constexpr std::size_t kWarningsKept = 1000;  // where nobody takes them
 // Datagrams that wait between the threads per lidar and port: half a second of most lidars.
 constexpr std::size_t kSlotsPerLidar = 1024;
 
+std::vector<std::shared_ptr<const PacketDecoder>> decodersOf(const Rig& rig)
+{
+  std::vector<std::shared_ptr<const PacketDecoder>> decoders;
+  for (const BatchedLidar& lidar : rig.lidars) decoders.push_back(lidar.decoder);
+  return decoders;
+}
+
+std::vector<std::string> warningsOfStart(const Rig& rig, const UdpReceiver& receiver)
+{
+  std::vector<std::string> warnings = receiver.warnings();
+  for (const RigSensor& sensor : rig.sensors)
+    if (!sensor.metadata)
+      warnings.push_back(
+          fmt::format("lidar '{}' joins when its sensor answers: {}", sensor.options.name, sensor.failure));
+  return warnings;
+}
+
+const Rig& withoutRecordedImu(const Rig& rig)
+{
+  if (!rig.body_imu.empty())
+    throw std::invalid_argument("imu_csv is a recording: it goes with pcap_input, not with live lidars");
+  return rig;
+}
+}  // namespace
+
 UdpReceiverOptions receiverOptions(const Rig& rig)
 {
   struct Users
@@ -53,31 +78,6 @@ UdpReceiverOptions receiverOptions(const Rig& rig)
         {port, of_port.anybody ? std::vector<IpAddress>{} : of_port.sources, of_port.lidars * kSlotsPerLidar});
   return options;
 }
-
-std::vector<std::shared_ptr<const PacketDecoder>> decodersOf(const Rig& rig)
-{
-  std::vector<std::shared_ptr<const PacketDecoder>> decoders;
-  for (const BatchedLidar& lidar : rig.lidars) decoders.push_back(lidar.decoder);
-  return decoders;
-}
-
-std::vector<std::string> warningsOfStart(const Rig& rig, const UdpReceiver& receiver)
-{
-  std::vector<std::string> warnings = receiver.warnings();
-  for (const RigSensor& sensor : rig.sensors)
-    if (!sensor.metadata)
-      warnings.push_back(
-          fmt::format("lidar '{}' joins when its sensor answers: {}", sensor.options.name, sensor.failure));
-  return warnings;
-}
-
-const Rig& withoutRecordedImu(const Rig& rig)
-{
-  if (!rig.body_imu.empty())
-    throw std::invalid_argument("imu_csv is a recording: it goes with pcap_input, not with live lidars");
-  return rig;
-}
-}  // namespace
 
 RigLive::RigLive(const Rig& rig)
   : stream_(withoutRecordedImu(rig)),
@@ -137,25 +137,10 @@ void RigLive::merge()
 
 void RigLive::takeUntil(Timestamp drained)
 {
-  while (const std::optional<std::size_t> port = oldestBefore(drained)) takeFrom(*port);
+  while (const std::optional<std::size_t> port = receiver_.oldestBefore(drained)) takeFrom(*port);
   if (drained == Timestamp::max()) return;
   stream_.advance(drained);
   giveOut();
-}
-
-/** The port whose next datagram was received first. */
-std::optional<std::size_t> RigLive::oldestBefore(Timestamp drained)
-{
-  std::optional<std::size_t> oldest;
-  Timestamp received = drained;
-  for (std::size_t i = 0; i < receiver_.ports(); ++i)
-  {
-    const DatagramRing::Slot* front = receiver_.ring(i).front();
-    if (!front || front->received >= received) continue;
-    oldest = i;
-    received = front->received;
-  }
-  return oldest;
 }
 
 void RigLive::takeFrom(std::size_t port)

@@ -12,6 +12,9 @@
 
 namespace scanloom
 {
+/** The ports of a rig's lidars, and who may send there. */
+UdpReceiverOptions receiverOptions(const Rig&);
+
 /**
  * A rig's sockets through the batcher. One thread receives (UdpReceiver), one merges in the order of the kernel's
  * stamps and batches; whoever calls next() takes scans from a bounded queue and keeps neither of them waiting.
@@ -53,7 +56,6 @@ class RigLive : public RigInput
  private:
   void merge();
   void takeUntil(Timestamp drained);
-  std::optional<std::size_t> oldestBefore(Timestamp drained);
   void takeFrom(std::size_t port);
   void giveOut();
   void publish();

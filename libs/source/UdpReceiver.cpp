@@ -265,6 +265,20 @@ bool UdpReceiver::take(Port& port, const mmsghdr& message, DatagramRing::Slot& s
   return !truncated && !filtered;
 }
 
+std::optional<std::size_t> UdpReceiver::oldestBefore(Timestamp drained)
+{
+  std::optional<std::size_t> oldest;
+  Timestamp received = drained;
+  for (std::size_t i = 0; i < ports_.size(); ++i)
+  {
+    const DatagramRing::Slot* front = ports_[i].ring.front();
+    if (!front || front->received >= received) continue;
+    oldest = i;
+    received = front->received;
+  }
+  return oldest;
+}
+
 UdpCounters UdpReceiver::counters(std::size_t i) const
 {
   const Port& port = ports_[i];

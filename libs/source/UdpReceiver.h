@@ -67,6 +67,9 @@ class UdpReceiver
   /** What is stamped earlier is in the rings already; ask before looking into them. */
   Timestamp drainedUntil() const { return drained_until_.load(std::memory_order_acquire); }
 
+  /** For the reader: the port whose next datagram was received first, if that was before `drained`. */
+  std::optional<std::size_t> oldestBefore(Timestamp drained);
+
   /** Takes what has reached the sockets, then ends. From any thread. */
   void stop() { stop_ = true; }
 

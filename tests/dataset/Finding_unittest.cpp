@@ -20,6 +20,15 @@ TEST(Finding, theWorstDecides)
   EXPECT_EQ(worstOf({{"a", "m", Verdict::NotFit, "", ""}, {"a", "m", Verdict::Ok, "", ""}}), Verdict::NotFit);
 }
 
+TEST(Finding, theSummaryCounts)
+{
+  const Finding ok{"a", "m", Verdict::Ok, "", ""}, warning{"a", "m", Verdict::Warning, "", ""};
+  const Finding bad{"a", "m", Verdict::NotFit, "", ""};
+  EXPECT_EQ(summaryOf({ok}), "fit for SLAM");
+  EXPECT_EQ(summaryOf({ok, warning}), "fit for SLAM, 1 warning");
+  EXPECT_EQ(summaryOf({bad, warning, warning, bad}), "NOT FIT for SLAM for 2 reasons, 2 warnings");
+}
+
 TEST(Finding, tablesFitTheWidthAndLoseNoWord)
 {
   const Findings findings{{"left", "loss", Verdict::Warning, kLong, kLong}, {"right", "loss", Verdict::Ok, "none", ""}};

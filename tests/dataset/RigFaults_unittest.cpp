@@ -44,12 +44,12 @@ struct Examined
     ADD_FAILURE() << "no finding on " << about << ", " << measure;
     return Verdict::NotMeasured;
   }
-  /** Those worse than Verdict::NotMeasured. */
+  /** Warnings and worse. */
   std::vector<std::string> complaints() const
   {
     std::vector<std::string> names;
     for (const Finding& f : findings)
-      if (f.verdict > Verdict::NotMeasured) names.push_back(f.about + ": " + f.measure);
+      if (f.verdict > Verdict::Ok) names.push_back(f.about + ": " + f.measure);
     return names;
   }
   std::string mend(const std::string& about, const std::string& measure) const

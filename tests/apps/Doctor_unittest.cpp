@@ -1,0 +1,83 @@
+/** `scanloom doctor` as a person meets it. */
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/TestData.h"
+
+namespace scanloom
+{
+namespace
+{
+using testing::HasSubstr;
+
+struct Ended
+{
+  int status;
+  std::string output;
+};
+
+Ended doctor(const std::string& arguments, const std::string& redirection = "2>/dev/null")
+{
+  const std::string command = SCANLOOM_BIN_DIR "/scanloom doctor " + arguments + " " + redirection;
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  std::string output;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
+  return {WEXITSTATUS(::pclose(pipe)), output};
+}
+
+const std::string kReal = "ouster/ouster-lidar+ouster-sdk/tests/pcaps/OS-1-128_v2.3.0_1024x10";
+
+TEST(Doctor, ofARealCaptureIsATableOfAHundredColumns)
+{
+  SCANLOOM_NEEDS_DATA(capture, kReal + "_lb_n3.pcap");
+  SCANLOOM_NEEDS_DATA(metadata, kReal + ".json");
+  const Ended ended = doctor(capture.string() + " --metadata " + metadata.string());
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_THAT(ended.output, HasSubstr("none of 192 packets"));
+  EXPECT_THAT(ended.output, HasSubstr("since boot"));
+  std::istringstream lines(ended.output);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(Doctor, endsWithThreeAndSaysHowToMendWhatIsNotFit)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const std::string config = "-c " SCANLOOM_SOURCE_DIR "/params/dual_os0_recording.ini ";
+  ::setenv("SCANLOOM_RECORDING", folder.c_str(), 1);
+  const Ended healthy = doctor(config + "--json");
+  EXPECT_EQ(healthy.status, 0);
+  EXPECT_EQ(nlohmann::json::parse(healthy.output).at("verdict"), "ok");
+
+  const Ended ill = doctor(config + "--set 'lidars.lidar2_pose=[1.5 -1.2 2.5 -30 15 115]'");
+  EXPECT_EQ(ill.status, 3);
+  EXPECT_THAT(ill.output, HasSubstr("NOT FIT   ground"));
+  EXPECT_THAT(ill.output, HasSubstr("the lidar's pose is wrong by 87 deg"));
+}
+
+TEST(Doctor, limitsAreOptions)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  ::setenv("SCANLOOM_RECORDING", folder.c_str(), 1);
+  const Ended strict = doctor("-c " SCANLOOM_SOURCE_DIR
+                              "/params/dual_os0_recording.ini --set doctor.tilt_not_fit_deg=1 --set "
+                              "doctor.tilt_warning_deg=0.5 --seconds 5");
+  EXPECT_EQ(strict.status, 3);
+  EXPECT_THAT(strict.output, HasSubstr("NOT FIT   up"));
+}
+
+TEST(Doctor, saysWhatIsMissing)
+{
+  SCANLOOM_NEEDS_DATA(capture, kReal + "_lb_n3.pcap");
+  const Ended without = doctor(capture.string(), "2>&1");
+  EXPECT_EQ(without.status, 2);
+  EXPECT_THAT(without.output, HasSubstr("--metadata"));
+  EXPECT_EQ(doctor("").status, 2);
+  EXPECT_EQ(doctor("nowhere.pcap --metadata nothing.json").status, 1);
+}
+}  // namespace
+}  // namespace scanloom
