@@ -22,15 +22,15 @@ std::vector<Beam> beamsOf(const VelodyneMetadata& m)
 }
 
 /** Lasers fire in an order of their own; rings count from the top. */
-std::vector<std::uint16_t> ringsFromTheTop(const std::vector<double>& vertical_deg)
+std::vector<std::uint8_t> ringsFromTheTop(const std::vector<double>& vertical_deg)
 {
   std::vector<std::size_t> from_the_top(vertical_deg.size());
   std::iota(from_the_top.begin(), from_the_top.end(), 0);
   std::stable_sort(from_the_top.begin(), from_the_top.end(),
                    [&](std::size_t a, std::size_t b) { return vertical_deg[a] > vertical_deg[b]; });
-  std::vector<std::uint16_t> rings(vertical_deg.size());
+  std::vector<std::uint8_t> rings(vertical_deg.size());
   for (std::size_t place = 0; place < rings.size(); ++place)
-    rings[from_the_top[place]] = static_cast<std::uint16_t>(place);
+    rings[from_the_top[place]] = static_cast<std::uint8_t>(place);
   return rings;
 }
 
@@ -114,7 +114,10 @@ void VelodyneDecoder::appendPoints(Bytes packet, std::size_t block_index, std::i
   // Encoder angles count counter-clockwise.
   const double th = -sequence.azimuth * kRadiansPerCount, rate = -view.rate() * kRadiansPerCount;
   const double cos_th = std::cos(th), sin_th = std::sin(th);
-  const auto append = [&](std::size_t laser, VelodyneReading reading)
+  const std::uint16_t column = this->column(sequence.azimuth);
+  const PointRoom to = points.room(2 * ring_.size());
+  std::size_t n = 0;
+  const auto write = [&](std::size_t laser, VelodyneReading reading)
   {
     const Duration shot = metadata_.model->shotTime(static_cast<int>(laser));
     const double on = rate * static_cast<double>(shot.count());  // below 0.01 rad: two terms give 2e-7
@@ -122,24 +125,25 @@ void VelodyneDecoder::appendPoints(Bytes packet, std::size_t block_index, std::i
     const Eigen::Vector3f point =
         beams_.project(static_cast<Eigen::Index>(laser), static_cast<float>(cos_th * shrunk - sin_th * on),
                        static_cast<float>(sin_th * shrunk + cos_th * on), static_cast<float>(reading.range_mm));
-    points.x.push_back(point.x());
-    points.y.push_back(point.y());
-    points.z.push_back(point.z());
-    points.intensity.push_back(reading.reflectivity);
-    points.t.push_back(t + static_cast<std::int32_t>(shot.count()));
-    points.ring.push_back(ring_[laser]);
-    points.column.push_back(column(sequence.azimuth));
-    points.sensor_id.push_back(sensor_id);
-    points.range.push_back(reading.range_mm);
-    points.signal.push_back(0);
-    points.near_ir.push_back(0);
+    to.x[n] = point.x();
+    to.y[n] = point.y();
+    to.z[n] = point.z();
+    to.intensity[n] = reading.reflectivity;
+    to.t[n] = t + static_cast<std::int32_t>(shot.count());
+    to.ring[n] = ring_[laser];
+    to.column[n] = column;
+    to.sensor_id[n] = sensor_id;
+    to.range[n] = reading.range_mm;
+    to.signal[n] = to.near_ir[n] = 0;
+    ++n;
   };
   for (std::size_t laser = 0; laser < ring_.size(); ++laser)
-    if (const VelodyneReading first = view.reading(block_index, laser, 0); first.range_mm > 0) append(laser, first);
+    if (const VelodyneReading first = view.reading(block_index, laser, 0); first.range_mm > 0) write(laser, first);
   for (std::size_t laser = 0; view.hasTwoReturns() && laser < ring_.size(); ++laser)
   {
     const VelodyneReading second = view.reading(block_index, laser, 1);
-    if (second.range_mm > 0 && second.range_mm != view.reading(block_index, laser, 0).range_mm) append(laser, second);
+    if (second.range_mm > 0 && second.range_mm != view.reading(block_index, laser, 0).range_mm) write(laser, second);
   }
+  points.grow(n);
 }
 }  // namespace scanloom

@@ -45,6 +45,6 @@ class VelodyneDecoder : public PacketDecoder
   VelodyneMetadata metadata_;
   LidarDescription description_;
   BeamTable beams_;
-  std::vector<std::uint16_t> ring_;  // per laser: 0 is the topmost beam
+  std::vector<std::uint8_t> ring_;  // per laser: 0 is the topmost beam
 };
 }  // namespace scanloom

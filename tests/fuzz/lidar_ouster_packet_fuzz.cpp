@@ -1,7 +1,8 @@
 /**
  * Any bytes as a packet of every profile at once, so that each run is one execution for each of them: what kind()
- * accepts is decoded without a word, everything else at worst ends in std::out_of_range.
- * fuzz options: -max_len=400
+ * accepts is decoded without a word, by every kernel to the same bits, everything else at worst ends in
+ * std::out_of_range.
+ * fuzz options: -max_len=900
  */
 #include <memory>
 #include <stdexcept>
@@ -24,18 +25,22 @@ enum Mend : std::uint8_t
   kImu = 8,  // the packet is meant as one of the IMU's
 };
 
-std::vector<OusterDecoder> everyDecoder()
+constexpr int kChannels = 19;  // more than the widest kernel takes at a time, and some left over
+
+/** Per profile: a decoder for each kernel that this machine runs. */
+std::vector<std::vector<OusterDecoder>> everyDecoder()
 {
-  std::vector<OusterDecoder> decoders;
+  std::vector<std::vector<OusterDecoder>> decoders;
   for (const OusterProfile& profile : kOusterProfiles)
   {
-    OusterMetadata m = simpleMetadata(std::string(profile.name), 3, 2);
+    OusterMetadata m = simpleMetadata(std::string(profile.name), kChannels, 2);
     m.lidar_mode = "16x10";  // small turns
     m.columns_per_frame = 16;
     m.last_column = 15;
     m.imu_profile = decoders.size() % 2 ? OusterImuProfile::Legacy : OusterImuProfile::Accel32Gyro32Nmea;
     m.imu_measurements_per_packet = 2;
-    decoders.emplace_back(m, Rigid::identity());
+    decoders.emplace_back();
+    for (const Kernel kernel : runnableKernels()) decoders.back().emplace_back(m, Rigid::identity(), kernel);
   }
   return decoders;
 }
@@ -70,14 +75,13 @@ void decodeImu(const OusterDecoder& decoder, Bytes packet)
     require(sample.accel.allFinite() && sample.gyro.allFinite());
 }
 
-void decodeLidar(const OusterDecoder& decoder, Bytes packet)
+PointCloud pointsOf(const OusterDecoder& decoder, Bytes packet)
 {
-  static std::vector<MeasurementBlock> blocks;
-  static PointCloud points;
+  std::vector<MeasurementBlock> blocks;
+  PointCloud points;
   decoder.header(packet);
   decoder.readBlocks(packet, blocks);
   require(blocks.size() == 2);
-  points.clear();
   for (const MeasurementBlock& block : blocks)
   {
     const std::size_t before = points.size();
@@ -86,7 +90,23 @@ void decodeLidar(const OusterDecoder& decoder, Bytes packet)
     require(!block.valid || (block.measurement_id < 16 && block.stamp >= Timestamp{}));
   }
   for (std::size_t i = 0; i < points.size(); ++i)
-    require(points.range[i] > 0 && points.ring[i] < 3 && points.position(i).allFinite());
+    require(points.range[i] > 0 && points.ring[i] < kChannels && points.position(i).allFinite());
+  return points;
+}
+
+void decodeLidar(const OusterDecoder& decoder, Bytes packet) { pointsOf(decoder, packet); }
+
+template <typename Values>
+bool sameBits(const Values& a, const Values& b)
+{
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0);
+}
+
+bool sameBits(const PointCloud& a, const PointCloud& b)
+{
+  return sameBits(a.x, b.x) && sameBits(a.y, b.y) && sameBits(a.z, b.z) && sameBits(a.intensity, b.intensity) &&
+         sameBits(a.ring, b.ring) && sameBits(a.column, b.column) && sameBits(a.range, b.range) &&
+         sameBits(a.signal, b.signal) && sameBits(a.near_ir, b.near_ir);
 }
 
 void refuse(void (*decode)(const OusterDecoder&, Bytes), const OusterDecoder& decoder, Bytes packet)
@@ -101,23 +121,29 @@ void refuse(void (*decode)(const OusterDecoder&, Bytes), const OusterDecoder& de
 }
 }  // namespace
 
-/** The first byte says what is mended, the second which decoder also has to refuse what it does not know. */
+/** The first byte says what is mended, the second which profile is looked at more closely. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  static const std::vector<OusterDecoder> decoders = everyDecoder();
-  static std::vector<std::uint8_t> packet;
+  static const auto decoders = everyDecoder();
+  static std::vector<std::uint8_t> mended;
   if (size < 2) return 0;
-  for (const OusterDecoder& decoder : decoders)
+  for (const auto& kernels : decoders)
   {
-    const bool chosen = &decoder == &decoders[data[1] % decoders.size()];
-    packet.assign(data + 2, data + size);
-    mend(packet, data[0], decoder.layout());
+    const bool chosen = &kernels == &decoders[data[1] % decoders.size()];
+    const OusterDecoder& decoder = kernels.back();
+    mended.assign(data + 2, data + size);
+    mend(mended, data[0], decoder.layout());
+    const std::vector<std::uint8_t> packet(mended);  // not a byte of memory behind its end
     switch (decoder.kind(packet))
     {
       case PacketKind::Lidar:
-        decodeLidar(decoder, packet);
-        if (chosen) FrameFields(decoder).push(packet);
+      {
+        const PointCloud points = pointsOf(decoder, packet);
+        if (!chosen) break;
+        for (const OusterDecoder& other : kernels) require(sameBits(points, pointsOf(other, packet)));
+        FrameFields(decoder).push(packet);
         break;
+      }
       case PacketKind::Imu:
         decodeImu(decoder, packet);
         break;

@@ -21,6 +21,7 @@ namespace
 using Seed = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kAllMended = 7;  // lidar_ouster_packet
+constexpr std::size_t kFuzzChannels = 19;
 constexpr std::size_t kPacketsPerCapture = 4;
 
 class Corpus
@@ -55,7 +56,7 @@ Seed led(std::initializer_list<std::uint8_t> first, Bytes rest, std::size_t most
   return seed;
 }
 
-/** The packet as a sensor of the target's three channels and two columns would send it. */
+/** The packet as the target's sensor of few channels and two columns would send it. */
 Seed cutDown(const OusterDecoder& decoder, Bytes packet)
 {
   const OusterLayout& layout = decoder.layout();
@@ -63,7 +64,8 @@ Seed cutDown(const OusterDecoder& decoder, Bytes packet)
   for (std::size_t column = 0; column < std::min<std::size_t>(2, layout.columns); ++column)
   {
     const Bytes bytes = packet.slice(layout.columnOffset(column), layout.columnBytes());
-    const std::size_t kept = layout.columnHeaderBytes() + 3 * layout.profile->channel_bytes;
+    const std::size_t kept = layout.columnHeaderBytes() +
+                             std::min<std::size_t>(kFuzzChannels, layout.channels) * layout.profile->channel_bytes;
     seed.insert(seed.end(), bytes.begin(), bytes.begin() + kept);
     seed.insert(seed.end(), bytes.end() - layout.columnFooterBytes(), bytes.end());
   }
@@ -90,8 +92,8 @@ void addCapture(const fs::path& path, Corpus& corpus)
     if (!ouster) continue;
     const PacketKind kind = ouster->kind(packet);
     if (kind == PacketKind::Lidar)
-      corpus.add("lidar_ouster_packet", led({kAllMended, 0}, cutDown(*ouster, packet), 400));
-    if (kind == PacketKind::Imu) corpus.add("lidar_ouster_packet", led({kAllMended | 8, 0}, packet, 400));
+      corpus.add("lidar_ouster_packet", led({kAllMended, 0}, cutDown(*ouster, packet), 900));
+    if (kind == PacketKind::Imu) corpus.add("lidar_ouster_packet", led({kAllMended | 8, 0}, packet, 900));
   }
 }
 
