@@ -1,5 +1,6 @@
 #pragma once
 #include "core/Field.h"
+#include "simulation/Ray.h"
 
 #include <Eigen/Core>
 
@@ -9,14 +10,6 @@
 
 namespace scanloom
 {
-struct Ray
-{
-  Eigen::Vector3d origin;
-  Eigen::Vector3d direction;  // unit
-
-  Eigen::Vector3d at(double range) const { return origin + range * direction; }
-};
-
 struct GroundOptions
 {
   double relief = 0.4;

@@ -129,7 +129,7 @@ std::string summaryOf(const Scene& scene, const std::array<PacketCounts, 2>& cou
 {
   nlohmann::json summary{{"seed", scene.seed},
                          {"seconds", scene.span.duration},
-                         {"stems", scene.world.stand.stems().size()},
+                         {"stems", scene.world.stems().size()},
                          {"epoch_ns", nanoseconds(scene.span.start)},
                          {"imu_bias_gyro_rad_s", vectorJson(scene.imu_errors.bias.gyro)},
                          {"imu_bias_accel_m_s2", vectorJson(scene.imu_errors.bias.accel)}};

@@ -12,7 +12,6 @@ namespace scanloom
 namespace
 {
 constexpr Timestamp kStart{1'750'000'000s};
-constexpr double kBeyondReach = 45.0;  // m: no stem farther from the path
 
 Rigid poseOption(const std::string& name, const std::string& text)
 {
@@ -24,16 +23,6 @@ Rigid poseOption(const std::string& name, const std::string& text)
   {
     throw std::invalid_argument(fmt::format("[simulated_rig] {}: {}", name, error.what()));
   }
-}
-
-World makeWorld(const SimulationSettings& settings, const Ground& ground, const Drive& drive, std::uint64_t seed)
-{
-  const std::vector<Eigen::Vector2d> path = drive.path();
-  Eigen::AlignedBox2d area;
-  for (const Eigen::Vector2d& p : path) area.extend(p);
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kBeyondReach);
-  area = {area.min() - margin, area.max() + margin};
-  return {ground, Stand(growStems(settings.stand, ground, area, path, seed))};
 }
 
 LidarTiming drawTiming(const OusterMetadata& metadata, double rate_error_ppm, std::uint64_t seed, RandomStream stream)
@@ -82,7 +71,7 @@ Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
 
   return {seed,
           {kStart, settings.drive.duration},
-          makeWorld(settings, ground, drive, seed),
+          World(ground, settings.stand, drive.path(), seed),
           drive,
           {LidarStation{"left", left, RandomStream::LeftTransport, RandomStream::LeftImu},
            LidarStation{"right", right, RandomStream::RightTransport, RandomStream::RightImu}},

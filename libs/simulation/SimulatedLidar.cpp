@@ -1,5 +1,7 @@
 #include "simulation/SimulatedLidar.h"
 
+#include "simulation/Machine.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,8 +22,14 @@ double reflectivityOf(Surface surface)
     case Surface::Ground:
       return 0.15;
     case Surface::Stem:
+    case Surface::Branch:
       return 0.30;
+    case Surface::Crown:
+    case Surface::Undergrowth:
+      return 0.40;
     case Surface::Machine:
+    case Surface::Boom:
+    case Surface::Object:
       return 0.60;
   }
   return 0;
@@ -94,13 +102,15 @@ OusterReading SimulatedLidar::measureBeam(const World& world, const Rigid& world
                                           Random& random) const
 {
   // Every beam draws the same number of times, so that one lost return does not change its neighbours.
+  const std::uint64_t draw = random.bits();
   const double noise = errors_.range_noise * random.normal();
   const double luck = random.uniform();
   const double shade = random.normal();
 
   OusterReading measured;
   measured.near_ir = static_cast<std::uint16_t>(std::max(0.0, 400 + 40 * shade));
-  const auto hit = cast(world, world_T_body, ray, kLargestRange);
+  auto hit = castMachine(world_T_body, ray);
+  if (!hit) hit = world.cast(ray, kLargestRange, draw);  // nothing else is so near to the machine
   if (!hit || hit->range < kLeastRange) return measured;
   const double reflectivity = reflectivityOf(hit->surface) * (1 + 0.1 * shade);
   if (luck >= chanceOfReturn(hit->range, reflectivity)) return measured;

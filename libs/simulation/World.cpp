@@ -1,65 +1,43 @@
 #include "simulation/World.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace scanloom
 {
 namespace
 {
-/** The slab method: distance to a box from outside. */
-std::optional<Hit> castBox(const Eigen::AlignedBox3d& box, const Ray& ray)
-{
-  double entered = 0, left = std::numeric_limits<double>::infinity();
-  int entered_through = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double to_min = (box.min()[axis] - ray.origin[axis]) / ray.direction[axis];
-    const double to_max = (box.max()[axis] - ray.origin[axis]) / ray.direction[axis];
-    if (std::min(to_min, to_max) > entered)
-    {
-      entered = std::min(to_min, to_max);
-      entered_through = axis;
-    }
-    left = std::min(left, std::max(to_min, to_max));
-  }
-  if (entered <= 0 || entered >= left) return std::nullopt;
-  return Hit{entered, std::abs(ray.direction[entered_through]), Surface::Machine};
-}
+constexpr double kBeyondReach = 45.0;  // m: no stem farther from the path
 
-void keepNearer(std::optional<Hit>& nearest, const std::optional<Hit>& candidate)
+Stand growStand(const StandOptions& options, const Ground& ground, const std::vector<Eigen::Vector2d>& path,
+                std::uint64_t seed)
 {
-  if (candidate && (!nearest || candidate->range < nearest->range)) nearest = candidate;
+  Eigen::AlignedBox2d area;
+  for (const Eigen::Vector2d& p : path) area.extend(p);
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kBeyondReach);
+  area = {area.min() - margin, area.max() + margin};
+  return Stand(growStems(options, ground, area, path, seed));
 }
 }  // namespace
 
-const std::vector<Eigen::AlignedBox3d>& machineBoxes()
+World::World(const Ground& ground, const StandOptions& options, const std::vector<Eigen::Vector2d>& path,
+             std::uint64_t seed)
+  : ground_(ground), stand_(growStand(options, ground, path, seed))
 {
-  static const std::vector<Eigen::AlignedBox3d> boxes{
-      {Eigen::Vector3d(-3.5, -1.1, 0.6), Eigen::Vector3d(0.8, 1.1, 2.6)},
-      {Eigen::Vector3d(0.8, -0.25, 1.6), Eigen::Vector3d(4.5, 0.25, 2.1)},
-  };
-  return boxes;
 }
 
-std::optional<Hit> cast(const World& world, const Rigid& world_T_body, const Ray& ray, double max_range)
+std::optional<Hit> World::cast(const Ray& ray, double max_range, std::uint64_t /*draw*/) const
 {
   std::optional<Hit> nearest;
-  const Eigen::Quaterniond body_R_world = world_T_body.rotation.conjugate();
-  const Ray in_body{body_R_world * (ray.origin - world_T_body.translation), body_R_world * ray.direction};
-  for (const Eigen::AlignedBox3d& box : machineBoxes()) keepNearer(nearest, castBox(box, in_body));
-  if (nearest) return nearest;  // nothing else is so near to the machine
-
-  if (const auto bark = world.stand.intersect(ray, max_range))
+  if (const auto bark = stand_.intersect(ray, max_range))
   {
     const Eigen::Vector3d normal = bark->stem->normal(ray.at(bark->range));
-    nearest = Hit{bark->range, std::abs(normal.dot(ray.direction)), Surface::Stem};
+    const auto id = static_cast<std::uint32_t>(bark->stem - stand_.stems().data());
+    nearest = Hit{bark->range, std::abs(normal.dot(ray.direction)), Surface::Stem, id};
   }
-  if (const auto range = world.ground.intersect(ray, nearest ? nearest->range : max_range))
+  if (const auto range = ground_.intersect(ray, nearest ? nearest->range : max_range))
   {
     const Eigen::Vector3d p = ray.at(*range);
-    keepNearer(nearest, Hit{*range, std::abs(world.ground.normal(p.x(), p.y()).dot(ray.direction)), Surface::Ground});
+    nearest = Hit{*range, std::abs(ground_.normal(p.x(), p.y()).dot(ray.direction)), Surface::Ground, 0};
   }
   return nearest;
 }

@@ -1,35 +1,32 @@
-/** What the rays of the lidars meet: ground, stems and the machine itself. */
+/** What stands still around the machine: ground and stand. */
 #pragma once
-#include "core/Rigid.h"
+#include "simulation/Ground.h"
+#include "simulation/Ray.h"
 #include "simulation/Stand.h"
 
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace scanloom
 {
-enum class Surface
+class World
 {
-  Ground,
-  Stem,
-  Machine,
+ public:
+  /** A stand grown on the ground as far around `path` (m, in the world) as a lidar sees. */
+  World(const Ground&, const StandOptions&, const std::vector<Eigen::Vector2d>& path, std::uint64_t seed);
+
+  const Ground& ground() const { return ground_; }
+  const std::vector<Stem>& stems() const { return stand_.stems(); }
+
+  /**
+   * The nearest surface within `max_range`. `draw` decides what is left to chance: of a ray through foliage, which
+   * leaf it meets. Pure, so that any thread may ask at any time: the same arguments, the same answer.
+   */
+  std::optional<Hit> cast(const Ray& ray_in_world, double max_range, std::uint64_t draw) const;
+
+ private:
+  Ground ground_;
+  Stand stand_;
 };
-
-struct Hit
-{
-  double range = 0;             // m from the ray's origin
-  double cosine_incidence = 0;  // 1 when the ray meets the surface at a right angle
-  Surface surface = Surface::Ground;
-};
-
-struct World
-{
-  Ground ground;
-  Stand stand;
-};
-
-/** The nearest surface within `max_range`; the machine's boxes move with the body. */
-std::optional<Hit> cast(const World&, const Rigid& world_T_body, const Ray& ray_in_world, double max_range);
-
-/** The boxes that the machine is made of, in the body frame: cabin and engine, and the boom. */
-const std::vector<Eigen::AlignedBox3d>& machineBoxes();
 }  // namespace scanloom

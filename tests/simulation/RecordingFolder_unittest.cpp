@@ -3,6 +3,7 @@
 #include "config/Configuration.h"
 #include "lidar/OusterDecoder.h"
 #include "output/Trajectory.h"
+#include "simulation/Machine.h"
 #include "source/CaptureReader.h"
 #include "source/EurocImu.h"
 #include "source/Extrinsics.h"
@@ -84,9 +85,9 @@ struct Surroundings
 
 Surroundings nearestSurface(const World& world, const Eigen::Vector3d& p)
 {
-  const Eigen::Vector3d up = world.ground.normal(p.x(), p.y());
-  Surroundings nearest{(p.z() - world.ground.height(p.x(), p.y())) * up.z(), up};
-  for (const Stem& stem : world.stand.stems())
+  const Eigen::Vector3d up = world.ground().normal(p.x(), p.y());
+  Surroundings nearest{(p.z() - world.ground().height(p.x(), p.y())) * up.z(), up};
+  for (const Stem& stem : world.stems())
     if ((stem.foot - p).head<2>().norm() < 4 && std::abs(stem.distanceToBark(p)) < std::abs(nearest.distance))
       nearest = {stem.distanceToBark(p), stem.normal(p)};
   return nearest;

@@ -106,18 +106,27 @@ TEST(Stand, keepsThePathFreeAndStemsApart)
   }
 }
 
-TEST(World, seesTheMachineWhereverItStands)
+TEST(World, meetsTheNearerOfGroundAndStem)
 {
-  const World world{Ground(GroundOptions{}), Stand({})};
-  const Rigid world_T_body = Rigid::fromXyzYawPitchRoll(100, 50, 1, 2, 0.1, 0.1);
-  const Ray sideways{world_T_body * Eigen::Vector3d(-1, 5, 1.5), world_T_body.rotation * -Eigen::Vector3d::UnitY()};
+  const Ground ground(GroundOptions{});
+  const World world(ground, StandOptions{}, {{0, 0}}, 1);
+  const Stand stand(world.stems());
+  Random random(6, RandomStream::Stand, 0);
+  std::set<Surface> met;
+  for (int i = 0; i < 5'000; ++i)
+  {
+    const Ray ray = randomRay(random);
+    const double to_ground = ground.intersect(ray, 40).value_or(40);
+    const auto bark = stand.intersect(ray, 40);
+    const double to_stem = bark ? bark->range : 40;
 
-  const auto hit = cast(world, world_T_body, sideways, 50);
-
-  ASSERT_TRUE(hit);
-  EXPECT_EQ(hit->surface, Surface::Machine);
-  EXPECT_NEAR(hit->range, 5 - 1.1, 1e-9);
-  EXPECT_NEAR(hit->cosine_incidence, 1, 1e-9);
+    const auto hit = world.cast(ray, 40, 0);
+    EXPECT_EQ(hit ? hit->range : 40, std::min(to_ground, to_stem));
+    if (!hit) continue;
+    EXPECT_EQ(hit->surface, to_stem < to_ground ? Surface::Stem : Surface::Ground);
+    met.insert(hit->surface);
+  }
+  EXPECT_EQ(met.size(), 2U);
 }
 
 TEST(Random, neverRepeatsItselfAcrossStreamsAndPlaces)

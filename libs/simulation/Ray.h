@@ -1,0 +1,36 @@
+/** What the lidars send out and what it meets. */
+#pragma once
+#include <Eigen/Core>
+
+#include <cstdint>
+
+namespace scanloom
+{
+struct Ray
+{
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;  // unit
+
+  Eigen::Vector3d at(double range) const { return origin + range * direction; }
+};
+
+enum class Surface
+{
+  Ground,
+  Stem,         // bark, stumps included
+  Branch,       // dead or alive, as far as it is wood
+  Crown,        // twigs and needles
+  Undergrowth,  // shrubs and grass
+  Machine,      // that carries the lidars
+  Boom,         // of that machine
+  Object,       // that moves by itself
+};
+
+struct Hit
+{
+  double range = 0;             // m from the ray's origin
+  double cosine_incidence = 0;  // 1 when the ray meets the surface at a right angle
+  Surface surface = Surface::Ground;
+  std::uint32_t id = 0;  // of the stem that was hit or that the branch or the crown belongs to; 0 elsewhere
+};
+}  // namespace scanloom
