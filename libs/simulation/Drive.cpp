@@ -1,92 +1,91 @@
 #include "simulation/Drive.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace scanloom
 {
 namespace
 {
-/** 0 to 1 over one unit with two continuous derivatives (K. Perlin: Improving Noise, SIGGRAPH 2002), and its integral.
- */
-struct SmoothStep
-{
-  double integral, value, first, second;
-};
-
-SmoothStep smoothStep(double u)
-{
-  if (u <= 0) return {0, 0, 0, 0};
-  if (u >= 1) return {0.5 + (u - 1), 1, 0, 0};
-  return {((u - 3) * u + 2.5) * u * u * u * u, ((6 * u - 15) * u + 10) * u * u * u, ((30 * u - 60) * u + 30) * u * u,
-          ((120 * u - 180) * u + 60) * u};
-}
-
-constexpr double kLengthBehindOrigin = 4.0;  // m of machine
+constexpr double kRadians = M_PI / 180;
+constexpr double kBehindStart = 15.0;       // m: there the total station may stand
+constexpr double kSlow = 3.2, kFast = 5.0;  // Hz, of the engine and the hydraulics
 
 /** The angle's rate as a quantity of its own; its second derivative is not known and must not be used. */
 Taylor rateOf(const Taylor& angle) { return {angle.rate, angle.acceleration, std::nan("")}; }
+
+Taylor oscillation(double t, double rate, double phase = 0) { return sin(2 * M_PI * rate * Taylor{t, 1, 0} + phase); }
+
+/** Body rates of R = Rz(yaw) Ry(pitch) Rx(roll), and how they change. */
+struct Turn
+{
+  Eigen::Vector3d rate, acceleration;
+};
+
+Turn turnOf(const Taylor& yaw, const Taylor& pitch, const Taylor& roll)
+{
+  const Taylor x = rateOf(roll) - rateOf(yaw) * sin(pitch);
+  const Taylor y = rateOf(pitch) * cos(roll) + rateOf(yaw) * sin(roll) * cos(pitch);
+  const Taylor z = rateOf(yaw) * cos(roll) * cos(pitch) - rateOf(pitch) * sin(roll);
+  return {{x.value, y.value, z.value}, {x.rate, y.rate, z.rate}};
+}
+
+/** What the ground under four wheels makes of a body whose origin is at (x, y). */
+struct Stance
+{
+  Taylor height, pitch, roll;
+};
+
+Stance stand(const Ground& ground, const BodyMotionOptions& body, const Taylor& x, const Taylor& y, const Taylor& yaw)
+{
+  const Taylor c = cos(yaw), s = sin(yaw);
+  const auto wheel = [&](double along, double left)
+  { return ground.height(x + along * c - left * s, y + along * s + left * c); };
+  const double a = body.wheelbase / 2, b = body.track / 2;
+  const Taylor front_left = wheel(a, b), front_right = wheel(a, -b), rear_left = wheel(-a, b),
+               rear_right = wheel(-a, -b);
+  const Taylor rise = 0.5 * (front_left + front_right - rear_left - rear_right);
+  const Taylor bank = 0.5 * (front_left + rear_left - front_right - rear_right);
+  return {0.25 * (front_left + front_right + rear_left + rear_right), -atan((1 / body.wheelbase) * rise),
+          atan((1 / body.track) * bank)};
+}
 }  // namespace
 
-Drive::Drive(const DriveOptions& options, const Ground& ground) : options_(options), ground_(ground)
+Drive::Drive(const Route& route, const DriveOptions& options, const BodyMotionOptions& body, const Ground& ground)
+  : route_(route), body_(body), ground_(ground), curve_(options.curve), curve_rate_(2 * M_PI / options.curve_length)
 {
-  const double least = 2 * (options.standstill + options.speed_up);
-  if (options.duration < least)
-    throw std::invalid_argument(
-        fmt::format("duration = {} s: must be at least 2 (standstill + speed_up) = {} s", options.duration, least));
 }
 
-Taylor Drive::share(double t) const
-{
-  const double T = options_.speed_up;
-  const SmoothStep start = smoothStep((t - options_.standstill) / T);
-  const SmoothStep stop = smoothStep((t - (options_.duration - options_.standstill - T)) / T);
-  return {start.value - stop.value, (start.first - stop.first) / T, (start.second - stop.second) / (T * T)};
-}
-
-Taylor Drive::progress(double t) const
-{
-  const double T = options_.speed_up;
-  const SmoothStep start = smoothStep((t - options_.standstill) / T);
-  const SmoothStep stop = smoothStep((t - (options_.duration - options_.standstill - T)) / T);
-  const Taylor moving = share(t);
-  return {options_.speed * T * (start.integral - stop.integral), options_.speed * moving.value,
-          options_.speed * moving.rate};
-}
+Taylor Drive::lateral(const Taylor& x) const { return curve_ * (1 - cos(curve_rate_ * x)); }
 
 Motion Drive::at(double t) const
 {
-  const Taylor x = progress(t);
-  const double k = 2 * M_PI / options_.curve_length;
-  const Taylor y = options_.curve * (1 - cos(k * x));
-  const Taylor z = ground_.height(x, y);
+  const Taylor x = route_.progress(t), y = lateral(x);
+  const Taylor yaw = atan(curve_ * curve_rate_ * sin(curve_rate_ * x));
+  const Stance stance = stand(ground_, body_, x, y, yaw);
 
-  const Taylor time{t, 1, 0};
-  const Taylor sway = options_.sway_deg * M_PI / 180 * share(t);
-  const Taylor yaw = atan(options_.curve * k * sin(k * x));
-  const Taylor pitch = 2.0 / 3 * sway * sin(2 * M_PI * 1.3 * options_.sway_rate * time + 0.9);
-  const Taylor roll = sway * sin(2 * M_PI * options_.sway_rate * time);
-
-  // The rates of R = Rz(yaw) Ry(pitch) Rx(roll) about the body's own axes.
-  const Taylor turn[3] = {rateOf(roll) - rateOf(yaw) * sin(pitch),
-                          rateOf(pitch) * cos(roll) + rateOf(yaw) * sin(roll) * cos(pitch),
-                          rateOf(yaw) * cos(roll) * cos(pitch) - rateOf(pitch) * sin(roll)};
+  const Taylor driving = route_.driving(t), working = route_.working(t);
+  const Taylor sway = kRadians * body_.sway_deg * (driving + body_.work_sway * working);
+  const Taylor shake = driving + working;
+  const Taylor z = stance.height + body_.vibration * shake * (oscillation(t, kSlow) + oscillation(t, kFast, 1.0));
+  const Taylor pitch = stance.pitch + 2.0 / 3 * sway * oscillation(t, 1.3 * body_.sway_rate, 0.9) +
+                       kRadians * body_.vibration_deg * shake * oscillation(t, kFast, 2.0);
+  const Taylor roll = stance.roll + sway * oscillation(t, body_.sway_rate) +
+                      kRadians * body_.vibration_deg * shake * oscillation(t, kSlow, 0.5);
+  const Turn turn = turnOf(yaw, pitch, roll);
   return {Rigid::fromXyzYawPitchRoll(x.value, y.value, z.value, yaw.value, pitch.value, roll.value),
           {x.rate, y.rate, z.rate},
           {x.acceleration, y.acceleration, z.acceleration},
-          {turn[0].value, turn[1].value, turn[2].value},
-          {turn[0].rate, turn[1].rate, turn[2].rate}};
+          turn.rate,
+          turn.acceleration};
 }
 
 std::vector<Eigen::Vector2d> Drive::path() const
 {
-  const int steps = static_cast<int>(std::ceil(options_.duration * std::max(options_.speed, 0.1) / 0.1));
+  // By length, not by time: an hour at the same place adds nothing. The curve's slope stretches the steps.
+  const double step = 0.25 / std::hypot(1, curve_ * curve_rate_);
   std::vector<Eigen::Vector2d> path;
-  for (double x = -kLengthBehindOrigin; x < 0; x += 0.25) path.emplace_back(x, 0);
-  for (int i = 0; i <= steps; ++i) path.push_back(at(options_.duration * i / steps).world_T_body.translation.head<2>());
+  for (double x = -kBehindStart; x < 0; x += step) path.emplace_back(x, 0);
+  for (double x = 0; x < route_.farthest() + step; x += step) path.emplace_back(x, lateral(x).value);
   return path;
 }
 }  // namespace scanloom

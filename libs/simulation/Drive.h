@@ -3,34 +3,39 @@
 #include "core/Field.h"
 #include "core/Rigid.h"
 #include "simulation/Ground.h"
+#include "simulation/Route.h"
 #include "simulation/Taylor.h"
 
 #include <vector>
 
 namespace scanloom
 {
-struct DriveOptions
+/** How the body moves on top of its way. All assumed: plausible for a machine of 10 to 20 t. */
+struct BodyMotionOptions
 {
-  double duration = 22.0;
-  double standstill = 2.5;
-  double speed = 0.8;
-  double speed_up = 2.0;
-  double curve = 0.8;
-  double curve_length = 22.0;
   double sway_deg = 1.2;
   double sway_rate = 0.7;
+  double work_sway = 0.6;
+  double vibration = 0.0003;
+  double vibration_deg = 0.02;
+  double wheelbase = 3.5;
+  double track = 2.0;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.duration, Field{"duration", "s", "length of the recording", above(0)});
-    visit(o.standstill, Field{"standstill", "s", "at rest before and after the drive", atLeast(0)});
-    visit(o.speed, Field{"speed", "m/s", "cruising speed", between(0, 10)});
-    visit(o.speed_up, Field{"speed_up", "s", "to reach the cruising speed, and to stop", above(0)});
-    visit(o.curve, Field{"curve", "m", "amplitude of the winding path", between(0, 20)});
-    visit(o.curve_length, Field{"curve_length", "m", "after which the path winds again", above(1)});
-    visit(o.sway_deg, Field{"sway_deg", "deg", "roll and, two thirds of it, pitch while driving", between(0, 10)});
-    visit(o.sway_rate, Field{"sway_rate", "Hz", "of the roll; the pitch is 1.3 times as fast", between(0, 5)});
+    visit(o.sway_deg,
+          Field{"sway_deg", "deg", "roll and, two thirds of it, pitch while driving (assumed)", between(0, 10)});
+    visit(o.sway_rate,
+          Field{"sway_rate", "Hz", "of the roll; the pitch is 1.3 times as fast (assumed)", between(0, 5)});
+    visit(o.work_sway, Field{"work_sway", "", "share of the sway while the boom works (assumed)", between(0, 1)});
+    visit(o.vibration, Field{"vibration", "m", "of height, at 3.2 Hz and again at 5 Hz, unless at rest (assumed)",
+                             between(0, 0.02)});
+    visit(o.vibration_deg,
+          Field{"vibration_deg", "deg", "of roll at 3.2 Hz and of pitch at 5 Hz (assumed)", between(0, 1)});
+    visit(o.wheelbase, Field{"wheelbase", "m",
+                             "between the axles: pitch and height follow the ground under them (assumed)", above(0.1)});
+    visit(o.track, Field{"track", "m", "between the wheels of an axle: the roll follows them (assumed)", above(0.1)});
   }
 };
 
@@ -44,24 +49,30 @@ struct Motion
   Eigen::Vector3d angular_acceleration;  // rad/s2, in the body
 };
 
-/** Rests, drives along a winding path on the ground with growing and fading sway, and rests again. */
+/** Four wheels on the ground along a winding path, with sway and vibration that grow and fade as it drives and works.
+ */
 class Drive
 {
  public:
-  /** Throws std::invalid_argument if the rests and ramps are longer than the drive. */
-  Drive(const DriveOptions&, const Ground&);
+  Drive(const Route&, const DriveOptions&, const BodyMotionOptions&, const Ground&);
 
-  /** `t` s after the start of the recording; before and after, the machine rests. */
+  /** `t` s after the start of the recording; before, the machine rests. */
   Motion at(double t) const;
 
-  /** Points of the ground that the machine covers, its tail at the start included, at most 0.25 m apart. */
+  /** The height of the ground, for what moves about the machine. */
+  const Ground& ground() const { return ground_; }
+  const Route& route() const { return route_; }
+
+  /** Points of the ground that the machine covers, from 15 m behind the start on, at most 0.25 m apart. */
   std::vector<Eigen::Vector2d> path() const;
 
  private:
-  Taylor share(double t) const;     // of the cruising speed and of the sway: 0 at rest, 1 while cruising
-  Taylor progress(double t) const;  // m along the x axis
+  Taylor lateral(const Taylor& x) const;
 
-  DriveOptions options_;
+  Route route_;
+  BodyMotionOptions body_;
   Ground ground_;
+  double curve_;       // m
+  double curve_rate_;  // rad/m
 };
 }  // namespace scanloom

@@ -20,6 +20,7 @@ enum class RandomStream : std::uint64_t
   RightImu,
   ImuBiases,
   TotalStation,
+  Work,
 };
 
 /** SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), one per place. */

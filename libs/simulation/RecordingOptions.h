@@ -38,6 +38,8 @@ struct SimulatedRigOptions
 struct SimulationSettings
 {
   DriveOptions drive;
+  WorkCycleOptions work;
+  BodyMotionOptions body;
   GroundOptions ground;
   StandOptions stand;
   SimulatedRigOptions rig;
@@ -48,6 +50,8 @@ struct SimulationSettings
   static void sections(Self& s, Visitor&& visit)
   {
     visit(s.drive, Section{"simulated_drive", "how the machine moves"});
+    visit(s.work, Section{"simulated_work", "what it does on route = work"});
+    visit(s.body, Section{"simulated_body", "how its body sways and shakes"});
     visit(s.ground, Section{"simulated_ground", "what it drives on"});
     visit(s.stand, Section{"simulated_stand", "the stems around it"});
     visit(s.rig, Section{"simulated_rig", "where the sensors sit"});

@@ -53,7 +53,7 @@ ImuBias drawBias(std::uint64_t seed, std::uint64_t index, double gyro, double ac
 Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
 {
   const Ground ground(settings.ground);
-  const Drive drive(settings.drive, ground);
+  const Drive drive(Route(settings.drive, settings.work, seed), settings.drive, settings.body, ground);
 
   const auto lidar = [&](const OusterMetadata& metadata, const Rigid& body_T_sensor, double rate_error_ppm,
                          RandomStream timing, RandomStream noise)

@@ -1,0 +1,113 @@
+/** How far along its way the machine is: one winding drive, or a work cycle of short drives and stops. */
+#pragma once
+#include "core/Field.h"
+#include "simulation/Taylor.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+struct DriveOptions
+{
+  double duration = 22.0;
+  std::string route = "winding";
+  double standstill = 2.5;
+  double speed = 0.8;
+  double speed_up = 2.0;
+  double curve = 0.8;
+  double curve_length = 22.0;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.duration, Field{"duration", "s", "length of the recording", above(0)});
+    visit(o.route, Field{"route", "",
+                         "winding: rests, drives at 'speed', rests again; work: repeats the cycle of [simulated_work] "
+                         "until the recording ends"});
+    visit(o.standstill,
+          Field{"standstill", "s", "at rest before the drive (after it, too, on a winding one)", atLeast(0)});
+    visit(o.speed, Field{"speed", "m/s", "cruising speed of a winding drive, along its axis", between(0, 10)});
+    visit(o.speed_up, Field{"speed_up", "s", "to reach the cruising speed, and to stop", above(0)});
+    visit(o.curve, Field{"curve", "m", "amplitude of the winding path", between(0, 20)});
+    visit(o.curve_length, Field{"curve_length", "m", "after which the path winds again", above(1)});
+  }
+};
+
+/** A harvester's day, assumed: no published record of one was at hand. */
+struct WorkCycleOptions
+{
+  double step_min = 1.0;
+  double step_max = 3.0;
+  double speed_min = 0.3;
+  double speed_max = 0.8;
+  double work_min = 30.0;
+  double work_max = 120.0;
+  double turn_after = 40.0;
+  double return_speed = 1.0;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.step_min, Field{"step_min", "m", "shortest drive between two stops (assumed)", above(0)});
+    visit(o.step_max, Field{"step_max", "m", "longest drive between two stops (assumed)", above(0)});
+    visit(o.speed_min, Field{"speed_min", "m/s", "slowest of these drives (assumed)", above(0)});
+    visit(o.speed_max, Field{"speed_max", "m/s", "fastest of these drives (assumed)", between(0, 10)});
+    visit(o.work_min, Field{"work_min", "s", "shortest stop for work (assumed)", atLeast(0)});
+    visit(o.work_max, Field{"work_max", "s", "longest stop for work (assumed)", atLeast(0)});
+    visit(o.turn_after, Field{"turn_after", "m",
+                              "then it reverses to the start, rests and begins anew; 0: never, one way", atLeast(0)});
+    visit(o.return_speed, Field{"return_speed", "m/s", "of the way back (assumed)", between(0.1, 10)});
+  }
+};
+
+/** A stop at which the machine works with its boom. */
+struct WorkStop
+{
+  std::uint64_t number = 0;   // of the drive that led there
+  double begin = 0, end = 0;  // s
+};
+
+/** Drawn once for the whole recording: 48 bytes per stop; a query is a binary search. */
+class Route
+{
+ public:
+  /** Throws std::invalid_argument naming the options that cannot be together. */
+  Route(const DriveOptions&, const WorkCycleOptions&, std::uint64_t seed);
+
+  /** m along the axis of the path, `t` s after the start of the recording. */
+  Taylor progress(double t) const;
+
+  /** Of the cruising speed: 0 at rest, 1 while cruising. */
+  Taylor driving(double t) const;
+
+  /** 1 while the machine works, growing and fading within a second. */
+  Taylor working(double t) const;
+
+  /** The stop at that time, if it is one for work; by number, the stop after that drive. */
+  std::optional<WorkStop> workStopAt(double t) const;
+  std::optional<WorkStop> workStop(std::uint64_t number) const;
+
+  double duration() const { return duration_; }
+  double farthest() const { return farthest_; }  // m, the largest progress
+
+ private:
+  struct Leg
+  {
+    double begin;   // s
+    double moving;  // s, from the begin of speeding up to the begin of braking
+    double from;    // m
+    double speed;   // m/s, negative backwards
+    bool works;     // at its end
+  };
+  void addWinding(const DriveOptions&);
+  void addWorkCycles(const DriveOptions&, const WorkCycleOptions&, std::uint64_t seed);
+  const Leg* legAt(double t) const;  // that began last
+  double endOf(const Leg& leg) const { return leg.begin + leg.moving + speed_up_; }
+
+  double duration_, speed_up_, farthest_ = 0;
+  std::vector<Leg> legs_;
+};
+}  // namespace scanloom

@@ -1,0 +1,120 @@
+#include "simulation/Drive.h"
+
+#include <gtest/gtest.h>
+
+namespace scanloom
+{
+namespace
+{
+Drive windingDrive(const DriveOptions& options = {})
+{
+  BodyMotionOptions body;
+  body.sway_deg = 3;
+  return {Route(options, {}, 1), options, body, Ground(GroundOptions{})};
+}
+
+/** An hour of short stops along a curve. */
+Drive workDay()
+{
+  DriveOptions options;
+  options.route = "work";
+  options.duration = 3600;
+  options.speed_up = 1;
+  WorkCycleOptions work;
+  work.work_min = 4;
+  work.work_max = 12;
+  BodyMotionOptions body;
+  body.sway_deg = 3;
+  body.sway_rate = 1.5;
+  return {Route(options, work, 1), options, body, Ground(GroundOptions{})};
+}
+
+struct DriveCase
+{
+  const char* name;
+  Drive drive;
+  double from, to;
+};
+void PrintTo(const DriveCase& row, std::ostream* out) { *out << row.name; }
+
+class EveryDrive : public testing::TestWithParam<DriveCase>
+{
+ protected:
+  const double step_ = 3e-5;  // s, of the central differences: small against the vibration's period
+};
+
+TEST_P(EveryDrive, hasTheVelocityAndAccelerationOfItsPositions)
+{
+  const Drive& drive = GetParam().drive;
+  for (double t = GetParam().from; t < GetParam().to; t += 0.137)
+  {
+    const Motion before = drive.at(t - step_), now = drive.at(t), after = drive.at(t + step_);
+    const Eigen::Vector3d velocity = (after.world_T_body.translation - before.world_T_body.translation) / (2 * step_);
+    EXPECT_LT((now.velocity - velocity).norm(), 1e-7) << t;
+    EXPECT_LT((now.acceleration - (after.velocity - before.velocity) / (2 * step_)).norm(), 1e-6) << t;
+  }
+}
+
+TEST_P(EveryDrive, hasTheTurnRatesOfItsRotations)
+{
+  const Drive& drive = GetParam().drive;
+  for (double t = GetParam().from; t < GetParam().to; t += 0.137)
+  {
+    const Motion before = drive.at(t - step_), now = drive.at(t), after = drive.at(t + step_);
+    const Eigen::Vector3d rate =
+        logSo3(before.world_T_body.rotation.conjugate() * after.world_T_body.rotation) / (2 * step_);
+    EXPECT_LT((now.angular_rate - rate).norm(), 1e-6) << t;
+    EXPECT_LT((now.angular_acceleration - (after.angular_rate - before.angular_rate) / (2 * step_)).norm(), 1e-6) << t;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, EveryDrive,
+                         testing::Values(DriveCase{"winding", windingDrive(), 2, 21},
+                                         DriveCase{"work", workDay(), 2, 60},
+                                         DriveCase{"the end of an hour's work", workDay(), 3540, 3600}));
+
+TEST(Drive, restsBeforeItStartsAndAfterItStopped)
+{
+  const Drive drive = windingDrive();
+
+  EXPECT_EQ(boxMinus(drive.at(2.5).world_T_body, drive.at(0).world_T_body).norm(), 0);
+  EXPECT_LT(boxMinus(drive.at(22).world_T_body, drive.at(19.6).world_T_body).norm(), 1e-12);
+  EXPECT_EQ(drive.at(1).velocity.norm(), 0);
+  EXPECT_GT(drive.at(10).velocity.norm(), 0.79);
+}
+
+TEST(Drive, standsOnFourWheels)
+{
+  BodyMotionOptions still;
+  still.sway_deg = still.vibration = still.vibration_deg = 0;
+  const DriveOptions options;
+  const Ground ground(GroundOptions{0.4, 0});  // smooth over the length of the machine
+  const Drive drive(Route(options, {}, 1), options, still, ground);
+  for (double t = 0; t < 22; t += 1.1)
+  {
+    const Rigid world_T_body = drive.at(t).world_T_body;
+    for (const double x : {-1.75, 1.75})
+      for (const double y : {-1.0, 1.0})
+      {
+        const Eigen::Vector3d wheel = world_T_body * Eigen::Vector3d(x, y, 0);
+        EXPECT_NEAR(wheel.z(), ground.height(wheel.x(), wheel.y()), 0.01) << t;
+      }
+  }
+}
+
+TEST(Drive, hasAPathThatIsNeverFarFromTheMachineHoweverLongItWorks)
+{
+  const Drive drive = workDay();
+  const std::vector<Eigen::Vector2d> path = drive.path();
+  EXPECT_LT(path.size(), 400u);  // 40 m, and what is behind it
+  for (std::size_t i = 1; i < path.size(); ++i) EXPECT_LE((path[i] - path[i - 1]).norm(), 0.25);
+  for (double t = 0; t < 3600; t += 7)
+  {
+    const Eigen::Vector2d at = drive.at(t).world_T_body.translation.head<2>();
+    double nearest = 1e9;
+    for (const Eigen::Vector2d& p : path) nearest = std::min(nearest, (p - at).norm());
+    EXPECT_LT(nearest, 0.13) << t;
+  }
+}
+}  // namespace
+}  // namespace scanloom
