@@ -56,7 +56,7 @@ TEST(SimulatedImu, hasTheNoiseThatWasAskedFor)
   DriveOptions parked;
   parked.duration = 20;
   parked.route = "work";
-  parked.standstill = 20;
+  parked.standstill = 21;
   parked.speed_up = 1;
   const auto samples = simulateImu(windingDrive(parked), span, Rigid::identity(), Timestamp{}, Duration{5ms}, errors, 7,
                                    RandomStream::BodyImu);
