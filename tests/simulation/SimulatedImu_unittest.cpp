@@ -8,11 +8,11 @@ namespace scanloom
 {
 namespace
 {
-Drive windingDrive(const DriveOptions& options = {})
+Drive windingDrive(const DriveOptions& options = {}, const GroundOptions& ground = {})
 {
   BodyMotionOptions body;
   body.sway_deg = 3;
-  return {Route(options, {}, 1), options, body, Ground(GroundOptions{})};
+  return {Route(options, {}, 1), options, body, Ground(ground)};
 }
 
 TEST(SimulatedImu, measuresGravityAtRestWhereverItSits)
@@ -53,13 +53,14 @@ TEST(SimulatedImu, hasTheNoiseThatWasAskedFor)
 {
   const RecordingSpan span{Timestamp{}, 20};
   const ImuErrors errors{{0.01, 1e-3, 0, 0}, {{0, 0, 0.5}, {0, 0.1, 0}}};
+  const GroundOptions level{0, 0};
   DriveOptions parked;
   parked.duration = 20;
   parked.route = "work";
   parked.standstill = 21;
   parked.speed_up = 1;
-  const auto samples = simulateImu(windingDrive(parked), span, Rigid::identity(), Timestamp{}, Duration{5ms}, errors, 7,
-                                   RandomStream::BodyImu);
+  const auto samples = simulateImu(windingDrive(parked, level), span, Rigid::identity(), Timestamp{}, Duration{5ms},
+                                   errors, 7, RandomStream::BodyImu);
 
   double gyro = 0, accel = 0;
   for (const ImuSample& sample : samples)
