@@ -16,12 +16,6 @@ constexpr Duration kSettling = 2s;
 
 void LidarClock::observe(Timestamp stamp, Timestamp received) { delays_.add(received, received - stamp); }
 
-std::optional<Duration> LidarClock::leastDelay() const
-{
-  const std::optional<Duration> delay = delays_.value();
-  return delay ? std::optional(*delay - offset_) : std::nullopt;
-}
-
 std::optional<Duration> LidarClock::configuredDelay() const
 {
   const std::optional<Duration> delay = delays_.value();

@@ -34,7 +34,11 @@ class LidarClock
   void observe(Timestamp stamp, Timestamp received);
 
   /** Least delay of stamps on the common clock; none before the first packet. */
-  std::optional<Duration> leastDelay() const;
+  std::optional<Duration> leastDelay() const
+  {
+    const std::optional<Duration> delay = delays_.value();
+    return delay ? std::optional(*delay - offset_) : std::nullopt;
+  }
 
   /** Least delay if only the configured offset were added; none before the first packet. */
   std::optional<Duration> configuredDelay() const;

@@ -14,6 +14,9 @@ namespace
 // A consumer that is late returns many at once.
 constexpr std::size_t kMostSpareScans = 4;
 
+// Of scans without a column: whoever waits for longer has two recordings, not one with a gap.
+constexpr Duration kLongestSilence = 10min;
+
 auto orderOf(Timestamp stamp, std::size_t sensor_id, std::uint16_t measurement_id)
 {
   return std::make_tuple(stamp, sensor_id, measurement_id);
@@ -173,8 +176,21 @@ void TimeBatcher::refreshFront(LidarIndex lidar)
 /** Nothing older than `time` comes any more. */
 void TimeBatcher::pass(Timestamp time, std::vector<Scan>& closed)
 {
-  while (time >= scan_->end()) closed.push_back(closeScan());
+  while (time >= scan_->end())
+  {
+    closed.push_back(closeScan());
+    skipSilence(time);
+  }
   while (time >= sliceEnd()) giveSlice();
+}
+
+/** Goes on with the scan of `time` where a new one begins so far before it that nobody wants all those between. */
+void TimeBatcher::skipSilence(Timestamp time)
+{
+  if (time < scan_->start + kLongestSilence) return;
+  const std::int64_t scans = (time - scan_->start) / period_;
+  scan_->start += scans * period_;
+  for (LidarInput& input : inputs_) input.counters.missed_scans += static_cast<std::uint64_t>(scans);
 }
 
 void TimeBatcher::append(LidarIndex index)

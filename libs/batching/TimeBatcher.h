@@ -82,6 +82,7 @@ class TimeBatcher : public Batcher
   Timestamp watermark(const LidarInput&) const;
   void refreshFront(LidarIndex);
   void pass(Timestamp, std::vector<Scan>& closed);
+  void skipSilence(Timestamp);
   void append(LidarIndex);
   void giveSlice();
   Timestamp sliceBegin() const;

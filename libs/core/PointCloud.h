@@ -9,7 +9,10 @@
 
 namespace scanloom
 {
-/** Memory behind the last point of a PointCloud, one pointer per field. */
+/**
+ * Memory behind the last point of a PointCloud, one pointer per field. Short of registers, pass it by value: for all
+ * that a compiler knows, what is written through it changes it where it has an address.
+ */
 struct PointRoom
 {
   float *x, *y, *z;

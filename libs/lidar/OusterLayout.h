@@ -3,6 +3,7 @@
 #include "core/Bytes.h"
 #include "lidar/OusterProfiles.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -36,7 +37,15 @@ struct OusterHeaderFields
   ByteField type, frame_id, init_id, serial, alert_flags, thermal_status, shot_limiting_status;
   std::uint64_t frame_id_modulus;
 };
-const OusterHeaderFields& headerFields(OusterHeader);
+constexpr std::array<OusterHeaderFields, 3> kOusterHeaders = {{
+    {0, {}, {10, 2}, {}, {}, {}, {}, {}, 0x10000},  // None: the frame id of the first column
+    {32, {0, 2}, {2, 2}, {4, 3}, {7, 5}, {12, 1}, {18, 1}, {19, 1}, 0x10000},
+    {32, {0, 1}, {4, 4}, {1, 3}, {11, 5}, {8, 1}, {18, 1}, {19, 1}, 0x100000000},
+}};
+constexpr const OusterHeaderFields& headerFields(OusterHeader header)
+{
+  return kOusterHeaders[static_cast<std::size_t>(header)];
+}
 
 constexpr std::uint64_t kOusterLidarType = 1;
 constexpr std::uint64_t kOusterImuType = 2;

@@ -61,7 +61,10 @@ struct Column
 
 Column columnOf(const OusterColumnView& view, const BeamBlock& any)
 {
-  Column column{view.cos_th, view.sin_th, any.range_offset[0], {}};
+  Column column;  // not zeroed first: gcc calls that "rep stos", which takes longer than a block of channels
+  column.cos_th = view.cos_th;
+  column.sin_th = view.sin_th;
+  column.range_offset = any.range_offset[0];
   for (int k = 0; k < 3; ++k) column.origin[k] = view.cos_th * any.d[k][0] + view.sin_th * any.e[k][0] + any.f[k][0];
   return column;
 }

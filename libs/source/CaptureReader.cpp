@@ -17,6 +17,17 @@ namespace
 /** libpcap has no code for it: every one of its messages about a missing end begins so. */
 bool saysTruncated(const std::string& message) { return message.rfind("truncated", 0) == 0; }
 
+// Year 2200: differences of stamps cannot overflow.
+constexpr std::int64_t kLatestSecond = 24LL * 3600 * 365 * 230;
+
+/** Throws std::out_of_range for a stamp of no time that anybody could capture at. */
+Timestamp stampOf(const pcap_pkthdr& record)
+{
+  if (record.ts.tv_sec < 0 || record.ts.tv_sec > kLatestSecond) throw std::out_of_range("stamp");
+  // libpcap gives nanoseconds in the microseconds' place when opened for nanoseconds.
+  return Timestamp{std::chrono::seconds{record.ts.tv_sec} + Duration{record.ts.tv_usec}};
+}
+
 pcap* open(const std::filesystem::path& path)
 {
   std::array<char, PCAP_ERRBUF_SIZE> error{};
@@ -112,8 +123,7 @@ bool CaptureReader::nextRecord()
 /** False if the record completes no datagram: something else than UDP, or a fragment that others must follow. */
 bool CaptureReader::readDatagram(Bytes frame, Datagram& datagram)
 {
-  // libpcap gives nanoseconds in the microseconds' place when opened for nanoseconds.
-  const Timestamp received{std::chrono::seconds{record_->ts.tv_sec} + Duration{record_->ts.tv_usec}};
+  const Timestamp received = stampOf(*record_);
   const std::optional<Bytes> packet = ipPacketOf(link_type_, frame);
   IpContent content = packet ? ipContentOf(*packet) : IpContent{};
   const bool may_be_udp = content.protocol == kUdp || (content.isFragment() && isExtension(content.protocol));

@@ -20,7 +20,7 @@ struct CaptureCounters
   std::uint64_t fragments_expired = 0;  // datagrams of which a fragment never came
   std::uint64_t not_udp = 0;            // records: ARP, TCP, ICMP, ...
   std::uint64_t cut_short = 0;          // records that the capture's own snap length cut off
-  std::uint64_t malformed = 0;          // records whose lengths contradict each other
+  std::uint64_t malformed = 0;          // records whose lengths contradict each other, or of no possible time
   bool truncated = false;               // the file ends inside a record: everything before it was delivered
 };
 

@@ -80,7 +80,7 @@ UdpReceiverOptions receiverOptions(const Rig& rig)
 }
 
 RigLive::RigLive(const Rig& rig)
-  : stream_(withoutRecordedImu(rig)),
+  : stream_(withoutRecordedImu(rig), RigStream::ReceiveTimes::Steady),
     queue_({rig.live.scans_waiting, rig.live.scans_waiting * static_cast<std::size_t>(rig.batcher.slices)}),
     capture_(rig.live.capture.empty() ? nullptr : std::make_unique<LiveCapture>(rig.live.capture)),
     receiver_(receiverOptions(rig)),

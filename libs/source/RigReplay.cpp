@@ -2,7 +2,7 @@
 
 namespace scanloom
 {
-RigReplay::RigReplay(const Rig& rig) : captures_(rig.captures), stream_(rig) {}
+RigReplay::RigReplay(const Rig& rig) : captures_(rig.captures), stream_(rig, RigStream::ReceiveTimes::OfCapture) {}
 
 std::optional<SensorEvent> RigReplay::next(Duration)
 {

@@ -1,5 +1,8 @@
 #include "source/RigStream.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
 
 namespace scanloom
@@ -17,7 +20,7 @@ std::vector<RoutedLidar> routesOf(const Rig& rig)
 }
 }  // namespace
 
-RigStream::RigStream(const Rig& rig)
+RigStream::RigStream(const Rig& rig, ReceiveTimes times)
   : lidars_(rig.lidars),
     body_imu_(rig.body_imu),
     router_(routesOf(rig)),
@@ -26,6 +29,7 @@ RigStream::RigStream(const Rig& rig)
     longest_effect_(2 * imu_patience_ + 10s),
     strange_(rig.lidars.size(), 0)
 {
+  if (times == ReceiveTimes::OfCapture) capture_clock_.emplace(rig.lidars.size());
   if (rig.batcher.slices > 1) batcher_->onSlice([this](const ScanSlice& slice) { parts_.push_back({copyOf(slice)}); });
 }
 
@@ -34,7 +38,8 @@ void RigStream::take(const DatagramView& datagram)
   const std::optional<Routed> routed = router_.route(datagram);
   if (!routed) return;
 
-  advance(datagram.received);
+  const Timestamp received = steadyTimeOf(datagram, *routed);
+  advance(received);
   if (routed->kind == PacketKind::Imu)
   {
     const BatchedLidar& lidar = lidars_[routed->lidar];
@@ -45,7 +50,20 @@ void RigStream::take(const DatagramView& datagram)
     }
   }
   else
-    release(batcher_->push(routed->lidar, datagram.payload, datagram.received));
+    release(batcher_->push(routed->lidar, datagram.payload, received));
+}
+
+Timestamp RigStream::steadyTimeOf(const DatagramView& datagram, const Routed& routed)
+{
+  if (!capture_clock_) return datagram.received;
+  if (routed.kind == PacketKind::Lidar)
+  {
+    lidars_[routed.lidar].decoder->readBlocks(datagram.payload, blocks_);
+    const auto valid =
+        std::find_if(blocks_.begin(), blocks_.end(), [](const MeasurementBlock& block) { return block.valid; });
+    if (valid != blocks_.end()) capture_clock_->observe(routed.lidar, valid->stamp, datagram.received);
+  }
+  return capture_clock_->steady(datagram.received);
 }
 
 void RigStream::advance(Timestamp now)
@@ -128,6 +146,10 @@ std::vector<std::string> RigStream::takeWarnings()
     warnings.push_back(textOf(notice, lidars_[notice.lidar].name));
     if (notice.kind == Notice::Kind::Restarted) restarted_.push_back(notice.lidar);
   }
+  if (capture_clock_ && std::exchange(capture_clock_steps_, capture_clock_->steps()) != capture_clock_->steps())
+    warnings.push_back(fmt::format(
+        "the clock of the computer that captured was set, by {:+.3f} s in all; times of reception go on without it",
+        seconds(capture_clock_->step())));
   return warnings;
 }
 

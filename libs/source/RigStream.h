@@ -1,4 +1,5 @@
 #pragma once
+#include "source/CaptureClock.h"
 #include "source/RigInput.h"
 
 #include <deque>
@@ -16,7 +17,13 @@ namespace scanloom
 class RigStream
 {
  public:
-  explicit RigStream(const Rig&);
+  enum class ReceiveTimes
+  {
+    Steady,
+    OfCapture,  // the clock may have been set meanwhile, see CaptureClock
+  };
+
+  RigStream(const Rig&, ReceiveTimes);
   RigStream(const RigStream&) = delete;
   RigStream& operator=(const RigStream&) = delete;
 
@@ -53,6 +60,7 @@ class RigStream
   std::uint64_t lateImuSamples() const { return imu_order_.late(); }
 
  private:
+  Timestamp steadyTimeOf(const DatagramView&, const Routed&);
   void release(std::vector<Scan> scans);
   void releaseImu(Timestamp horizon);
   void releaseParts(Timestamp end);
@@ -61,6 +69,9 @@ class RigStream
   std::vector<ImuSample> body_imu_;
   std::size_t next_body_imu_ = 0;
   PacketRouter router_;
+  std::optional<CaptureClock> capture_clock_;
+  std::uint64_t capture_clock_steps_ = 0;  // as of takeWarnings()
+  std::vector<MeasurementBlock> blocks_;
   std::unique_ptr<Batcher> batcher_;
   Duration imu_patience_;
   Duration longest_effect_;  // of one silence on the batcher: after it, one step is as good as many

@@ -293,3 +293,20 @@ TEST(TimeBatcher, aTimeOffsetBringsAClockIntoLine)
   EXPECT_GT(scans.front().columns_of[0], 0u);
   EXPECT_GT(scans.front().columns_of[1], 0u);
 }
+
+TEST(TimeBatcher, skipsScansThatNobodyWantsBetweenTwoRecordingsAndKeepsTheGrid)
+{
+  const FakeLidar lidar;
+  TimeBatcher batcher = fakeLidars({{}});
+  std::vector<Arrival> arrivals = arrivalsOf(0, lidar.drive(Timestamp{100s}, 1s));
+  const std::vector<Arrival> later = arrivalsOf(0, lidar.drive(Timestamp{100s + 24h * 365 * 40}, 1s));
+  arrivals.insert(arrivals.end(), later.begin(), later.end());
+  const std::vector<Scan> scans = feed(batcher, arrivals);
+
+  EXPECT_LT(scans.size(), 100u);
+  EXPECT_GT(scans.back().start, Timestamp{100s + 24h * 365 * 40});
+  EXPECT_EQ((scans.back().start - scans.front().start) % scans.front().period, 0ns);
+  expectTimeOrder(scans);
+  EXPECT_EQ(batcher.counters(0).emitted + batcher.counters(0).before_start + batcher.counters(0).late,
+            batcher.counters(0).received);
+}

@@ -1,6 +1,7 @@
 #include "source/CaptureReader.h"
 
 #include "HandmadeCapture.h"
+#include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
 
@@ -241,6 +242,28 @@ TEST(CaptureReader, saysWhereADamagedFileBreaksAndDeliversWhatWasBefore)
   {
     EXPECT_THAT(error.what(), HasSubstr("damaged after record 1"));
   }
+}
+
+TEST(CaptureReader, countsARecordOfNoPossibleTime)
+{
+  const TemporaryFolder folder;
+  std::ofstream file(folder / "a.pcapng", std::ios::binary);
+  const auto block = [&file](std::uint32_t type, const std::vector<std::uint32_t>& body)
+  {
+    const auto length = static_cast<std::uint32_t>(4 * body.size() + 12);
+    std::vector<std::uint32_t> words{type, length};
+    words.insert(words.end(), body.begin(), body.end());
+    words.push_back(length);
+    file.write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(4 * words.size()));
+  };
+  block(0x0A0D0D0A, {0x1A2B3C4D, 1, 0xFFFFFFFF, 0xFFFFFFFF});
+  block(1, {1, 4096, 0x00010009, 0, 0});  // Ethernet, if_tsresol: seconds
+  block(6, {0, 1200, 0, 4, 4, 0});        // second 1200 * 2^32
+  block(6, {0, 0, 0xFFFFFFFF, 4, 4, 0});  // year 2106
+  file.close();
+  const Contents contents = read(folder / "a.pcapng");
+  EXPECT_EQ(contents.counters.records, 2u);
+  EXPECT_EQ(contents.counters.malformed, 2u);  // the second one is too short for Ethernet
 }
 
 TEST(CaptureReader, progressEndsAtOne)

@@ -283,7 +283,7 @@ TEST(RigStream, givesEachSliceBeforeTheScanThatHoldsItAgain)
 {
   LiveRig lidars(2);
   lidars.rig.batcher.slices = 4;
-  RigStream stream(lidars.rig);
+  RigStream stream(lidars.rig, RigStream::ReceiveTimes::Steady);
   std::vector<Scan> parts, scans;
   const auto collect = [&]
   {
