@@ -117,7 +117,7 @@ int run(SlamArguments arguments)
   files.close(result.summary);
 
   report(result, arguments.output.folder);
-  if (const std::string damage = input.sensors->damage(); !damage.empty()) fmt::print(stderr, "warning: {}\n", damage);
+  for (const std::string& warning : input.sensors->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
   if (interrupted()) return kInterrupted;
   return result.passed ? kDone : kQualityGate;
 }

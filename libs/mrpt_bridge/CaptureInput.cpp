@@ -26,10 +26,7 @@ class CaptureInput : public SensorInput
     return lidar.body_T_sensor * lidar.sensor_T_imu;
   }
 
-  std::string damage() const override
-  {
-    return replay_.captureCounters().truncated ? "a capture ends inside a record: it was cut off" : "";
-  }
+  std::vector<std::string> takeWarnings() override { return replay_.takeWarnings(); }
 
  private:
   Rig rig_;

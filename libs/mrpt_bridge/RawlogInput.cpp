@@ -77,7 +77,12 @@ class RawlogInput : public SensorInput
 
   const RecordingHeader& header() const override { return header_; }
   double progress() const override { return 0; }
-  std::string damage() const override { return reader_.damage(); }
+
+  std::vector<std::string> takeWarnings() override
+  {
+    const std::string damage = std::exchange(warned_of_, reader_.damage());
+    return warned_of_ == damage ? std::vector<std::string>() : std::vector<std::string>{warned_of_};
+  }
 
   std::optional<Rigid> body_T_imu(int sensor) const override
   {
@@ -138,6 +143,7 @@ class RawlogInput : public SensorInput
   bool all_kept_ = true;
   std::map<int, Rigid> body_T_imu_;
   std::uint64_t scans_ = 0, other_objects_ = 0;
+  std::string warned_of_;
 };
 }  // namespace
 

@@ -32,8 +32,8 @@ class SensorInput
   /** What was counted on the way, by name: packets and blocks per lidar. */
   virtual std::map<std::string, std::uint64_t> counts() const = 0;
 
-  /** For a person: empty if all is well, otherwise what could not be read. Known at the end of input. */
-  virtual std::string damage() const = 0;
+  /** What a person should know, since the last call: lidars that fell silent, restarted, ...; damage to a file. */
+  virtual std::vector<std::string> takeWarnings() = 0;
 };
 
 /** The captures of a rig. */

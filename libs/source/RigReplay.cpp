@@ -1,5 +1,7 @@
 #include "source/RigReplay.h"
 
+#include <utility>
+
 namespace scanloom
 {
 RigReplay::RigReplay(const Rig& rig) : captures_(rig.captures), stream_(rig, RigStream::ReceiveTimes::OfCapture) {}
@@ -20,6 +22,15 @@ std::optional<SensorEvent> RigReplay::next(Duration)
   }
   ended_ = !event;
   return event;
+}
+
+std::vector<std::string> RigReplay::takeWarnings()
+{
+  std::vector<std::string> warnings = stream_.takeWarnings();
+  const bool is_cut = captures_.counters().truncated;
+  if (is_cut && !std::exchange(warned_of_cut_, true))
+    warnings.push_back("a capture ends inside a record: everything before it was read");
+  return warnings;
 }
 
 RigAccount RigReplay::account() const

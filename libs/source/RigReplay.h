@@ -19,11 +19,10 @@ class RigReplay : public RigInput
   void stop() override { stop_ = true; }
   double progress() const override { return captures_.progress(); }
   RigAccount account() const override;
-  std::vector<std::string> takeWarnings() override { return stream_.takeWarnings(); }
+  std::vector<std::string> takeWarnings() override;
 
   const Batcher& batcher() const { return stream_.batcher(); }
   const PacketRouter& router() const { return stream_.router(); }
-  CaptureCounters captureCounters() const { return captures_.counters(); }
   std::uint64_t lateImuSamples() const { return stream_.lateImuSamples(); }
 
  private:
@@ -33,5 +32,6 @@ class RigReplay : public RigInput
   std::atomic<bool> stop_{false};
   bool read_ = false;   // all of the captures
   bool ended_ = false;  // and all was given out
+  bool warned_of_cut_ = false;
 };
 }  // namespace scanloom
