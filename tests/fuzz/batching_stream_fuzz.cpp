@@ -225,7 +225,7 @@ class Session
         damage(lidar);
         break;
       case 9:
-        sender.clock += kSteps[script_.next() % kSteps.size()];
+        sender.clock = stepped(sender.clock, kSteps[script_.next() % kSteps.size()]);
         break;
       case 10:
         ++sender.runs;
@@ -249,6 +249,13 @@ class Session
         batcher_.takeNotices();
         sender.next += 40;  // silent for long
     }
+  }
+
+  /** Two centuries off at most: stamps of an Ouster have 64 bits, and further off this program's own sums overflow. */
+  static Duration stepped(Duration clock, Duration step)
+  {
+    constexpr Duration kMost{std::chrono::hours{24 * 365 * 200}};
+    return std::clamp(clock, -kMost + std::chrono::abs(step), kMost - std::chrono::abs(step)) + step;
   }
 
   void sendEarliest()
