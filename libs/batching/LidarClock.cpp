@@ -12,6 +12,8 @@ namespace
 constexpr double kFollowRate = 2e-4;
 constexpr double kSettleRate = 1e-2;
 constexpr Duration kSettling = 2s;
+
+constexpr Duration kLeastBetweenAlarms = 10s;
 }  // namespace
 
 void LidarClock::observe(Timestamp stamp, Timestamp received) { delays_.add(received, received - stamp); }
@@ -62,14 +64,15 @@ void LidarClock::follow(Duration others_delay, Timestamp now)
   followed_ = now;
 }
 
-std::optional<Duration> LidarClock::drift(Duration others_delay, Duration alarm)
+std::optional<Duration> LidarClock::drift(Duration others_delay, Duration alarm, Timestamp now)
 {
   const std::optional<Duration> delay = leastDelay();
   if (state_ != State::Common || !delay) return std::nullopt;
   const Duration skew = *delay - others_delay;
   if (!skew_watched_) skew_watched_ = skew;
   const Duration drift = skew - *skew_watched_;
-  if (drift < alarm && -drift < alarm) return std::nullopt;
+  if (now < no_alarm_before_ || (drift < alarm && -drift < alarm)) return std::nullopt;
+  no_alarm_before_ = now + kLeastBetweenAlarms;
   skew_watched_ = skew;
   return drift;
 }

@@ -60,8 +60,11 @@ class LidarClock
   /** An Own clock is led to the delay that the others have, slowly enough that its stamps never go back. */
   void follow(Duration others_delay, Timestamp now);
 
-  /** For a common clock: by how much it has moved against the others' since the start or the last alarm, if by more. */
-  std::optional<Duration> drift(Duration others_delay, Duration alarm);
+  /**
+   * For a common clock: by how much it has moved against the others' since the start or the last alarm, if by more than
+   * `alarm`. Not twice in ten seconds: on a computer that is short of time, packets' delays go up and down.
+   */
+  std::optional<Duration> drift(Duration others_delay, Duration alarm, Timestamp now);
 
  private:
   Duration configured_;
@@ -69,6 +72,7 @@ class LidarClock
   State state_ = State::Unknown;
   SlidingMinimum delays_{2s};  // of raw stamps
   std::optional<Duration> skew_watched_;
+  Timestamp no_alarm_before_ = Timestamp::min();
   std::optional<Duration> delay_before_break_;
   Timestamp decided_ = Timestamp::min();
   Timestamp followed_ = Timestamp::min();

@@ -6,6 +6,9 @@ namespace scanloom
 {
 namespace
 {
+// Shorter than any scan: packets did come, behind the deadline.
+constexpr Duration kHardlySilent = 50ms;
+
 std::string whatHappened(const Notice& n)
 {
   const double duration = seconds(n.duration);
@@ -14,6 +17,7 @@ std::string whatHappened(const Notice& n)
     case Notice::Kind::Silent:
       return "silent: scans go on without it";
     case Notice::Kind::Back:
+      if (n.duration < kHardlySilent) return "back: all its packets had come behind the deadline (deadline_ms)";
       return fmt::format("back after {:.3f} s of silence", duration);
     case Notice::Kind::Restarted:
       return "has started again";
@@ -26,9 +30,9 @@ std::string whatHappened(const Notice& n)
           duration);
     case Notice::Kind::ClockDrifts:
       return fmt::format(
-          "its packets arrive {:+.6f} s later by their stamps than they did, against those of the others: its clock "
-          "drifts (see to PTP), or its network is jammed",
-          duration);
+          "its packets' delay changed by {:+.1f} ms against the others': its clock drifts (see to PTP), or its network "
+          "or this computer is jammed",
+          1e3 * duration);
     case Notice::Kind::Quarantined:
       return fmt::format(
           "its clock is {:+.6f} s off that of the others: left out; synchronise the lidars (PTP), give its "

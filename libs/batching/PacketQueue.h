@@ -15,8 +15,8 @@ class PacketQueue
   explicit PacketQueue(std::size_t capacity) : capacity_(capacity) {}
 
   /**
-   * Copies the packet and takes the blocks: its usable ones in time order, at least one; `blocks` is left with memory of
-   * any content. The decoder must outlive the packet. Returns the blocks dropped for it when full.
+   * Copies the packet and takes the blocks: its usable ones in time order, at least one; `blocks` is left with memory
+   * of any content. The decoder must outlive the packet. Returns the blocks dropped for it when full.
    */
   std::size_t push(Bytes packet, std::vector<MeasurementBlock>& blocks, const PacketDecoder&);
 

@@ -152,7 +152,7 @@ void TimeBatcher::watchClock(LidarIndex lidar)
   // Of two clocks that only know each other, one must lead.
   if (inputs_[*reference].clock.state() == LidarClock::State::Common || *reference < lidar)
     clock.follow(expected, now_);
-  if (const auto drift = clock.drift(expected, kDriftAlarm); drift && *reference < lidar)
+  if (const auto drift = clock.drift(expected, kDriftAlarm, now_); drift && *reference < lidar)
     note(lidar, Notice::Kind::ClockDrifts, *drift);
 }
 }  // namespace scanloom

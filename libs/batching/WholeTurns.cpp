@@ -44,8 +44,7 @@ void WholeTurns::collect(LidarIndex lidar)
 {
   const LidarDescription& description = inputs_[lidar].decoder->description();
   const auto make = description.numbering == Numbering::Ids ? makeFrameIdTurns : makeAzimuthTurns;
-  lidars_[lidar].turns =
-      make(inputs_[lidar].decoder, inputs_[lidar].time_offset, static_cast<std::uint8_t>(lidar));
+  lidars_[lidar].turns = make(inputs_[lidar].decoder, inputs_[lidar].time_offset, static_cast<std::uint8_t>(lidar));
   lidars_[lidar].period = fromSeconds(1 / description.frame_rate);
 }
 

@@ -2,7 +2,7 @@
  * Any fate of the packets of three lidars on their way to the batcher: lost, repeated, held back, damaged, of a clock
  * that steps, of a sensor that starts again. Whatever happens, the invariants of the fault table hold, and the
  * output does not run ahead of the input.
- * fuzz options: -max_len=256
+ * fuzz options: -max_len=128
  */
 #include <array>
 #include <memory>

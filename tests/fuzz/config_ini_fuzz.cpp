@@ -1,6 +1,6 @@
 /**
  * Any text is either a configuration or a ConfigError.
- * fuzz options: -max_len=1024
+ * fuzz options: -max_len=512
  */
 #include "config/Configuration.h"
 

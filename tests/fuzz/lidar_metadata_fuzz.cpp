@@ -1,7 +1,7 @@
 /**
  * Any text as a metadata file of any family: a decoder that works, or std::invalid_argument. The first byte chooses
  * between the rest as the text, and the rest as changes to a sound file, so that more is reached than the JSON parser.
- * fuzz options: -max_len=2048
+ * fuzz options: -max_len=1024
  */
 #include <array>
 #include <stdexcept>

@@ -1,7 +1,7 @@
 /**
  * Any bytes as a pcap file. The first byte chooses between the rest as the whole file, and the rest as records (length,
  * bytes) of a sound file of some link type, so that the layers behind libpcap are reached without a corpus.
- * fuzz options: -max_len=1024
+ * fuzz options: -max_len=512
  */
 #include "readCapture.h"
 

@@ -1,7 +1,7 @@
 /**
  * Any bytes as a pcapng file. The first byte chooses between the rest as the whole file, the rest as blocks (type,
  * length, bytes) whose lengths are sound, and the rest as packets of a sound section of some link type.
- * fuzz options: -max_len=1024
+ * fuzz options: -max_len=512
  */
 #include "readCapture.h"
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <map>
+#include <random>
 
 #include "captures.h"
 #include "lidar/Crc64.h"
@@ -86,6 +87,28 @@ TEST(OusterDecoder, everyCrcOfTheCrcCaptureHoldsAndEveryFlippedByteIsFound)
     damaged[i] ^= 0x10;
     EXPECT_EQ(decoder.kind(damaged), PacketKind::BadCrc) << "byte " << i;
   }
+}
+
+TEST(OusterDecoder, rejectsEachOfAHundredThousandFlipsAndBursts)  // F8
+{
+  const OusterMetadata metadata = simpleMetadata("RNG15_RFL8_NIR8");
+  const OusterDecoder decoder(metadata, Rigid::identity());
+  auto packet = OusterEncoder(metadata).lidarPacket(randomColumns(metadata, 1));
+  store(packet, packet.size() - 8, crc64(Bytes(packet).slice(0, packet.size() - 8)));
+  ASSERT_EQ(decoder.kind(packet), PacketKind::Lidar);
+
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 100000; ++i)
+  {
+    // Bursts of up to 64 bits, the CRC's own too; the packet's type is looked at before the CRC.
+    const std::uint64_t burst = i % 2 ? 1 : random() | 1;
+    const std::size_t at = 2 + random() % (packet.size() - 2 - sizeof burst);
+    const auto before = load<std::uint64_t>(packet, at);
+    store(packet, at, before ^ burst);
+    ASSERT_EQ(decoder.kind(packet), PacketKind::BadCrc) << "byte " << at;
+    store(packet, at, before);
+  }
+  EXPECT_EQ(decoder.kind(packet), PacketKind::Lidar);
 }
 
 TEST(OusterDecoder, firmwareThatComputesNoCrcIsNotBlamedForIt)
