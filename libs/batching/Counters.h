@@ -28,7 +28,7 @@ struct LidarCounters
   std::uint64_t emitted = 0;   // blocks that became columns
   std::uint64_t late = 0;      // their place in time had already been given out
   std::uint64_t duplicate = 0;
-  std::uint64_t invalid = 0;       // marked so by the sensor (edge of an azimuth window, start of the motor)
+  std::uint64_t invalid = 0;  // marked so by the sensor (edge of an azimuth window, start of the motor), or decades off
   std::uint64_t before_start = 0;  // older than the start of the first scan, eq. (1)
   std::uint64_t implausible = 0;   // ids or stamp contradict the other blocks of their packet
   std::uint64_t quarantined = 0;   // of another clock than the others, which the configuration refuses

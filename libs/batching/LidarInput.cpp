@@ -9,8 +9,13 @@ namespace scanloom
 {
 namespace
 {
-// Year 2200: differences of plausible stamps cannot overflow.
-constexpr Timestamp kLatest{Duration{std::chrono::hours{24 * 365 * 230}}};
+// A clock that counts from its start is half a century off the host's. Sums of a few such differences fit 64 bits.
+constexpr Duration kFarthest{std::chrono::hours{24 * 365 * 90}};
+
+bool isPlausible(Timestamp stamp, Timestamp received)
+{
+  return stamp >= Timestamp{} && std::chrono::abs(stamp - received) <= kFarthest;
+}
 
 std::uint32_t flagsOf(const PacketHeader& header)
 {
@@ -89,9 +94,9 @@ void LidarInput::readBlocks(Bytes packet, Timestamp received)
   const std::size_t all = blocks_.size();
   any_block_ = blocks_.empty() ? MeasurementBlock{} : blocks_.front();
   for (MeasurementBlock& block : blocks_)
-    block.valid = block.valid && block.measurement_id < description.columns_per_frame && block.stamp >= Timestamp{} &&
-                  block.stamp <= kLatest;
+    block.valid = block.valid && block.measurement_id < description.columns_per_frame;
   if (description.stamp_modulus > Duration{0}) unwrapStamps(received);
+  for (MeasurementBlock& block : blocks_) block.valid = block.valid && isPlausible(block.stamp, received);
   implausible_ = keepAgreeing(blocks_, description.numbering, continuity_->blockPeriod());
   invalid_ = all - implausible_ - blocks_.size();
 }

@@ -17,8 +17,8 @@ namespace
 /** libpcap has no code for it: every one of its messages about a missing end begins so. */
 bool saysTruncated(const std::string& message) { return message.rfind("truncated", 0) == 0; }
 
-// Year 2200: differences of stamps cannot overflow.
-constexpr std::int64_t kLatestSecond = 24LL * 3600 * 365 * 230;
+// Year 2115: differences of stamps cannot overflow.
+constexpr std::int64_t kLatestSecond = 24LL * 3600 * 365 * 145;
 
 /** Throws std::out_of_range for a stamp of no time that anybody could capture at. */
 Timestamp stampOf(const pcap_pkthdr& record)
