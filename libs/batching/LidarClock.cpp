@@ -42,14 +42,14 @@ void LidarClock::setOwn(Duration offset, Timestamp now)
 
 void LidarClock::stepped(Duration step)
 {
-  delay_before_break_ = leastDelay();
+  if (isUsed()) delay_before_break_ = leastDelay();
   state_ = State::Unknown;
   delays_.shift(-step);
 }
 
 void LidarClock::restarted()
 {
-  if (const auto delay = leastDelay()) delay_before_break_ = delay;
+  if (const auto delay = leastDelay(); delay && isUsed()) delay_before_break_ = delay;
   state_ = State::Unknown;
   delays_.clear();
 }

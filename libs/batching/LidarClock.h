@@ -43,7 +43,8 @@ class LidarClock
   /** Least delay if only the configured offset were added; none before the first packet. */
   std::optional<Duration> configuredDelay() const;
 
-  /** Least delay on the common clock as it was before the latest step or restart; none if that was the start. */
+  /** Least delay on the common clock before the step or restart that ended its latest use; none if it was never used.
+   */
   std::optional<Duration> delayBeforeBreak() const { return delay_before_break_; }
 
   bool heardSince(Timestamp) const;

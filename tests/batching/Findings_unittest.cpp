@@ -96,6 +96,23 @@ TEST(Findings, whereEveryLidarIsQuarantinedScansStopInsteadOfRunningOn)
   EXPECT_LT(session.scans.size(), 40u);
 }
 
+TEST(Findings, aQuarantinedLidarThatStartsAgainWhenNobodyElseIsHeardDoesNotLeadTheTime)
+{
+  const Rig rig{ouster(10), ouster(10)};
+  Session session(rig, quarantine());
+  for (Arrival& a : drive(rig, 8s))
+  {
+    if (a.lidar == 1 && a.sent > kBegin + 2s) continue;
+    if (a.lidar == 0 && a.sent > kBegin + 1s) shiftStamps(a.packet, 3600s);
+    if (a.lidar == 0 && a.sent > kBegin + 7s) store(a.packet, 0, std::uint32_t{7});  // init id
+    session.push(a.lidar, a.packet, a.received);
+  }
+  session.take(session.batcher.finish());
+  ASSERT_FALSE(session.scans.empty());
+  EXPECT_LT(session.scans.back().start, kBegin + 10s);
+  EXPECT_EQ(session.batcher.counters(0).restarts, 1u);
+}
+
 TEST(Findings, aSliceHoldsNoBlockOfAnEarlierOne)
 {
   const Rig rig{ouster(10), ouster(10)};
