@@ -1,48 +1,125 @@
 #include "simulation/Ground.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace scanloom
 {
-Ground::Ground(const GroundOptions& options)
-  : waves_{{{0.65 * options.relief, {2 * M_PI / 47, 2 * M_PI / 90}, 0.4},
-            {0.35 * options.relief, {-2 * M_PI / 60, 2 * M_PI / 21}, 1.9},
-            {0.60 * options.roughness, {2 * M_PI / 4.3, 2 * M_PI / 3.1}, 0.0},
-            {0.40 * options.roughness, {-2 * M_PI / 1.9, 2 * M_PI / 2.7}, 2.7}}}
+namespace
 {
-  for (const Wave& wave : waves_)
+struct SineCosine
+{
+  Eigen::Array2d sine, cosine;
+};
+
+/** Two at once to 1e-12, without the branches of the library's: a ray asks for about ten of them. */
+SineCosine sineCosine(const Eigen::Array2d& angle)
+{
+  constexpr double kRound = 0x1.8p52;  // added and taken away again, it leaves a whole number
+  const Eigen::Array2d half_turns = (angle * M_1_PI + kRound) - kRound;
+  const Eigen::Array2d r = angle - half_turns * M_PI, q = r * r;  // |r| <= pi / 2
+  const Eigen::Array2d sign = 1 - 2 * (half_turns - 2 * ((0.5 * half_turns + kRound) - kRound)).abs();
+  Eigen::Array2d sine = Eigen::Array2d::Ones(), cosine = Eigen::Array2d::Ones();
+  for (int n = 16; n >= 2; n -= 2)  // Taylor's series to r^17, inside out
   {
-    highest_ += wave.amplitude;
-    steepest_ += wave.amplitude * wave.k.norm();
+    sine = 1 - q * sine * (1.0 / (n * (n + 1)));
+    cosine = 1 - q * cosine * (1.0 / (n * (n - 1)));
   }
+  return {sign * r * sine, sign * cosine};
+}
+
+struct Gap
+{
+  double size;   // m
+  double slope;  // of the size along the ray
+};
+
+/** As far as a gap cannot close that closes by `fastest` per metre at most and bends by `bend` per metre at most. */
+double safeStep(const Gap& gap, double fastest, double bend)
+{
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const double by_slope = fastest > 0 ? gap.size / fastest : kNever;
+  const double root = std::sqrt(gap.slope * gap.slope + 2 * bend * gap.size);
+  const double by_bend = gap.slope < 0 ? 2 * gap.size / (root - gap.slope) : (root + gap.slope) / bend;
+  return std::max(by_slope, by_bend);
+}
+}  // namespace
+
+/** Two waves as they pass under a ray. */
+class Ground::WavesAlongRay
+{
+ public:
+  WavesAlongRay(const Waves& waves, const Ray& ray)
+  {
+    for (int i = 0; i < 2; ++i)
+    {
+      amplitude_[i] = waves[i].amplitude;
+      phase_[i] = waves[i].k.dot(ray.origin.head<2>()) + waves[i].phase;
+      rate_[i] = waves[i].k.dot(ray.direction.head<2>());
+    }
+  }
+
+  /** Subtracts the waves at a place along the ray. */
+  Gap under(const Gap& gap, double range) const
+  {
+    const SineCosine wave = sineCosine(phase_ + range * rate_);
+    return {gap.size - (amplitude_ * wave.sine).sum(), gap.slope - (amplitude_ * rate_ * wave.cosine).sum()};
+  }
+
+  double steepest() const { return (amplitude_ * rate_.abs()).sum(); }
+  double bend() const { return (amplitude_ * rate_.square()).sum(); }
+
+ private:
+  Eigen::Array2d amplitude_, phase_, rate_;  // m, rad, rad per metre of ray
+};
+
+Ground::Ground(const GroundOptions& options)
+  : long_waves_{{{0.325 * options.relief, {2 * M_PI / 47, 2 * M_PI / 90}, 0.4},
+                 {0.175 * options.relief, {-2 * M_PI / 60, 2 * M_PI / 21}, 1.9}}},
+    short_waves_{{{0.30 * options.roughness, {2 * M_PI / 4.3, 2 * M_PI / 3.1}, 0.0},
+                  {0.20 * options.roughness, {-2 * M_PI / 1.9, 2 * M_PI / 2.7}, 2.7}}},
+    highest_(0.5 * (options.relief + options.roughness)),
+    short_crest_(0.5 * options.roughness)
+{
 }
 
 Eigen::Vector3d Ground::normal(double x, double y) const
 {
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-  for (const Wave& wave : waves_)
-    slope += wave.amplitude * std::cos(wave.k.x() * x + wave.k.y() * y + wave.phase) * wave.k;
+  for (const Waves* waves : {&long_waves_, &short_waves_})
+    for (const Wave& wave : *waves)
+      slope += wave.amplitude * std::cos(wave.k.x() * x + wave.k.y() * y + wave.phase) * wave.k;
   return Eigen::Vector3d(-slope.x(), -slope.y(), 1).normalized();
 }
 
 std::optional<double> Ground::intersect(const Ray& ray, double max_range) const
 {
-  constexpr double kExact = 1e-6;  // m
+  constexpr double kExact = 1e-6;      // m
+  constexpr double kNearCrest = 1e-3;  // m: nearer, the short waves themselves are asked
   const double descent = -ray.direction.z();
   const double above_highest = ray.origin.z() - highest_;
   if (above_highest > 0 && descent <= 0) return std::nullopt;
   double range = above_highest > 0 ? above_highest / descent : 0.0;
 
-  // The gap closes at most this fast along the ray, so no step can jump over a crest.
-  const double fastest = descent + steepest_ * ray.direction.head<2>().norm();
-  if (fastest <= 0) return std::nullopt;
+  // First down to the crests of the short waves over the long ones alone, then down to the ground; every step is as
+  // long as the waves' slope and curvature allow, so none can jump over a crest.
+  const WavesAlongRay long_waves(long_waves_, ray), short_waves(short_waves_, ray);
+  const double fastest_of_long = descent + long_waves.steepest(), bend_of_long = long_waves.bend();
+  const double fastest = fastest_of_long + short_waves.steepest(), bend = bend_of_long + short_waves.bend();
   while (range < max_range)
   {
-    const Eigen::Vector3d p = ray.at(range);
-    const double gap = p.z() - height(p.x(), p.y());
-    if (gap < kExact) return range;
-    if (descent < 0 && p.z() > highest_) return std::nullopt;
-    range += gap / fastest;
+    const double z = ray.origin.z() - range * descent;
+    if (descent < 0 && z > highest_) return std::nullopt;
+    const Gap over_long = long_waves.under({z, -descent}, range);
+    const Gap over_crests{over_long.size - short_crest_, over_long.slope};
+    if (over_crests.size > kNearCrest)
+    {
+      range += safeStep(over_crests, fastest_of_long, bend_of_long);
+      continue;
+    }
+    const Gap gap = short_waves.under(over_long, range);
+    if (gap.size < kExact) return range;
+    range += safeStep(gap, fastest, bend);
   }
   return std::nullopt;
 }

@@ -12,14 +12,14 @@ namespace scanloom
 {
 struct GroundOptions
 {
-  double relief = 0.4;
-  double roughness = 0.04;
+  double relief = 1.5;
+  double roughness = 0.08;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.relief, Field{"relief", "m", "amplitude of the ground's long waves", between(0, 2)});
-    visit(o.roughness, Field{"roughness", "m", "amplitude of the ground's short waves", between(0, 0.1)});
+    visit(o.relief, Field{"relief", "m", "of the ground's long waves, from hollow to crest", between(0, 4)});
+    visit(o.roughness, Field{"roughness", "m", "of the ground's short waves, from hollow to crest", between(0, 0.2)});
   }
 };
 
@@ -35,9 +35,13 @@ class Ground
   {
     using std::sin;
     Scalar z = 0.0;
-    for (const Wave& wave : waves_) z = z + wave.amplitude * sin(wave.k.x() * x + wave.k.y() * y + wave.phase);
+    for (const Waves* waves : {&long_waves_, &short_waves_})
+      for (const Wave& wave : *waves) z = z + wave.amplitude * sin(wave.k.x() * x + wave.k.y() * y + wave.phase);
     return z;
   }
+
+  /** No place is higher, none lower than the negative of it. */
+  double highest() const { return highest_; }
 
   /** Upward unit normal. */
   Eigen::Vector3d normal(double x, double y) const;
@@ -52,9 +56,11 @@ class Ground
     Eigen::Vector2d k;  // rad/m
     double phase;       // rad
   };
+  using Waves = std::array<Wave, 2>;
+  class WavesAlongRay;
 
-  std::array<Wave, 4> waves_;
-  double highest_ = 0;   // m, bound of |height|
-  double steepest_ = 0;  // bound of the slope
+  Waves long_waves_, short_waves_;
+  double highest_ = 0;      // m, bound of |height|
+  double short_crest_ = 0;  // m, bound of the short waves alone
 };
 }  // namespace scanloom

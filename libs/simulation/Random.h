@@ -21,6 +21,12 @@ enum class RandomStream : std::uint64_t
   ImuBiases,
   TotalStation,
   Work,
+  Trees,
+  Clusters,
+  Branches,
+  Foliage,
+  Undergrowth,
+  Leaves,
 };
 
 /** SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), one per place. */
@@ -38,6 +44,17 @@ class Random
   /** In [0, 1). */
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double uniform(double lowest, double highest) { return lowest + (highest - lowest) * uniform(); }
+
+  /** How many of many rare events happen when `mean` are expected. */
+  int poisson(double mean)
+  {
+    int events = 0;
+    for (double waited = exponential(); waited < mean; waited += exponential()) ++events;
+    return events;
+  }
+
+  /** Mean 1. */
+  double exponential() { return -std::log(1 - uniform()); }
 
   /** Mean 0, deviation 1. Box and Muller's, because std::normal_distribution differs between standard libraries. */
   double normal()

@@ -4,8 +4,8 @@
 #include "imu/Preintegration.h"
 #include "simulation/AssumedOs0.h"
 #include "simulation/Drive.h"
+#include "simulation/ForestOptions.h"
 #include "simulation/Ground.h"
-#include "simulation/Stand.h"
 
 #include <string>
 
@@ -41,7 +41,7 @@ struct SimulationSettings
   WorkCycleOptions work;
   BodyMotionOptions body;
   GroundOptions ground;
-  StandOptions stand;
+  ForestOptions forest;
   SimulatedRigOptions rig;
   Os0Options lidar;
   ImuNoise imu;
@@ -53,7 +53,7 @@ struct SimulationSettings
     visit(s.work, Section{"simulated_work", "what it does on route = work"});
     visit(s.body, Section{"simulated_body", "how its body sways and shakes"});
     visit(s.ground, Section{"simulated_ground", "what it drives on"});
-    visit(s.stand, Section{"simulated_stand", "the stems around it"});
+    ForestOptions::sections(s.forest, visit);
     visit(s.rig, Section{"simulated_rig", "where the sensors sit"});
     visit(s.lidar, Section{"simulated_lidar", "both lidars"});
     visit(s.imu, Section{"simulated_imu", "the body's IMU"});

@@ -71,7 +71,7 @@ Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
 
   return {seed,
           {kStart, settings.drive.duration},
-          World(ground, settings.stand, drive.path(), seed),
+          World(ground, settings.forest, drive.path(), seed),
           drive,
           {LidarStation{"left", left, RandomStream::LeftTransport, RandomStream::LeftImu},
            LidarStation{"right", right, RandomStream::RightTransport, RandomStream::RightImu}},

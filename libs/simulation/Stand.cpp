@@ -2,131 +2,154 @@
 
 #include "simulation/Random.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <stdexcept>
 
 namespace scanloom
 {
 namespace
 {
-constexpr double kCellSize = 2.0;      // m
-constexpr double kRootDepth = 0.5;     // m: the foot lies below the ground on any slope
-constexpr double kLeastSpacing = 0.8;  // m
-constexpr double kLeastRadius = 0.03;  // m
+constexpr double kSquareMetresPerHectare = 1e4;
+constexpr double kCellSize = 2.0;  // m: no spacing is larger, so that only neighbouring cells matter
+constexpr int kCellsPerTile = 8;
 
-Eigen::AlignedBox2d footprint(const Stem& stem)
+/** Cells of the tiles around a lane, tile by tile. */
+std::vector<GridCell> cellsAround(const Lane& lane, double reach)
 {
-  Eigen::AlignedBox2d box(stem.foot.head<2>().eval());
-  box.extend((stem.foot + stem.length * stem.axis).head<2>().eval());
-  const Eigen::Vector2d radius = Eigen::Vector2d::Constant(stem.radius);
-  return {box.min() - radius, box.max() + radius};
+  std::vector<GridCell> cells;
+  for (const GridCell& tile : lane.cellsWithin(reach, kCellsPerTile * kCellSize))
+    for (int y = 0; y < kCellsPerTile; ++y)
+      for (int x = 0; x < kCellsPerTile; ++x) cells.push_back({tile.x * kCellsPerTile + x, tile.y * kCellsPerTile + y});
+  return cells;
+}
+
+/** Smooth noise with mean 0 between -1 and 1 that changes over `size`: hashed values at the corners of a grid. */
+double smoothNoise(const Eigen::Vector2d& place, double size, std::uint64_t seed)
+{
+  const GridCell cell = GridCell::of(place, size);
+  const auto atCorner = [&](int x, int y) {
+    return Random(seed, RandomStream::Clusters, GridCell{cell.x + x, cell.y + y}.key()).uniform(-1, 1);
+  };
+  const auto ease = [](double u) { return u * u * (3 - 2 * u); };
+  const double u = ease(place.x() / size - cell.x), v = ease(place.y() / size - cell.y);
+  return (1 - v) * ((1 - u) * atCorner(0, 0) + u * atCorner(1, 0)) +
+         v * ((1 - u) * atCorner(0, 1) + u * atCorner(1, 1));
+}
+
+/**
+ * Points at random that keep their distance: of candidates without any order, each with a hashed rank, one stays where
+ * no candidate of lower rank is too near (B. Matern: Spatial Variation, 1960, type II). Places depend on hashes alone.
+ */
+class Places
+{
+ public:
+  Places(const StandOptions& options, std::uint64_t seed)
+    : options_(options), seed_(seed), most_candidates_(candidatesFor(density() * (1 + options.clustering)))
+  {
+  }
+
+  struct Candidate
+  {
+    Eigen::Vector2d place;
+    double rank;
+    std::uint64_t key;  // of its random numbers
+  };
+
+  /** In no cell two candidates have the same rank. */
+  std::vector<Candidate> in(const GridCell& cell) const
+  {
+    std::vector<Candidate> rivals;
+    for (int y = -1; y <= 1; ++y)
+      for (int x = -1; x <= 1; ++x) addCandidates({cell.x + x, cell.y + y}, rivals);
+    std::vector<Candidate> stay;
+    for (const Candidate& candidate : rivals)
+    {
+      const auto isOusted = [&](const Candidate& rival)
+      { return rival.rank < candidate.rank && (rival.place - candidate.place).norm() < options_.spacing; };
+      const GridCell home = GridCell::of(candidate.place, kCellSize);
+      if (home.x == cell.x && home.y == cell.y && std::none_of(rivals.begin(), rivals.end(), isOusted))
+        stay.push_back(candidate);
+    }
+    return stay;
+  }
+
+ private:
+  double density() const { return options_.stems_per_hectare / kSquareMetresPerHectare; }  // 1/m2
+
+  /** Candidates per square metre of which `stay` stay: 1 - exp(-n A) = stay A, with the area A that each keeps free. */
+  double candidatesFor(double stay) const
+  {
+    const double area = M_PI * options_.spacing * options_.spacing;
+    if (stay * area > 0.95)
+      throw std::invalid_argument(
+          fmt::format("[simulated_stand] spacing = {} m: so far apart, and with clustering = {}, at most {:.0f} stems "
+                      "stand on a hectare, fewer than stems_per_hectare = {}; let them stand nearer to each other",
+                      options_.spacing, options_.clustering,
+                      0.95 / area / (1 + options_.clustering) * kSquareMetresPerHectare, options_.stems_per_hectare));
+    return -std::log1p(-stay * area) / area;
+  }
+
+  void addCandidates(const GridCell& cell, std::vector<Candidate>& candidates) const
+  {
+    Random random(seed_, RandomStream::Stand, cell.key());
+    for (int left = random.poisson(most_candidates_ * kCellSize * kCellSize); left > 0; --left)
+    {
+      const double x = random.uniform(), y = random.uniform();
+      const Eigen::Vector2d place = kCellSize * Eigen::Vector2d(cell.x + x, cell.y + y);
+      const double rank = random.uniform(), lot = random.uniform();
+      const std::uint64_t key = random.bits();
+      const double noise = options_.clustering > 0 ? smoothNoise(place, options_.cluster_size, seed_) : 0;
+      if (lot * most_candidates_ < candidatesFor(density() * (1 + options_.clustering * noise)))
+        candidates.push_back({place, rank, key});
+    }
+  }
+
+  StandOptions options_;
+  std::uint64_t seed_;
+  double most_candidates_;  // 1/m2
+};
+
+Cone stumpOf(const Stem& stem, double height)
+{
+  const Cone wood = stem.wood();
+  const double length = (stem.foot - wood.base).norm() + height;
+  const double tip = wood.base_radius + (wood.tip_radius - wood.base_radius) * length / wood.length;
+  return {wood.base, wood.axis, length, wood.base_radius, tip};
 }
 }  // namespace
 
-std::optional<double> Stem::intersect(const Ray& ray) const
+Stand growStand(const StandOptions& options, const TreeOptions& trees, const Ground& ground, const Lane& lane,
+                std::uint64_t seed)
 {
-  // In the plane across the axis the stem is a circle.
-  const Eigen::Vector3d from_foot = ray.origin - foot;
-  const Eigen::Vector3d across = ray.direction - ray.direction.dot(axis) * axis;
-  const Eigen::Vector3d offset = from_foot - from_foot.dot(axis) * axis;
-  const double a = across.squaredNorm(), b = across.dot(offset), c = offset.squaredNorm() - radius * radius;
-  const double discriminant = b * b - a * c;
-  if (discriminant < 0 || c < 0 || b >= 0) return std::nullopt;
+  const Places places(options, seed);
+  StandOptions of_old_stems = options;
+  of_old_stems.stems_per_hectare = options.stumps_per_hectare;
+  of_old_stems.clustering = 0;
+  const Places old_places(of_old_stems, seed ^ 0x01d);  // other hashes than the living stems'
 
-  const double range = (-b - std::sqrt(discriminant)) / a;
-  const double along = (from_foot + range * ray.direction).dot(axis);
-  if (along < 0 || along > length) return std::nullopt;
-  return range;
-}
-
-Eigen::Vector3d Stem::normal(const Eigen::Vector3d& on_bark) const
-{
-  const Eigen::Vector3d from_foot = on_bark - foot;
-  return (from_foot - from_foot.dot(axis) * axis).normalized();
-}
-
-double Stem::distanceToBark(const Eigen::Vector3d& p) const
-{
-  const Eigen::Vector3d from_foot = p - foot;
-  return (from_foot - from_foot.dot(axis) * axis).norm() - radius;
-}
-
-Stand::Stand(std::vector<Stem> stems) : stems_(std::move(stems))
-{
-  if (stems_.empty()) return;
-  Eigen::AlignedBox2d area;
-  for (const Stem& stem : stems_) area.extend(footprint(stem));
-  corner_ = area.min();
-  size_ = (area.sizes().array() / kCellSize).floor().cast<int>() + 1;
-  cells_.resize(static_cast<std::size_t>(size_.prod()));
-
-  const auto cellOf = [&](const Eigen::Vector2d& p) -> Cell
-  { return ((p - corner_).array() / kCellSize).floor().cast<int>(); };
-  for (std::uint32_t i = 0; i < stems_.size(); ++i)
+  const auto grow = [&](const Places::Candidate& candidate)
   {
-    const Cell first = cellOf(footprint(stems_[i]).min()), last = cellOf(footprint(stems_[i]).max());
-    for (int y = first.y(); y <= last.y(); ++y)
-      for (int x = first.x(); x <= last.x(); ++x) cells_[y * size_.x() + x].push_back(i);
-  }
-}
-
-std::optional<Stand::Hit> Stand::intersect(const Ray& ray, double max_range) const
-{
-  // Amanatides and Woo: A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987; in two dimensions.
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  const Eigen::Array2d start = (ray.origin.head<2>() - corner_).array() / kCellSize;
-  const Eigen::Array2d step_per_metre = ray.direction.head<2>().array() / kCellSize;
-  Cell cell = start.floor().cast<int>(), step;
-  Eigen::Array2d next_border, between_borders;  // m along the ray
-  for (int i = 0; i < 2; ++i)
+    Random random(seed, RandomStream::Trees, candidate.key);
+    const Eigen::Vector2d& p = candidate.place;
+    return growTree(trees, {p.x(), p.y(), ground.height(p.x(), p.y())}, random);
+  };
+  Stand stand;
+  for (const GridCell& cell : cellsAround(lane, options.reach))
   {
-    step[i] = step_per_metre[i] < 0 ? -1 : 1;
-    between_borders[i] = step_per_metre[i] == 0 ? kNever : std::abs(1 / step_per_metre[i]);
-    const double to_border = step[i] > 0 ? cell[i] + 1 - start[i] : start[i] - cell[i];
-    next_border[i] = step_per_metre[i] == 0 ? kNever : to_border * between_borders[i];
+    for (const Places::Candidate& candidate : places.in(cell))
+    {
+      const Stem stem = grow(candidate);
+      if (lane.passes(candidate.place, options.free_lane))
+        stand.stumps.push_back(stumpOf(stem, options.stump_height));
+      else
+        stand.stems.push_back(stem);
+    }
+    for (const Places::Candidate& candidate : old_places.in(cell))
+      stand.stumps.push_back(stumpOf(grow(candidate), options.stump_height));
   }
-
-  std::optional<Hit> nearest;
-  for (double entered = 0; entered < (nearest ? nearest->range : max_range);)
-  {
-    if (contains(cell))
-      for (const std::uint32_t i : stemsIn(cell))
-        if (const auto range = stems_[i].intersect(ray); range && *range < (nearest ? nearest->range : max_range))
-          nearest = Hit{*range, &stems_[i]};
-
-    const int axis = next_border.x() < next_border.y() ? 0 : 1;
-    entered = next_border[axis];
-    next_border[axis] += between_borders[axis];
-    cell[axis] += step[axis];
-  }
-  return nearest;
-}
-
-std::vector<Stem> growStems(const StandOptions& options, const Ground& ground, const Eigen::AlignedBox2d& area,
-                            const std::vector<Eigen::Vector2d>& path, std::uint64_t seed)
-{
-  constexpr double kSquareMetresPerHectare = 1e4;
-  const auto wanted = static_cast<std::uint64_t>(options.stems_per_hectare * area.volume() / kSquareMetresPerHectare);
-
-  std::vector<Stem> stems;
-  for (std::uint64_t i = 0; i < wanted; ++i)
-  {
-    Random random(seed, RandomStream::Stand, i);
-    const Eigen::Vector2d place(random.uniform(area.min().x(), area.max().x()),
-                                random.uniform(area.min().y(), area.max().y()));
-    const Eigen::Vector2d lean = options.tilt_deg * M_PI / 180 * Eigen::Vector2d(random.normal(), random.normal());
-    Stem stem;
-    stem.foot << place, ground.height(place.x(), place.y()) - kRootDepth;
-    stem.axis = Eigen::Vector3d(lean.x(), lean.y(), 1).normalized();
-    stem.radius = std::max(kLeastRadius, 0.5 * (options.diameter + options.diameter_spread * random.normal()));
-    stem.length = random.uniform(12, 20);
-
-    const auto tooNear = [&](const Stem& other) { return (other.foot - stem.foot).head<2>().norm() < kLeastSpacing; };
-    const auto inTheWay = [&](const Eigen::Vector2d& p) { return (p - place).norm() < options.free_lane; };
-    if (std::none_of(stems.begin(), stems.end(), tooNear) && std::none_of(path.begin(), path.end(), inTheWay))
-      stems.push_back(stem);
-  }
-  return stems;
+  return stand;
 }
 }  // namespace scanloom

@@ -1,78 +1,54 @@
+/** The table of stems: what grows where, from hashed places alone. */
 #pragma once
 #include "core/Field.h"
+#include "simulation/Cone.h"
 #include "simulation/Ground.h"
-
-#include <Eigen/Geometry>
+#include "simulation/Lane.h"
+#include "simulation/Trees.h"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace scanloom
 {
-/** A cylinder. */
-struct Stem
-{
-  Eigen::Vector3d foot;
-  Eigen::Vector3d axis;  // unit, upwards
-  double radius = 0;     // m
-  double length = 0;     // m
-
-  /** Distance along the ray to the bark, from outside. */
-  std::optional<double> intersect(const Ray&) const;
-  Eigen::Vector3d normal(const Eigen::Vector3d& on_bark) const;
-  double distanceToBark(const Eigen::Vector3d&) const;
-};
-
 struct StandOptions
 {
-  double stems_per_hectare = 700;
-  double diameter = 0.22;
-  double diameter_spread = 0.06;
-  double tilt_deg = 2.5;
+  double stems_per_hectare = 650;
+  double spacing = 1.2;
+  double clustering = 0;
+  double cluster_size = 6;
   double free_lane = 2.6;
+  double reach = 55;
+  double stumps_per_hectare = 150;
+  double stump_height = 0.25;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.stems_per_hectare, Field{"stems_per_hectare", "1/ha", "density of the stand", between(0, 10000)});
-    visit(o.diameter, Field{"diameter", "m", "mean diameter of the stems", between(0.03, 2)});
-    visit(o.diameter_spread, Field{"diameter_spread", "m", "standard deviation of the diameters", between(0, 1)});
-    visit(o.tilt_deg, Field{"tilt_deg", "deg", "standard deviation of each stem's lean", between(0, 20)});
-    visit(o.free_lane, Field{"free_lane", "m", "no stem nearer to the machine's path", atLeast(0)});
+    visit(o.spacing, Field{"spacing", "m", "no two stems nearer to each other (assumed)", between(0.1, 2)});
+    visit(o.clustering,
+          Field{"clustering", "", "how much denser and thinner groups are than the mean (assumed)", between(0, 0.95)});
+    visit(o.cluster_size, Field{"cluster_size", "m", "from one group to the next (assumed)", between(2, 100)});
+    visit(o.free_lane, Field{"free_lane", "m", "stems nearer to the machine's path are stumps (assumed)", atLeast(0)});
+    visit(o.reach, Field{"reach", "m", "how far from the path the stand is grown (assumed: beyond an OS0's range)",
+                         between(1, 500)});
+    visit(o.stumps_per_hectare,
+          Field{"stumps_per_hectare", "1/ha", "of earlier thinnings (assumed)", between(0, 5000)});
+    visit(o.stump_height, Field{"stump_height", "m", "above the ground (assumed)", between(0.02, 1)});
   }
 };
 
-/** Stems in a grid of cells, so that a ray asks only those that it passes. */
-class Stand
+struct Stand
 {
- public:
-  explicit Stand(std::vector<Stem>);
-
-  const std::vector<Stem>& stems() const { return stems_; }
-
-  struct Hit
-  {
-    double range;
-    const Stem* stem;
-  };
-  std::optional<Hit> intersect(const Ray&, double max_range) const;
-
- private:
-  using Cell = Eigen::Array2i;
-  bool contains(const Cell& cell) const { return (cell >= 0).all() && (cell < size_).all(); }
-  const std::vector<std::uint32_t>& stemsIn(const Cell& cell) const { return cells_[cell.y() * size_.x() + cell.x()]; }
-
-  std::vector<Stem> stems_;
-  Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();  // of cell (0, 0)
-  Cell size_ = Cell::Zero();
-  std::vector<std::vector<std::uint32_t>> cells_;  // row by row: indices into stems_
+  std::vector<Stem> stems;
+  std::vector<Cone> stumps;
 };
 
 /**
- * Stems at random on the ground of `area`, at least 0.8 m apart and options.free_lane from every point of `path`. The
- * same seed gives the same stand.
+ * The stand around a lane. A stem depends on the seed and its place alone: another path through the same place finds
+ * the same stem, except for those that it fells. Throws std::invalid_argument if so many stems can't stand so far
+ * apart.
  */
-std::vector<Stem> growStems(const StandOptions&, const Ground&, const Eigen::AlignedBox2d& area,
-                            const std::vector<Eigen::Vector2d>& path, std::uint64_t seed);
+Stand growStand(const StandOptions&, const TreeOptions&, const Ground&, const Lane&, std::uint64_t seed);
 }  // namespace scanloom

@@ -1,44 +1,46 @@
 #include "simulation/World.h"
 
+#include "simulation/GrowFoliage.h"
+#include "simulation/Random.h"
+
 #include <cmath>
 
 namespace scanloom
 {
-namespace
-{
-constexpr double kBeyondReach = 45.0;  // m: no stem farther from the path
-
-Stand growStand(const StandOptions& options, const Ground& ground, const std::vector<Eigen::Vector2d>& path,
-                std::uint64_t seed)
-{
-  Eigen::AlignedBox2d area;
-  for (const Eigen::Vector2d& p : path) area.extend(p);
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kBeyondReach);
-  area = {area.min() - margin, area.max() + margin};
-  return Stand(growStems(options, ground, area, path, seed));
-}
-}  // namespace
-
-World::World(const Ground& ground, const StandOptions& options, const std::vector<Eigen::Vector2d>& path,
+World::World(const Ground& ground, const ForestOptions& options, const std::vector<Eigen::Vector2d>& path,
              std::uint64_t seed)
-  : ground_(ground), stand_(growStand(options, ground, path, seed))
+  : World(ground, options, Lane(path), seed)
 {
 }
 
-std::optional<Hit> World::cast(const Ray& ray, double max_range, std::uint64_t /*draw*/) const
+World::World(const Ground& ground, const ForestOptions& options, const Lane& lane, std::uint64_t seed)
+  : World(ground, options, lane, growStand(options.stand, options.trees, ground, lane, seed), seed)
+{
+}
+
+World::World(const Ground& ground, const ForestOptions& options, const Lane& lane, Stand stand, std::uint64_t seed)
+  : ground_(ground),
+    foliage_(growFoliage(options.foliage, options.trees, stand.stems, ground, lane, options.stand.reach, seed)),
+    wood_(std::move(stand.stems), stand.stumps, options.trees)
+{
+}
+
+std::optional<Hit> World::cast(const Ray& ray, double max_range, std::uint64_t draw) const
 {
   std::optional<Hit> nearest;
-  if (const auto bark = stand_.intersect(ray, max_range))
-  {
-    const Eigen::Vector3d normal = bark->stem->normal(ray.at(bark->range));
-    const auto id = static_cast<std::uint32_t>(bark->stem - stand_.stems().data());
-    nearest = Hit{bark->range, std::abs(normal.dot(ray.direction)), Surface::Stem, id};
-  }
-  if (const auto range = ground_.intersect(ray, nearest ? nearest->range : max_range))
+  const auto reach = [&] { return nearest ? nearest->range : max_range; };
+  if (const auto range = ground_.intersect(ray, reach()))
   {
     const Eigen::Vector3d p = ray.at(*range);
     nearest = Hit{*range, std::abs(ground_.normal(p.x(), p.y()).dot(ray.direction)), Surface::Ground, 0};
   }
+  // An exponential depth has no memory: one for the whole ray is as good as a new one for every voxel.
+  Random random(draw, RandomStream::Leaves, 0);
+  const double optical_depth = random.exponential();
+  // Leaves that face all directions alike are met in proportion to the area that they show: cosines of density 2c.
+  if (const auto leaf = foliage_.intersect(ray, reach(), optical_depth))
+    nearest = Hit{leaf->range, std::sqrt(random.uniform()), leaf->surface, 0};
+  if (const auto wood = wood_.cast(ray, reach())) nearest = wood;
   return nearest;
 }
 }  // namespace scanloom

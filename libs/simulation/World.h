@@ -1,8 +1,10 @@
-/** What stands still around the machine: ground and stand. */
+/** What stands still around the machine: ground, wood and foliage. */
 #pragma once
+#include "simulation/Foliage.h"
+#include "simulation/ForestOptions.h"
 #include "simulation/Ground.h"
 #include "simulation/Ray.h"
-#include "simulation/Stand.h"
+#include "simulation/Wood.h"
 
 #include <cstdint>
 #include <optional>
@@ -13,11 +15,16 @@ namespace scanloom
 class World
 {
  public:
-  /** A stand grown on the ground as far around `path` (m, in the world) as a lidar sees. */
-  World(const Ground&, const StandOptions&, const std::vector<Eigen::Vector2d>& path, std::uint64_t seed);
+  /**
+   * A forest grown on the ground around `path` (m, in the world, points at most 0.25 m apart). Throws
+   * std::invalid_argument naming the option that cannot be.
+   */
+  World(const Ground&, const ForestOptions&, const std::vector<Eigen::Vector2d>& path, std::uint64_t seed);
 
   const Ground& ground() const { return ground_; }
-  const std::vector<Stem>& stems() const { return stand_.stems(); }
+  const std::vector<Stem>& stems() const { return wood_.stems(); }
+  const Wood& wood() const { return wood_; }
+  const Foliage& foliage() const { return foliage_; }
 
   /**
    * The nearest surface within `max_range`. `draw` decides what is left to chance: of a ray through foliage, which
@@ -26,7 +33,11 @@ class World
   std::optional<Hit> cast(const Ray& ray_in_world, double max_range, std::uint64_t draw) const;
 
  private:
+  World(const Ground&, const ForestOptions&, const Lane&, std::uint64_t seed);
+  World(const Ground&, const ForestOptions&, const Lane&, Stand, std::uint64_t seed);
+
   Ground ground_;
-  Stand stand_;
+  Foliage foliage_;
+  Wood wood_;
 };
 }  // namespace scanloom

@@ -27,6 +27,10 @@ SimulationSettings shortDrive()
   settings.drive.speed_up = 1;
   settings.body.sway_deg = 3;
   settings.lidar.range_noise = 0.02;
+  // Ground and stems alone: surfaces that a test knows.
+  settings.forest.trees.living_branches = settings.forest.trees.dead_branches = 0;
+  settings.forest.stand.stumps_per_hectare = 0;
+  settings.forest.foliage.leaf_area_density = settings.forest.foliage.undergrowth_cover = 0;
   return settings;
 }
 
@@ -88,8 +92,8 @@ Surroundings nearestSurface(const World& world, const Eigen::Vector3d& p)
   const Eigen::Vector3d up = world.ground().normal(p.x(), p.y());
   Surroundings nearest{(p.z() - world.ground().height(p.x(), p.y())) * up.z(), up};
   for (const Stem& stem : world.stems())
-    if ((stem.foot - p).head<2>().norm() < 4 && std::abs(stem.distanceToBark(p)) < std::abs(nearest.distance))
-      nearest = {stem.distanceToBark(p), stem.normal(p)};
+    if ((stem.foot - p).head<2>().norm() < 4 && std::abs(stem.wood().distanceToMantle(p)) < std::abs(nearest.distance))
+      nearest = {stem.wood().distanceToMantle(p), stem.wood().normal(p)};
   return nearest;
 }
 

@@ -2,158 +2,154 @@
 #include "simulation/Random.h"
 
 #include <gtest/gtest.h>
+#include <tbb/parallel_for.h>
 
-#include <set>
+#include <map>
 
 namespace scanloom
 {
 namespace
 {
-Ray randomRay(Random& random)
+constexpr double kMaxRange = 50;
+
+World worldAround(const ForestOptions& options) { return World(Ground(GroundOptions{}), options, {{0, 0}}, 1); }
+
+Ray rayFrom(const World& world, double azimuth, double altitude, double height = 2.5)
 {
-  const Eigen::Vector3d origin(random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(1.5, 3));
-  Eigen::Vector3d direction(random.normal(), random.normal(), random.normal());
-  return {origin, direction.normalized()};
+  return {{0.13, 0.17, world.ground().height(0.13, 0.17) + height},
+          {std::cos(azimuth) * std::cos(altitude), std::sin(azimuth) * std::cos(altitude), std::sin(altitude)}};
 }
 
-std::vector<Stem> someStems()
+std::vector<Ray> fan(const World& world)
 {
-  const Eigen::AlignedBox2d area(Eigen::Vector2d(-30, -30), Eigen::Vector2d(30, 30));
-  StandOptions options;
-  options.tilt_deg = 8;
-  return growStems(options, Ground(GroundOptions{}), area, {{0, 0}}, 3);
+  std::vector<Ray> rays;
+  for (int column = 0; column < 512; ++column)
+    for (int beam = 0; beam < 64; ++beam)
+      rays.push_back(rayFrom(world, 2 * M_PI * column / 512, M_PI / 4 * (1 - beam / 31.5)));
+  return rays;
 }
 
-TEST(Ground, isMetByARayWhereItsHeightIs)
+TEST(World, isMetWhereItsSurfacesAre)
 {
-  const Ground ground({0.8, 0.08});
-  Random random(1, RandomStream::Stand, 0);
-  int met = 0;
-  for (int i = 0; i < 10'000; ++i)
+  const World world = worldAround({});
+  std::map<Surface, int> met;
+  std::uint64_t draw = 0;
+  for (const Ray& ray : fan(world))
   {
-    const Ray ray = randomRay(random);
-    const auto range = ground.intersect(ray, 50);
-    if (!range) continue;
-    ++met;
-    const Eigen::Vector3d p = ray.at(*range);
-    EXPECT_NEAR(p.z(), ground.height(p.x(), p.y()), 2e-6);
-  }
-  EXPECT_GT(met, 4000);
-}
-
-TEST(Ground, isNeverJumpedOver)
-{
-  const Ground ground({0.8, 0.08});
-  Random random(2, RandomStream::Stand, 0);
-  for (int i = 0; i < 1000; ++i)
-  {
-    const Ray ray = randomRay(random);
-    const double range = ground.intersect(ray, 50).value_or(50);
-    for (double before = 0; before < range - 0.01; before += 0.01)
+    const auto hit = world.cast(ray, kMaxRange, ++draw);
+    if (!hit) continue;
+    ++met[hit->surface];
+    const Eigen::Vector3d p = ray.at(hit->range);
+    EXPECT_GE(hit->cosine_incidence, 0);
+    EXPECT_LE(hit->cosine_incidence, 1 + 1e-12);
+    EXPECT_GT(p.z(), world.ground().height(p.x(), p.y()) - 1e-4) << "nothing is seen through the ground";
+    if (hit->surface == Surface::Ground)
     {
-      const Eigen::Vector3d p = ray.at(before);
-      ASSERT_GT(p.z(), ground.height(p.x(), p.y())) << "at " << before << " of " << range;
+      EXPECT_NEAR(p.z(), world.ground().height(p.x(), p.y()), 1e-5);
+    }
+    if (hit->surface == Surface::Crown)
+    {
+      const Eigen::Array3i voxel = world.foliage().voxels().voxelAt(p);
+      EXPECT_FALSE(world.foliage().voxels().at(voxel.x(), voxel.y(), voxel.z()).isEmpty());
     }
   }
+  for (const Surface surface : {Surface::Ground, Surface::Stem, Surface::Branch, Surface::Crown, Surface::Undergrowth})
+    EXPECT_GT(met[surface], 20) << static_cast<int>(surface);
 }
 
-TEST(Ground, hasTheNormalOfItsHeights)
+TEST(World, givesTheNearestOfItsSurfaces)
 {
-  const Ground ground({0.8, 0.08});
-  const double e = 1e-5, x = 3.3, y = -7.1;
-  const Eigen::Vector3d east(2 * e, 0, ground.height(x + e, y) - ground.height(x - e, y));
-  const Eigen::Vector3d north(0, 2 * e, ground.height(x, y + e) - ground.height(x, y - e));
-
-  EXPECT_LT((ground.normal(x, y) - east.cross(north).normalized()).norm(), 1e-8);
-}
-
-TEST(Stem, isMetOnItsBarkFacingTheRay)
-{
-  const Stem stem{{5, 0, -1}, Eigen::Vector3d::UnitZ(), 0.2, 10};
-
-  EXPECT_NEAR(stem.intersect({{0, 0, 0}, Eigen::Vector3d::UnitX()}).value(), 4.8, 1e-12);
-  EXPECT_FALSE(stem.intersect({{0, 0.21, 0}, Eigen::Vector3d::UnitX()})) << "beside";
-  EXPECT_FALSE(stem.intersect({{0, 0, 0}, -Eigen::Vector3d::UnitX()})) << "behind";
-  EXPECT_FALSE(stem.intersect({{0, 0, 9.5}, Eigen::Vector3d::UnitX()})) << "above the top";
-}
-
-TEST(Stand, findsTheSameStemAsASearchThroughAll)
-{
-  const Stand stand(someStems());
-  Random random(4, RandomStream::Stand, 0);
-  int met = 0;
-  for (int i = 0; i < 20'000; ++i)
+  const World world = worldAround({});
+  std::uint64_t draw = 0;
+  for (const Ray& ray : fan(world))
   {
-    const Ray ray = randomRay(random);
-    double nearest = 40;
-    for (const Stem& stem : stand.stems()) nearest = std::min(nearest, stem.intersect(ray).value_or(nearest));
-
-    const auto hit = stand.intersect(ray, 40);
-    met += hit.has_value();
-    EXPECT_EQ(hit ? hit->range : 40, nearest);
-  }
-  EXPECT_GT(met, 2000);
-}
-
-TEST(Stand, keepsThePathFreeAndStemsApart)
-{
-  const std::vector<Stem> stems = someStems();
-  ASSERT_GT(stems.size(), 200U);
-  for (std::size_t i = 0; i < stems.size(); ++i)
-  {
-    EXPECT_GE(stems[i].foot.head<2>().norm(), StandOptions{}.free_lane);
-    for (std::size_t j = 0; j < i; ++j) EXPECT_GE((stems[i].foot - stems[j].foot).head<2>().norm(), 0.8);
+    const auto hit = world.cast(ray, kMaxRange, ++draw);
+    const double range = hit ? hit->range : kMaxRange;
+    const auto wood = world.wood().cast(ray, kMaxRange);
+    EXPECT_LE(range, world.ground().intersect(ray, kMaxRange).value_or(kMaxRange));
+    EXPECT_LE(range, wood ? wood->range + 1e-3 : kMaxRange);
   }
 }
 
-TEST(World, meetsTheNearerOfGroundAndStem)
+TEST(World, hasCrownsAboveEightMetresInTheSparseStand)
 {
-  const Ground ground(GroundOptions{});
-  const World world(ground, StandOptions{}, {{0, 0}}, 1);
-  const Stand stand(world.stems());
-  Random random(6, RandomStream::Stand, 0);
-  std::set<Surface> met;
-  for (int i = 0; i < 5'000; ++i)
-  {
-    const Ray ray = randomRay(random);
-    const double to_ground = ground.intersect(ray, 40).value_or(40);
-    const auto bark = stand.intersect(ray, 40);
-    const double to_stem = bark ? bark->range : 40;
-
-    const auto hit = world.cast(ray, 40, 0);
-    EXPECT_EQ(hit ? hit->range : 40, std::min(to_ground, to_stem));
-    if (!hit) continue;
-    EXPECT_EQ(hit->surface, to_stem < to_ground ? Surface::Stem : Surface::Ground);
-    met.insert(hit->surface);
-  }
-  EXPECT_EQ(met.size(), 2U);
+  const World world = worldAround({});
+  std::uint64_t draw = 0;
+  for (const Ray& ray : fan(world))
+    if (const auto hit = world.cast(ray, kMaxRange, ++draw); hit && hit->surface == Surface::Crown)
+    {
+      const Eigen::Vector3d p = ray.at(hit->range);
+      EXPECT_GT(p.z() - world.ground().height(p.x(), p.y()), 7.4) << "but for half a voxel and the slope";
+    }
 }
 
-TEST(Random, neverRepeatsItselfAcrossStreamsAndPlaces)
+TEST(World, answersTheSameOnAnyThreadAndOtherwiseForAnotherDraw)
 {
-  std::set<std::uint64_t> seen;
-  for (std::uint64_t seed = 0; seed < 10; ++seed)
-    for (int stream = 0; stream < 10; ++stream)
-      for (std::uint64_t index = 0; index < 100; ++index)
-        seen.insert(Random(seed, static_cast<RandomStream>(stream), index).bits());
-  EXPECT_EQ(seen.size(), 10'000U);
+  const World world = worldAround({});
+  const std::vector<Ray> rays = fan(world);
+  const auto castAll = [&](std::uint64_t draw)
+  {
+    std::vector<double> ranges(rays.size());
+    tbb::parallel_for(std::size_t{0}, rays.size(),
+                      [&](std::size_t i)
+                      {
+                        const auto hit = world.cast(rays[i], kMaxRange, draw + i);
+                        ranges[i] = hit ? hit->range : 0;
+                      });
+    return ranges;
+  };
+  std::vector<double> one_by_one;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+  {
+    const auto hit = world.cast(rays[i], kMaxRange, i);
+    one_by_one.push_back(hit ? hit->range : 0);
+  }
+  EXPECT_EQ(castAll(0), one_by_one);
+  EXPECT_NE(castAll(1'000'000), one_by_one);
 }
 
-TEST(Random, isNormal)
+/** Algebraic fit (I. Kasa: A Circle Fitting Procedure and Its Error Analysis, IEEE TIM 1976). */
+double fittedDiameter(const std::vector<Eigen::Vector2d>& points)
 {
-  Random random(5, RandomStream::Stand, 0);
-  double sum = 0, squares = 0, beyond_two = 0;
-  constexpr int kDraws = 100'000;
-  for (int i = 0; i < kDraws; ++i)
+  Eigen::MatrixX3d terms(points.size(), 3);
+  Eigen::VectorXd squares(points.size());
+  for (Eigen::Index i = 0; i < terms.rows(); ++i)
   {
-    const double x = random.normal();
-    sum += x;
-    squares += x * x;
-    beyond_two += std::abs(x) > 2;
+    const Eigen::Vector2d& p = points[static_cast<std::size_t>(i)];
+    terms.row(i) << 2 * p.x(), 2 * p.y(), 1;
+    squares[i] = p.squaredNorm();
   }
-  EXPECT_NEAR(sum / kDraws, 0, 0.015);
-  EXPECT_NEAR(squares / kDraws, 1, 0.02);
-  EXPECT_NEAR(beyond_two / kDraws, 0.0455, 0.003);
+  const Eigen::Vector3d solution = terms.colPivHouseholderQr().solve(squares);
+  return 2 * std::sqrt(solution.z() + solution.head<2>().squaredNorm());
+}
+
+/** As a forester would measure them from outside: from what rays at breast height meet. */
+TEST(World, hasTheStemDiametersOfItsTable)
+{
+  ForestOptions options;
+  options.foliage.undergrowth_cover = 0;
+  options.trees.dead_branches = 0;
+  const World world = worldAround(options);
+  int measured = 0;
+  for (std::uint32_t i = 0; i < world.stems().size(); ++i)
+  {
+    const Stem& stem = world.stems()[i];
+    const Eigen::Vector3d breast = stem.foot + 1.3 * stem.axis;
+    const Eigen::Vector3d eye(breast.x() - 3, breast.y(), breast.z());
+    const Eigen::Vector3d u = stem.axis.unitOrthogonal(), v = stem.axis.cross(u);
+    std::vector<Eigen::Vector2d> across;
+    for (double side = -0.12; side <= 0.12; side += 0.002)
+    {
+      const Ray ray{eye, (breast + Eigen::Vector3d(0, side, 0) - eye).normalized()};
+      const auto hit = world.cast(ray, 4, 1);
+      if (hit && hit->surface == Surface::Stem && hit->id == i && hit->cosine_incidence > 0.3)
+        across.emplace_back((ray.at(hit->range) - breast).dot(u), (ray.at(hit->range) - breast).dot(v));
+    }
+    if (across.size() < 20) continue;  // another stem stands in between
+    ++measured;
+    EXPECT_NEAR(fittedDiameter(across), stem.diameter, 5e-4) << "stem " << i;
+  }
+  EXPECT_GT(measured, 500);
 }
 }  // namespace
 }  // namespace scanloom

@@ -1,0 +1,23 @@
+/** All that can be chosen about the forest. */
+#pragma once
+#include "config/Schema.h"
+#include "simulation/GrowFoliage.h"
+#include "simulation/Stand.h"
+
+namespace scanloom
+{
+struct ForestOptions
+{
+  StandOptions stand;
+  TreeOptions trees;
+  FoliageOptions foliage;
+
+  template <typename Self, typename Visitor>
+  static void sections(Self& s, Visitor&& visit)
+  {
+    visit(s.stand, Section{"simulated_stand", "where stems stand"});
+    visit(s.trees, Section{"simulated_trees", "how each of them has grown"});
+    visit(s.foliage, Section{"simulated_foliage", "twigs, needles, leaves and undergrowth"});
+  }
+};
+}  // namespace scanloom

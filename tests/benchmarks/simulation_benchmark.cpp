@@ -1,0 +1,140 @@
+/** Rays per second through the stands of params/simulation/, and what an hour's world takes. */
+#include "config/Configuration.h"
+#include "simulation/Random.h"
+#include "simulation/RecordingOptions.h"
+#include "simulation/World.h"
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <string>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kMaxRange = 50;
+
+SimulationSettings settingsOf(const std::string& stand)
+{
+  const auto file = std::string(SCANLOOM_SOURCE_DIR) + "/params/simulation/" + stand + ".ini";
+  return readSettings<SimulationSettings>(Configuration::fromFiles({file}), schemaOf<SimulationSettings>());
+}
+
+std::vector<Eigen::Vector2d> straightPath(double length)
+{
+  std::vector<Eigen::Vector2d> path;
+  for (double x = 0; x <= length; x += 0.25) path.emplace_back(x, 0);
+  return path;
+}
+
+World makeWorld(const std::string& stand, double length)
+{
+  const SimulationSettings settings = settingsOf(stand);
+  return World(Ground(settings.ground), settings.forest, straightPath(length), 1);
+}
+
+/** Every second column of an OS0-128: 128 beams over 90 degrees, 2.5 m above the ground, upright. */
+std::vector<Ray> fan(const World& world, double x)
+{
+  std::vector<Ray> rays;
+  const Eigen::Vector3d origin(x, 0, world.ground().height(x, 0.0) + 2.5);
+  for (int column = 0; column < 1024; column += 2)
+    for (int beam = 0; beam < 128; ++beam)
+    {
+      const double azimuth = 2 * M_PI * column / 1024, altitude = M_PI / 4 * (1 - beam / 63.5);
+      rays.push_back(
+          {origin,
+           {std::cos(azimuth) * std::cos(altitude), std::sin(azimuth) * std::cos(altitude), std::sin(altitude)}});
+    }
+  return rays;
+}
+
+/** A world and rays in it that all threads of a benchmark share. */
+struct Course
+{
+  explicit Course(const std::string& stand) : world(makeWorld(stand, 20))
+  {
+    for (const double x : {5.0, 10.0, 15.0})
+      for (const Ray& ray : fan(world, x)) rays.push_back(ray);
+  }
+
+  World world;
+  std::vector<Ray> rays;
+};
+
+const Course& courseThrough(const std::string& stand)
+{
+  static const Course sparse("sparse"), dense("dense");
+  return stand == "sparse" ? sparse : dense;
+}
+
+void castRays(benchmark::State& state, const std::string& stand)
+{
+  const Course& course = courseThrough(stand);
+  std::array<double, 8> returns{};
+  double rays = 0;
+  std::uint64_t draw = static_cast<std::uint64_t>(state.thread_index()) << 32;
+  for (auto _ : state)
+    for (const Ray& ray : course.rays)
+    {
+      const auto hit = course.world.cast(ray, kMaxRange, ++draw);
+      if (hit) ++returns[static_cast<std::size_t>(hit->surface)];
+      ++rays;
+    }
+  state.SetItemsProcessed(static_cast<std::int64_t>(rays));
+  constexpr std::array kNames{"ground", "stem", "branch", "crown", "undergrowth"};
+  for (std::size_t i = 0; i < kNames.size(); ++i)
+    state.counters[kNames[i]] = benchmark::Counter(returns[i] / rays, benchmark::Counter::kAvgThreads);
+}
+BENCHMARK_CAPTURE(castRays, sparse, "sparse")->ThreadRange(1, 2)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(castRays, dense, "dense")->ThreadRange(1, 2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void castGround(benchmark::State& state)
+{
+  const Course& course = courseThrough("sparse");
+  for (auto _ : state)
+    for (const Ray& ray : course.rays) benchmark::DoNotOptimize(course.world.ground().intersect(ray, kMaxRange));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(course.rays.size()));
+}
+BENCHMARK(castGround)->Unit(benchmark::kMillisecond);
+
+void castWood(benchmark::State& state, const std::string& stand)
+{
+  const Course& course = courseThrough(stand);
+  for (auto _ : state)
+    for (const Ray& ray : course.rays) benchmark::DoNotOptimize(course.world.wood().cast(ray, kMaxRange));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(course.rays.size()));
+}
+BENCHMARK_CAPTURE(castWood, sparse, "sparse")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(castWood, dense, "dense")->Unit(benchmark::kMillisecond);
+
+void castFoliage(benchmark::State& state, const std::string& stand)
+{
+  const Course& course = courseThrough(stand);
+  Random random(1, RandomStream::Leaves, 0);
+  for (auto _ : state)
+    for (const Ray& ray : course.rays)
+      benchmark::DoNotOptimize(course.world.foliage().intersect(ray, kMaxRange, random.exponential()));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(course.rays.size()));
+}
+BENCHMARK_CAPTURE(castFoliage, sparse, "sparse")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(castFoliage, dense, "dense")->Unit(benchmark::kMillisecond);
+
+/** The world around 1 km of path. */
+void grow(benchmark::State& state, const std::string& stand)
+{
+  constexpr double kMebibyte = 1 << 20;
+  for (auto _ : state)
+  {
+    const World world = makeWorld(stand, 1000);
+    state.counters["stems"] = static_cast<double>(world.stems().size());
+    state.counters["table_MiB"] = static_cast<double>(world.stems().size() * (sizeof(Stem) + sizeof(Cone))) / kMebibyte;
+    state.counters["Embree_MiB"] = static_cast<double>(world.wood().embreeBytes()) / kMebibyte;
+    state.counters["foliage_MiB"] = static_cast<double>(world.foliage().voxels().bytes()) / kMebibyte;
+  }
+}
+BENCHMARK_CAPTURE(grow, sparse, "sparse")->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK_CAPTURE(grow, dense, "dense")->Unit(benchmark::kMillisecond)->Iterations(1);
+}  // namespace
+}  // namespace scanloom
