@@ -18,6 +18,9 @@ double marginFor(double extent) { return 1e-4 + extent * 0x1p-21; }
 /** Returns at once what lies so little behind Embree's thickened surface that nothing else can be in between. */
 constexpr double kMarginsToBark = 4;
 
+/** Geometries of the scene. */
+constexpr unsigned kTrunks = 0, kBranches = 1;
+
 bool countBytes(void* counter, ssize_t bytes, bool)
 {
   *static_cast<std::atomic<std::int64_t>*>(counter) += bytes;
@@ -30,43 +33,30 @@ void requireNoError(RTCDevice device, const char* what)
     throw std::runtime_error(fmt::format("Embree can't {}: error {}", what, static_cast<int>(error)));
 }
 
-RTCGeometry makeCones(RTCDevice device, const std::vector<Cone>& cones, const Eigen::Vector3d& origin, double margin)
+/** Adds what `forEachCone` visits, `count` cones, to a scene. */
+template <typename ForEachCone>
+void attachCones(RTCDevice device, RTCScene scene, unsigned id, std::size_t count, const Eigen::Vector3d& origin,
+                 double margin, ForEachCone&& forEachCone)
 {
+  if (count == 0) return;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_CONE_LINEAR_CURVE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
-                                                               4 * sizeof(float), 2 * cones.size()));
+  auto* vertex = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 2 * count));
   auto* first_vertices = static_cast<unsigned*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, sizeof(unsigned), cones.size()));
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, sizeof(unsigned), count));
   requireNoError(device, "make room for cones");
-  for (std::size_t i = 0; i < cones.size(); ++i)
-  {
-    const Cone& cone = cones[i];
-    Eigen::Map<Eigen::Matrix<float, 4, 2>> ends(vertices + 8 * i);
-    ends.col(0) << (cone.base - margin * cone.axis - origin).cast<float>(),
-        static_cast<float>(cone.base_radius + margin);
-    ends.col(1) << (cone.tip() + margin * cone.axis - origin).cast<float>(),
-        static_cast<float>(cone.tip_radius + margin);
-    first_vertices[i] = static_cast<unsigned>(2 * i);
-  }
+  for (std::size_t i = 0; i < count; ++i) first_vertices[i] = static_cast<unsigned>(2 * i);
+  forEachCone(
+      [&](const Cone& cone)
+      {
+        Eigen::Map<Eigen::Matrix<float, 4, 2>> ends(vertex);
+        ends.col(0) << (cone.base - margin * cone.axis - origin).cast<float>(),
+            static_cast<float>(cone.base_radius + margin);
+        ends.col(1) << (cone.tip() + margin * cone.axis - origin).cast<float>(),
+            static_cast<float>(cone.tip_radius + margin);
+        vertex += ends.size();
+      });
   rtcCommitGeometry(geometry);
-  return geometry;
-}
-
-/** Moved and turned only: Embree 3.13 misses cones of scaled instances, because it takes directions for unit vectors.
- */
-RTCGeometry makeInstance(RTCDevice device, RTCScene look, const Stem& stem, const Eigen::Vector3d& origin)
-{
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-  rtcSetGeometryInstancedScene(geometry, look);
-  Eigen::Matrix<float, 3, 4> placed;
-  placed << stem.rotation().toRotationMatrix().cast<float>(), (stem.foot - origin).cast<float>();
-  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, placed.data());
-  rtcCommitGeometry(geometry);
-  return geometry;
-}
-
-void attach(RTCScene scene, RTCGeometry geometry, unsigned id)
-{
   rtcAttachGeometryByID(scene, geometry, id);
   rtcReleaseGeometry(geometry);
 }
@@ -101,21 +91,17 @@ Wood::Wood(std::vector<Stem> stems, const std::vector<Cone>& stumps, const TreeO
   margin_ = marginFor(bounds.sizes().maxCoeff());
   growLooks(trees);
 
-  scene_ = makeScene();
-  attach(scene_.get(), makeCones(device_.get(), trunks_, origin_, margin_), 0);
-  for (std::size_t i = 0; i < stems_.size(); ++i)
-    if (!looks_[look_of_[i]].empty())
-      attach(scene_.get(), makeInstance(device_.get(), look_scenes_[look_of_[i]].get(), stems_[i], origin_),
-             static_cast<unsigned>(i + 1));
+  scene_.reset(rtcNewScene(device_.get()));
+  attachCones(device_.get(), scene_.get(), kTrunks, trunks_.size(), origin_, margin_,
+              [&](auto&& add) { std::for_each(trunks_.begin(), trunks_.end(), add); });
+  attachCones(device_.get(), scene_.get(), kBranches, first_branch_.back(), origin_, margin_,
+              [&](auto&& add)
+              {
+                for (std::size_t i = 0; i < stems_.size(); ++i)
+                  for (const Cone& branch : looks_[look_of_[i]]) add(placeBranch(branch, stems_[i]));
+              });
   rtcCommitScene(scene_.get());
   requireNoError(device_.get(), "build the scene of stems and branches");
-}
-
-Wood::Scene Wood::makeScene() const
-{
-  Scene scene(rtcNewScene(device_.get()));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_NONE);
-  return scene;
 }
 
 void Wood::growLooks(const TreeOptions& trees)
@@ -124,12 +110,9 @@ void Wood::growLooks(const TreeOptions& trees)
   for (const Stem& stem : stems_)
   {
     const auto [look, is_new] = known.try_emplace(lookOf(stem), static_cast<std::uint32_t>(looks_.size()));
+    if (is_new) looks_.push_back(growBranches(trees, look->first));
     look_of_.push_back(look->second);
-    if (!is_new) continue;
-    looks_.push_back(growBranches(trees, look->first));
-    look_scenes_.push_back(makeScene());
-    attach(look_scenes_.back().get(), makeCones(device_.get(), looks_.back(), Eigen::Vector3d::Zero(), margin_), 0);
-    rtcCommitScene(look_scenes_.back().get());
+    first_branch_.push_back(first_branch_.back() + static_cast<std::uint32_t>(looks_[look->second].size()));
   }
 }
 
@@ -165,25 +148,28 @@ std::optional<Wood::Candidate> Wood::nextCandidate(const Ray& ray, double neares
   query.ray.tfar = static_cast<float>(farthest);
   query.ray.mask = ~0U;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene_.get(), &context, &query);
 
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID) return Candidate{query.ray.tfar, query.hit.primID, std::nullopt};
-  return Candidate{query.ray.tfar, query.hit.instID[0] - 1, query.hit.primID};
+  return Candidate{query.ray.tfar, query.hit.geomID, query.hit.primID};
 }
 
 std::optional<Hit> Wood::hitOf(const Candidate& candidate, const Ray& ray) const
 {
-  const bool is_branch = candidate.branch.has_value();
-  const Cone solid = is_branch
-                         ? placeBranch(looks_[look_of_[candidate.index]][*candidate.branch], stems_[candidate.index])
-                         : trunks_[candidate.index];
-  const auto entry = solid.intersect(ray);
-  if (!entry) return std::nullopt;
-  const std::uint32_t id = candidate.index < stems_.size() ? candidate.index : 0;
-  return Hit{entry->range, std::abs(entry->normal.dot(ray.direction)), is_branch ? Surface::Branch : Surface::Stem, id};
+  const auto hitAt = [&](const Cone& solid, Surface surface, std::uint32_t id) -> std::optional<Hit>
+  {
+    const auto entry = solid.intersect(ray);
+    if (!entry) return std::nullopt;
+    return Hit{entry->range, std::abs(entry->normal.dot(ray.direction)), surface, id};
+  };
+  if (candidate.geometry == kTrunks)
+    return hitAt(trunks_[candidate.index], Surface::Stem, candidate.index < stems_.size() ? candidate.index : 0);
+
+  const auto next_stem = std::upper_bound(first_branch_.begin(), first_branch_.end(), candidate.index);
+  const auto stem = static_cast<std::uint32_t>(next_stem - first_branch_.begin()) - 1;
+  const Cone& branch = looks_[look_of_[stem]][candidate.index - first_branch_[stem]];
+  return hitAt(placeBranch(branch, stems_[stem]), Surface::Branch, stem);
 }
 }  // namespace scanloom

@@ -3,7 +3,6 @@
 #include "simulation/Cone.h"
 #include "simulation/Trees.h"
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -25,7 +24,8 @@ std::string embreeInstructionSet();
 class Wood
 {
  public:
-  /** Trees of the same look share their branches. Throws std::runtime_error as Embree says. */
+  /** Trees of the same look share the table of their branches, not Embree's copy. Throws std::runtime_error as Embree
+   * says. */
   Wood(std::vector<Stem> stems, const std::vector<Cone>& stumps, const TreeOptions&,
        const std::string& instruction_set = embreeInstructionSet());
 
@@ -51,12 +51,11 @@ class Wood
 
   struct Candidate
   {
-    double range;                         // m, to the solid with its margin
-    std::uint32_t index;                  // into stems_ for branches, else into trunks_
-    std::optional<std::uint32_t> branch;  // of the stem's look
+    double range;            // m, to the solid with its margin
+    std::uint32_t geometry;  // of the scene
+    std::uint32_t index;     // of the trunk, or of the branch among those of all stems
   };
 
-  Scene makeScene() const;
   void growLooks(const TreeOptions&);
   std::optional<Candidate> nextCandidate(const Ray& from_origin, double nearest, double farthest) const;
   std::optional<Hit> hitOf(const Candidate&, const Ray&) const;
@@ -65,11 +64,11 @@ class Wood
   std::vector<Cone> trunks_;                          // stems, then stumps
   std::vector<std::vector<Cone>> looks_;              // branches of a tree
   std::vector<std::uint32_t> look_of_;                // of each stem: into looks_
+  std::vector<std::uint32_t> first_branch_{0};        // of each stem, and one more for the end
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  // of Embree's coordinates, in the world
   double margin_ = 0;                                 // m, by which Embree's cones are thicker
   std::unique_ptr<std::atomic<std::int64_t>> embree_bytes_ = std::make_unique<std::atomic<std::int64_t>>(0);
   Device device_;
-  std::vector<Scene> look_scenes_;
   Scene scene_;
 };
 }  // namespace scanloom
