@@ -31,6 +31,7 @@ struct Hit
   double range = 0;             // m from the ray's origin
   double cosine_incidence = 0;  // 1 when the ray meets the surface at a right angle
   Surface surface = Surface::Ground;
-  std::uint32_t id = 0;  // of the stem that was hit or that the branch or the crown belongs to; 0 elsewhere
+  std::uint32_t id =
+      0;  // of the stem that was hit or that the branch belongs to; 0 elsewhere, for stumps and foliage, too
 };
 }  // namespace scanloom
