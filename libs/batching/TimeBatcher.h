@@ -69,6 +69,7 @@ class TimeBatcher : public Batcher
   void noteNews(LidarIndex, const std::vector<Notice::Kind>&);
 
   std::optional<LidarIndex> clockReference(LidarIndex) const;
+  std::optional<Duration> commonDelay(LidarIndex) const;
   void settleClock(LidarIndex, const std::vector<Notice::Kind>& news);
   void watchClock(LidarIndex);
 

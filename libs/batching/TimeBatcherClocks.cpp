@@ -117,13 +117,26 @@ std::optional<LidarIndex> TimeBatcher::clockReference(LidarIndex lidar) const
   return std::nullopt;
 }
 
+/**
+ * The delay that packets stamped by the common clock have now, or had when that clock was last known: whoever is heard
+ * first after all others were left out or fell silent must not begin another time. None if nobody ever told.
+ */
+std::optional<Duration> TimeBatcher::commonDelay(LidarIndex lidar) const
+{
+  if (const auto reference = clockReference(lidar)) return inputs_[*reference].clock.leastDelay();
+  if (const auto own = inputs_[lidar].clock.delayBeforeBreak()) return own;
+  for (const LidarInput& input : inputs_)
+    if (input.clock.isUsed()) return input.clock.leastDelay();
+  for (const LidarInput& input : inputs_)
+    if (const auto before = input.clock.delayBeforeBreak()) return before;
+  return std::nullopt;
+}
+
 /** A lidar that was first heard after the start, has restarted or whose clock has stepped. */
 void TimeBatcher::settleClock(LidarIndex lidar, const std::vector<Notice::Kind>& news)
 {
   LidarClock& clock = inputs_[lidar].clock;
-  const std::optional<LidarIndex> reference = clockReference(lidar);
-  const std::optional<Duration> expected =
-      reference ? inputs_[*reference].clock.leastDelay() : clock.delayBeforeBreak();
+  const std::optional<Duration> expected = commonDelay(lidar);
   if (!expected) return clock.setCommon();
 
   const Duration skew = *clock.configuredDelay() - *expected;

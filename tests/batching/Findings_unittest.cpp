@@ -113,6 +113,22 @@ TEST(Findings, aQuarantinedLidarThatStartsAgainWhenNobodyElseIsHeardDoesNotLeadT
   EXPECT_EQ(session.batcher.counters(0).restarts, 1u);
 }
 
+TEST(Findings, aLidarThatIsFirstHeardWhenAllOthersAreLeftOutDoesNotBeginAnotherTime)
+{
+  const Rig rig{ouster(10), ouster(10)};
+  Session session(rig, quarantine());
+  for (Arrival& a : drive(rig, 4s))
+  {
+    if (a.lidar == 1 && a.sent < kBegin + 3s) continue;
+    if (a.lidar == 1) shiftStamps(a.packet, 7200s);
+    if (a.lidar == 0 && a.sent > kBegin + 2s) shiftStamps(a.packet, 37s);
+    session.push(a.lidar, a.packet, a.received);
+  }
+  session.take(session.batcher.finish());
+  ASSERT_FALSE(session.scans.empty());
+  EXPECT_LT(session.scans.back().start, kBegin + 10s);
+}
+
 TEST(Findings, aSliceHoldsNoBlockOfAnEarlierOne)
 {
   const Rig rig{ouster(10), ouster(10)};
