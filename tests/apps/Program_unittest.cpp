@@ -3,6 +3,7 @@
 
 #include "Interruption.h"
 #include "Settings.h"
+#include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -98,10 +99,8 @@ Ended run(std::vector<const char*> arguments)
 
 struct Program : testing::Test
 {
-  std::filesystem::path folder = testing::TempDir() + "scanloom_program_" + std::to_string(::getpid());
-
-  void SetUp() override { std::filesystem::create_directory(folder); }
-  void TearDown() override { std::filesystem::remove_all(folder); }
+  TemporaryFolder workplace;
+  std::filesystem::path folder = workplace.path();
 
   std::string write(const std::string& name, const std::string& text) const
   {

@@ -1,13 +1,13 @@
 #include "config/AtomicFile.h"
 
 #include "config/ConfigError.h"
+#include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -15,18 +15,10 @@ namespace scanloom
 {
 namespace
 {
-std::string contentsOf(const std::filesystem::path& file)
-{
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 struct AtomicFileTest : testing::Test
 {
-  std::filesystem::path folder = testing::TempDir() + "scanloom_atomic_file_" + std::to_string(::getpid());
-
-  void SetUp() override { std::filesystem::create_directory(folder); }
-  void TearDown() override { std::filesystem::remove_all(folder); }
+  TemporaryFolder workplace;
+  std::filesystem::path folder = workplace.path();
 
   std::ptrdiff_t files() const { return std::distance(std::filesystem::directory_iterator(folder), {}); }
 };
@@ -41,7 +33,7 @@ TEST_F(AtomicFileTest, appearsUnderItsNameWhenItIsCommitted)
 
   file.commit();
 
-  EXPECT_EQ(contentsOf(folder / "map.bt"), "tree");
+  EXPECT_EQ(contentOf(folder / "map.bt"), "tree");
   EXPECT_EQ(files(), 1);
 }
 
@@ -65,7 +57,7 @@ TEST_F(AtomicFileTest, keepsTheOldFileIfWritingFails)
                                  throw std::length_error("no more");
                                }),
                std::length_error);
-  EXPECT_EQ(contentsOf(folder / "a.tum"), "old");
+  EXPECT_EQ(contentOf(folder / "a.tum"), "old");
   EXPECT_EQ(files(), 1);
 }
 
@@ -74,7 +66,7 @@ TEST_F(AtomicFileTest, replacesTheOldFile)
   writeAtomically(folder / "a.tum", [](std::ostream& out) { out << "old"; });
   writeAtomically(folder / "a.tum", [](std::ostream& out) { out << "new"; });
 
-  EXPECT_EQ(contentsOf(folder / "a.tum"), "new");
+  EXPECT_EQ(contentOf(folder / "a.tum"), "new");
 }
 
 TEST_F(AtomicFileTest, saysWhyItCannotBeWritten)
@@ -96,10 +88,9 @@ TEST_F(AtomicFileTest, saysWhyItCannotBeWritten)
   EXPECT_EQ(reason(folder), folder.string() + ": cannot be written: Is a directory");
 }
 
-TEST(WriteAtomically, failsWhenTheDiskIsFull)
+TEST_F(AtomicFileTest, failsWhenTheDiskIsFull)
 {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  const auto folder = std::filesystem::path(testing::TempDir());
   const auto file = folder / "full.csv";
   std::filesystem::create_symlink("/dev/full", folder / ("full.partial-" + std::to_string(::getpid()) + ".csv"));
 

@@ -1,5 +1,7 @@
 #include "config/Configuration.h"
 
+#include "support/TemporaryFolder.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -86,7 +88,8 @@ std::string problemOfNdt(const std::string& line)
 
 struct ConfigurationFiles : testing::Test
 {
-  std::filesystem::path folder = testing::TempDir();
+  TemporaryFolder workplace;
+  std::filesystem::path folder = workplace.path();
 
   std::filesystem::path write(const std::string& name, const std::string& text)
   {

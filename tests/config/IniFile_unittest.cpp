@@ -1,6 +1,7 @@
 #include "config/IniFile.h"
 
 #include "config/ConfigError.h"
+#include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,11 +42,10 @@ Values ours(const std::string& text)
 
 Values mrpts(const std::string& text)
 {
-  const auto file =
-      std::filesystem::temp_directory_path() / ("scanloom_dialect_" + std::to_string(::getpid()) + ".ini");
+  const TemporaryFolder folder;
+  const auto file = folder / "dialect.ini";
   std::ofstream(file, std::ios::binary) << text;
   const mrpt::config::CConfigFile parsed(file.string());
-  std::filesystem::remove(file);
 
   Values values;
   std::vector<std::string> sections, keys;

@@ -4,6 +4,7 @@
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/registerClasses.h"
 #include "someScan.h"
+#include "support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/io/CFileGZInputStream.h>
@@ -25,9 +26,6 @@ const Rigid kBodyTImu = Rigid::fromXyzYawPitchRoll(0.1, 0.2, 0.3, 0, 0, 0);
 class Rawlog : public testing::Test
 {
  protected:
-  Rawlog() { fs::create_directories(folder_); }
-  ~Rawlog() override { fs::remove_all(folder_); }
-
   /** `scans` scans of 120 points, each with two IMU samples. */
   fs::path written(int scans, const RawlogOptions& options = {})
   {
@@ -51,7 +49,7 @@ class Rawlog : public testing::Test
 
   void overwrite(const std::string& content) const { std::ofstream(path_, std::ios::binary) << content; }
 
-  fs::path folder_ = fs::temp_directory_path() / ("scanloom_rawlog_" + std::to_string(getpid()));
+  TemporaryFolder folder_;
   fs::path path_ = folder_ / "some.rawlog";
 };
 

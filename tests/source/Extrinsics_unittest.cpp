@@ -4,24 +4,25 @@
 
 #include <fstream>
 
+#include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
 using namespace scanloom;
 
 namespace
 {
-std::filesystem::path fileWith(const std::string& text)
+std::map<std::string, Rigid> posesOf(const std::string& text)
 {
-  const auto path = std::filesystem::temp_directory_path() / "scanloom_extrinsics_unittest.txt";
-  std::ofstream(path) << text;
-  return path;
+  const TemporaryFolder folder;
+  std::ofstream(folder / "extrinsics.txt") << text;
+  return readExtrinsics(folder / "extrinsics.txt");
 }
 
 std::string complaintAbout(const std::string& text)
 {
   try
   {
-    readExtrinsics(fileWith(text));
+    posesOf(text);
   }
   catch (const std::runtime_error& error)
   {
@@ -33,7 +34,7 @@ std::string complaintAbout(const std::string& text)
 
 TEST(Extrinsics, readsPosesInMetresAndDegrees)
 {
-  const auto poses = readExtrinsics(fileWith("# a rig\nT_body_left 1 2 3 90 0 0\n"));
+  const auto poses = posesOf("# a rig\nT_body_left 1 2 3 90 0 0\n");
   EXPECT_LT((poses.at("T_body_left") * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 3, 3)).norm(), 1e-14);
 }
 

@@ -1,6 +1,7 @@
 /** Captures written byte by byte from the RFCs and tcpdump.org/linktypes.html, sharing nothing with CaptureWriter. */
 #pragma once
 #include "core/Time.h"
+#include "support/TemporaryFolder.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -94,8 +95,6 @@ class HandmadeCapture
  public:
   explicit HandmadeCapture(std::uint32_t link_type = 1)
   {
-    std::string name = (std::filesystem::temp_directory_path() / "scanloom_capture_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
     write32(0xa1b23c4d);
     write32(0x00040002);  // version 2.4
     write32(0);
@@ -103,10 +102,6 @@ class HandmadeCapture
     write32(262144);
     write32(link_type);
   }
-  ~HandmadeCapture() { std::filesystem::remove_all(folder_); }
-  HandmadeCapture(const HandmadeCapture&) = delete;
-  HandmadeCapture& operator=(const HandmadeCapture&) = delete;
-
   HandmadeCapture& add(const ByteVector& frame, Duration at = 1s) { return add(frame, at, frame.size()); }
   HandmadeCapture& add(const ByteVector& frame, Duration at, std::size_t original_length)
   {
@@ -118,7 +113,7 @@ class HandmadeCapture
     return *this;
   }
 
-  std::filesystem::path folder() const { return folder_; }
+  std::filesystem::path folder() const { return folder_.path(); }
   std::filesystem::path file(std::size_t length = static_cast<std::size_t>(-1)) const
   {
     const auto path = folder_ / "capture.pcap";
@@ -135,7 +130,7 @@ class HandmadeCapture
     bytes_.insert(bytes_.end(), begin, begin + 4);
   }
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   ByteVector bytes_;
 };
 }  // namespace scanloom

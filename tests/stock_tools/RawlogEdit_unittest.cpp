@@ -38,7 +38,7 @@ void writeRecording(const std::filesystem::path& path)
 TEST(RawlogEdit, countsEveryObservationOfOurRawlogs)
 {
   SCANLOOM_NEEDS_PROGRAM("rawlog-edit");
-  const Workplace workplace;
+  const TemporaryFolder workplace;
   writeRecording(workplace / "some.rawlog");
 
   const std::string info = rawlogEdit("--info -i " + (workplace / "some.rawlog").string());
@@ -51,7 +51,7 @@ TEST(RawlogEdit, countsEveryObservationOfOurRawlogs)
 TEST(RawlogEdit, writesOurCloudsAsWholeAsItReadThem)
 {
   SCANLOOM_NEEDS_PROGRAM("rawlog-edit");
-  const Workplace workplace;
+  const TemporaryFolder workplace;
   writeRecording(workplace / "some.rawlog");
 
   rawlogEdit("--remove-label imu -i " + (workplace / "some.rawlog").string() + " -o " +

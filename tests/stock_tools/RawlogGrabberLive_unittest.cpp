@@ -28,7 +28,7 @@ TEST(RawlogGrabberLive, writesEveryScanUntilItIsInterrupted)
 {
   SCANLOOM_NEEDS_PROGRAM("rawlog-grabber");
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
-  const Workplace workplace;
+  const TemporaryFolder workplace;
   const RecordedLidars lidars(recording, 3000);
   const fs::path ini = workplace / "live.ini", capture = workplace / "live.pcap";
   std::ofstream(ini) << "[global]\nGRABBER_PERIOD_MS = 200\nrawlog_prefix = live\n"

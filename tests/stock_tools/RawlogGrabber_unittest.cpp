@@ -40,7 +40,7 @@ struct Grabbed
 };
 
 /** Runs in the workplace; the grabber names its file after the date. */
-Grabbed grab(const Workplace& workplace, const fs::path& ini)
+Grabbed grab(const TemporaryFolder& workplace, const fs::path& ini)
 {
   const OpenInput input(workplace / "input");
   Grabbed grabbed;
@@ -96,7 +96,7 @@ TEST(RawlogGrabber, writesEveryScanOfTwoLidars)
 {
   SCANLOOM_NEEDS_PROGRAM("rawlog-grabber");
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
-  const Workplace workplace;
+  const TemporaryFolder workplace;
   setenv("SCANLOOM_RECORDING", beginningOf(recording, workplace / "recording").c_str(), 1);
   const fs::path ini = kParams / "dual_pcap.ini";
 
@@ -123,7 +123,7 @@ TEST(RawlogGrabber, writesEveryScanAndImuSampleOfARealCapture)
   SCANLOOM_NEEDS_PROGRAM("rawlog-grabber");
   SCANLOOM_NEEDS_DATA(capture, kCapture);
   SCANLOOM_NEEDS_DATA(metadata, kMetadata);
-  const Workplace workplace;
+  const TemporaryFolder workplace;
   setenv("SCANLOOM_PCAP", fs::absolute(capture).c_str(), 1);
   setenv("SCANLOOM_METADATA", fs::absolute(metadata).c_str(), 1);
   const fs::path ini = kParams / "single_pcap.ini";
@@ -142,7 +142,7 @@ TEST(RawlogGrabber, writesEveryScanAndImuSampleOfARealCapture)
 TEST(RawlogGrabber, printsWhichKeyIsWrong)
 {
   SCANLOOM_NEEDS_PROGRAM("rawlog-grabber");
-  const Workplace workplace;
+  const TemporaryFolder workplace;
   std::ofstream(workplace / "wrong.ini")
       << "[global]\nGRABBER_PERIOD_MS = 50\n[lidars]\ndriver = CMultiLidarSensor\n"
          "process_rate = 100\nlidar1_metadata = a.json\nlidar1_poes = [0 0 0 0 0 0]\n";

@@ -1,5 +1,7 @@
 /** MRPT's own programs, run as a user runs them. Their exit status says little: tests look at what comes out. */
 #pragma once
+#include "support/TemporaryFolder.h"
+
 #include <gtest/gtest.h>
 
 #include <fcntl.h>
@@ -34,21 +36,6 @@ inline std::string outputOf(const std::string& command)
   pclose(pipe);
   return output;
 }
-
-/** A folder of the test's own, gone with it. */
-class Workplace
-{
- public:
-  Workplace() { std::filesystem::create_directories(path_); }
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-  ~Workplace() { std::filesystem::remove_all(path_); }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_ = std::filesystem::temp_directory_path() / ("scanloom_stock_" + std::to_string(getpid()));
-};
 
 /** A named pipe that stays open and empty: rawlog-grabber ends at once if its input is closed, or at a key. */
 class OpenInput
