@@ -47,6 +47,21 @@ CLI::Option* addSeed(CLI::App& app, std::uint64_t& seed)
   return app.add_option("--seed", seed, "of the random numbers")->capture_default_str();
 }
 
+ConfigurationArguments withScene(ConfigurationArguments arguments, const SceneArguments& scene)
+{
+  if (scene.given()) arguments.files.push_back(scene.file);
+  return arguments;
+}
+
+CLI::Option* addScene(CLI::App& app, SceneArguments& arguments)
+{
+  addSeed(app, arguments.seed);
+  return app
+      .add_option("--simulate", arguments.file,
+                  "a simulation's INI file: its packets are made on the way, in place of captures and sockets")
+      ->check(CLI::ExistingFile);
+}
+
 CLI::Option* addJobs(CLI::App& app, int& jobs)
 {
   return app.add_option("--jobs", jobs, "threads or processes at once; 0: one per core")

@@ -35,6 +35,19 @@ CLI::Option* addOutputFolder(CLI::App&, OutputFolderArguments&);
  */
 void refuseExisting(const OutputFolderArguments&, const std::vector<std::string>& names);
 
+/** A scene in place of a recording. */
+struct SceneArguments
+{
+  std::filesystem::path file;  // empty: none
+  std::uint64_t seed = 1;
+
+  bool given() const { return !file.empty(); }
+};
+/** With the scene's file, if there is one, as the last one. */
+ConfigurationArguments withScene(ConfigurationArguments, const SceneArguments&);
+/** --simulate, --seed. @return the option --simulate. */
+CLI::Option* addScene(CLI::App&, SceneArguments&);
+
 CLI::Option* addOverwrite(CLI::App&, bool&);      // -w/--overwrite
 CLI::Option* addJson(CLI::App&, bool&);           // --json: results as JSON on stdout
 CLI::Option* addSeed(CLI::App&, std::uint64_t&);  // --seed

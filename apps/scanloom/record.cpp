@@ -4,6 +4,7 @@
 #include "LiveStatus.h"
 #include "Progress.h"
 #include "Settings.h"
+#include "SimulatedRig.h"
 #include "Verb.h"
 #include "config/AtomicFile.h"
 #include "mrpt_bridge/RawlogWriter.h"
@@ -14,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -25,6 +27,7 @@ namespace
 struct RecordArguments
 {
   ConfigurationArguments configuration;
+  SceneArguments scene;
   std::filesystem::path output;
   std::vector<std::string> lidars;
   double seconds = 0;  // live: 0 until it is interrupted
@@ -62,45 +65,58 @@ struct Recorded
   std::uint64_t scans = 0, imu_samples = 0;
 };
 
+/** Where the sensors' events come from. */
+struct Source
+{
+  DriverOptions driver;
+  Rig rig;
+  std::shared_ptr<const Scene> scene;  // none: captures or sockets
+  std::filesystem::path capture;       // that is written beside; empty: none
+
+  bool isLive() const { return !scene && rig.captures.empty(); }
+};
+
 /** A bar where the end is known, the lidars' state where it is not. */
 class Display
 {
  public:
-  explicit Display(const Rig& rig)
+  explicit Display(const Source& source)
   {
-    if (rig.captures.empty())
+    if (source.isLive())
     {
       live_.emplace("record");
       return;
     }
-    megabytes_ = megabytesOf(rig.captures);
-    replay_.emplace("record", megabytes_, "MB");
+    total_ = source.scene ? static_cast<std::uint64_t>(std::ceil(source.scene->span.duration))
+                          : megabytesOf(source.rig.captures);
+    replay_.emplace("record", total_, source.scene ? "s" : "MB");
   }
 
   void update(RigInput& input)
   {
     if (live_) return live_->update(input);
-    replay_->update(static_cast<std::uint64_t>(input.progress() * static_cast<double>(megabytes_)));
+    replay_->update(static_cast<std::uint64_t>(input.progress() * static_cast<double>(total_)));
   }
 
  private:
-  std::uint64_t megabytes_ = 0;
+  std::uint64_t total_ = 0;
   std::optional<Progress> replay_;
   std::optional<LiveStatus> live_;
 };
 
-Recorded record(RigInput& input, Rig rig, const DriverOptions& driver, double seconds, RawlogWriter& writer)
+Recorded record(RigInput& input, const Source& source, double seconds, RawlogWriter& writer)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  Display display(rig);
+  Rig rig = source.rig;
+  Display display(source);
   Recorded recorded;
   while (!input.ended())
   {
     if (const std::optional<SensorEvent> event = input.next(100ms))
     {
       input.refresh(rig);
-      writer.write(*toObservation(*event, rig, driver));
+      writer.write(*toObservation(*event, rig, source.driver));
       if (std::holds_alternative<Scan>(*event)) ++recorded.scans;
       if (std::holds_alternative<SensorImu>(*event)) ++recorded.imu_samples;
     }
@@ -132,27 +148,43 @@ void report(const RecordArguments& arguments, const Recorded& recorded, const Ri
     if (count > 0 && what != "datagrams") fmt::print("  {}: {}\n", what, count);
 }
 
-RawlogOptions rawlogOptions(const RecordOptions& record, const RigSettings& settings, bool live)
+Source openSource(const RecordArguments& arguments, const Configuration& configuration)
+{
+  if (arguments.scene.given())
+  {
+    SimulatedRig simulated = simulatedRig(arguments.scene, configuration, arguments.lidars);
+    const bool has_rig = hasRigSection(configuration);
+    return {has_rig ? configuration.read<DriverOptions>(rigSection(configuration)) : DriverOptions{},
+            std::move(simulated.rig),
+            std::move(simulated.scene),
+            {}};
+  }
+  const RigSettings settings = readRigSettings(configuration, rigSection(configuration));
+  const bool live = settings.rig.pcap_input.empty();
+  std::vector<std::filesystem::path> outputs{arguments.output};
+  if (live && !settings.rig.pcap_output.empty()) outputs.emplace_back(settings.rig.pcap_output);
+  refuseExisting(outputs, arguments.overwrite);
+  return {settings.driver, makeRig(settings, arguments.lidars), nullptr, live ? settings.rig.pcap_output : ""};
+}
+
+RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& driver, bool live)
 {
   RawlogOptions options;
   options.compression_level = record.compression_level >= 0 ? record.compression_level : live ? 0 : 1;
-  options.cloud_class = cloudClassFromName(settings.driver.cloud_class);
+  options.cloud_class = cloudClassFromName(driver.cloud_class);
   if (live) options.safe_every = 1s;
   return options;
 }
 
 int run(const RecordArguments& arguments)
 {
-  const Loaded<RecordSettings> loaded = load<RecordSettings>(arguments.configuration);
-  const RigSettings settings = readRigSettings(loaded.configuration, rigSection(loaded.configuration));
-  const bool live = settings.rig.pcap_input.empty();
-  std::vector<std::filesystem::path> outputs{arguments.output};
-  if (live && !settings.rig.pcap_output.empty()) outputs.emplace_back(settings.rig.pcap_output);
-  refuseExisting(outputs, arguments.overwrite);
-  const Rig rig = makeRig(settings, arguments.lidars);
+  const Loaded<RecordSettings> loaded = load<RecordSettings>(withScene(arguments.configuration, arguments.scene));
+  refuseExisting({arguments.output}, arguments.overwrite);
+  const Source source = openSource(arguments, loaded.configuration);
+  const bool live = source.isLive();
   if (!live && arguments.seconds > 0)
-    throw UsageError("--seconds is for live lidars: pcap_input is given, and ends by itself");
-  const RawlogOptions options = rawlogOptions(loaded.settings.record, settings, live);
+    throw UsageError("--seconds is for live lidars: captures and simulated drives end by themselves");
+  const RawlogOptions options = rawlogOptions(loaded.settings.record, source.driver, live);
   if (arguments.configuration.dry_run)
   {
     std::cout << toIni(loaded);
@@ -160,10 +192,11 @@ int run(const RecordArguments& arguments)
   }
 
   catchInterruption();
-  if (live && !rig.live.capture.empty()) std::filesystem::remove(rig.live.capture);  // -w was given
-  const std::unique_ptr<RigInput> input = openRig(rig);
-  RawlogWriter writer(arguments.output, recordingHeader(rig), options);
-  const Recorded recorded = record(*input, rig, settings.driver, arguments.seconds, writer);
+  if (!source.capture.empty()) std::filesystem::remove(source.capture);  // -w was given
+  const std::unique_ptr<RigInput> input =
+      source.scene ? makeSceneRigInput(source.scene, source.rig) : openRig(source.rig);
+  RawlogWriter writer(arguments.output, recordingHeader(source.rig), options);
+  const Recorded recorded = record(*input, source, arguments.seconds, writer);
   for (const std::string& warning : input->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
   report(arguments, recorded, input->account());
   if (interrupted()) return kInterrupted;
@@ -177,7 +210,8 @@ int run(const RecordArguments& arguments)
 std::function<int()> addOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<RecordArguments>();
-  addConfiguration(app, arguments->configuration)->required();
+  addConfiguration(app, arguments->configuration);
+  addScene(app, arguments->scene);
   app.add_option("-o,--output", arguments->output, "the rawlog to write")->required();
   app.add_option("--seconds", arguments->seconds, "live: stop after so long; 0: when interrupted")
       ->check(CLI::NonNegativeNumber);

@@ -3,16 +3,20 @@
 #include "Interruption.h"
 #include "Progress.h"
 #include "Settings.h"
+#include "SimulatedRig.h"
 #include "Verb.h"
 #include "config/AtomicFile.h"
 #include "config/ConfigError.h"
 #include "simulation/RecordingFolder.h"
 
+#include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace scanloom
 {
@@ -23,6 +27,8 @@ struct SimulateArguments
   ConfigurationArguments configuration;
   OutputFolderArguments output;
   std::uint64_t seed = 1;
+  double seconds = 0;  // 0: as configured
+  int jobs = 0;
 };
 
 /** Ends a recording that nobody waits for any more: half of one would only mislead. */
@@ -32,26 +38,18 @@ struct Interrupted : std::exception
 
 constexpr const char* kConfigurationCopy = "configuration.ini";
 
-/** What is within the bounds of each option and yet impossible together is a wrong configuration, too. */
-Scene sceneOf(const SimulationSettings& settings, std::uint64_t seed)
+int run(SimulateArguments arguments)
 {
-  try
-  {
-    return makeScene(settings, seed);
-  }
-  catch (const std::invalid_argument& error)
-  {
-    throw UsageError(error.what());
-  }
-}
-
-int run(const SimulateArguments& arguments)
-{
+  if (arguments.seconds > 0)
+    arguments.configuration.assignments.push_back(fmt::format("simulated_drive.duration={}", arguments.seconds));
+  std::optional<tbb::global_control> jobs;
+  if (arguments.jobs > 0)
+    jobs.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.jobs));
   const Loaded<SimulationSettings> loaded = load<SimulationSettings>(arguments.configuration);
-  std::vector<std::string> names = recordingFileNames();
+  std::vector<std::string> names = recordingFileNames(loaded.settings);
   names.emplace_back(kConfigurationCopy);
   refuseExisting(arguments.output, names);
-  const Scene scene = sceneOf(loaded.settings, arguments.seed);
+  const Scene scene = checkedScene(loaded.settings, arguments.seed);
   if (arguments.configuration.dry_run)
   {
     std::cout << toIni(loaded);
@@ -91,6 +89,9 @@ Verb simulateVerb()
             addConfiguration(app, arguments->configuration);
             addOutputFolder(app, arguments->output)->required();
             addSeed(app, arguments->seed);
+            app.add_option("--seconds", arguments->seconds, "length of the recording, instead of the configured one")
+                ->check(CLI::PositiveNumber);
+            addJobs(app, arguments->jobs);
             return [arguments] { return run(*arguments); };
           }};
 }

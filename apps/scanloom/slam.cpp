@@ -3,6 +3,7 @@
 #include "Interruption.h"
 #include "Progress.h"
 #include "Settings.h"
+#include "SimulatedRig.h"
 #include "Verb.h"
 #include "config/AtomicFile.h"
 #include "output/SlamRun.h"
@@ -10,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -21,6 +23,7 @@ struct SlamArguments
 {
   ConfigurationArguments configuration;
   OutputFolderArguments output;
+  SceneArguments scene;
   std::filesystem::path rawlog;
   std::vector<std::string> lidars;
   int every_nth = 0;
@@ -43,12 +46,19 @@ constexpr const char* kConfigurationName = "configuration.ini";
 struct Input
 {
   std::unique_ptr<SensorInput> sensors;
-  std::uint64_t megabytes = 0;  // 0: no telling how far it is
+  std::uint64_t size = 0;  // 0: no telling how far it is
+  const char* unit = "MB";
 };
 
 Input openInput(const SlamArguments& arguments, const Configuration& configuration)
 {
-  if (!arguments.rawlog.empty()) return {makeRawlogInput(arguments.rawlog, arguments.lidars), 0};
+  if (!arguments.rawlog.empty()) return {makeRawlogInput(arguments.rawlog, arguments.lidars)};
+  if (arguments.scene.given())
+  {
+    const SimulatedRig simulated = simulatedRig(arguments.scene, configuration, arguments.lidars);
+    return {makeSceneInput(simulated.scene, simulated.rig),
+            static_cast<std::uint64_t>(std::ceil(simulated.scene->span.duration)), "s"};
+  }
   const std::string section = rigSection(configuration);
   Rig rig = makeRig(readRigSettings(configuration, section), arguments.lidars);
   if (rig.captures.empty())
@@ -66,6 +76,8 @@ std::string commandOf(const SlamArguments& arguments)
   for (const std::string& assignment : arguments.configuration.assignments)
     command += fmt::format(" --set {}", assignment);
   if (!arguments.rawlog.empty()) command += fmt::format(" -i {}", arguments.rawlog.string());
+  if (arguments.scene.given())
+    command += fmt::format(" --simulate {} --seed {}", arguments.scene.file.string(), arguments.scene.seed);
   if (!arguments.lidars.empty()) command += fmt::format(" --lidars {}", fmt::join(arguments.lidars, ","));
   return command + fmt::format(" --out-dir {}", arguments.output.folder.string());
 }
@@ -86,7 +98,7 @@ int run(SlamArguments arguments)
 {
   if (arguments.every_nth > 0)
     arguments.configuration.assignments.push_back(fmt::format("slam.every_nth={}", arguments.every_nth));
-  const Loaded<SlamVerbSettings> loaded = load<SlamVerbSettings>(arguments.configuration);
+  const Loaded<SlamVerbSettings> loaded = load<SlamVerbSettings>(withScene(arguments.configuration, arguments.scene));
   std::vector<std::string> names = SlamFiles::names();
   names.emplace_back(kConfigurationName);
   refuseExisting(arguments.output, names);
@@ -102,15 +114,14 @@ int run(SlamArguments arguments)
   writeAtomically(arguments.output.folder / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
   SlamRunResult result;
   {
-    Progress progress("slam", input.megabytes, input.megabytes > 0 ? "MB" : "scans");
-    result = runSlam(*input.sensors, loaded.settings, files,
-                     [&](double share, std::uint64_t scans)
-                     {
-                       progress.update(input.megabytes > 0
-                                           ? static_cast<std::uint64_t>(share * static_cast<double>(input.megabytes))
-                                           : scans);
-                       return !interrupted();
-                     });
+    Progress progress("slam", input.size, input.size > 0 ? input.unit : "scans");
+    result = runSlam(
+        *input.sensors, loaded.settings, files,
+        [&](double share, std::uint64_t scans)
+        {
+          progress.update(input.size > 0 ? static_cast<std::uint64_t>(share * static_cast<double>(input.size)) : scans);
+          return !interrupted();
+        });
   }
   result.summary.command = commandOf(arguments);
   result.summary.versions = {{"scanloom", SCANLOOM_VERSION}};
@@ -129,6 +140,7 @@ std::function<int()> addOptions(CLI::App& app)
   addOutputFolder(app, arguments->output)->required();
   app.add_option("-i,--input", arguments->rawlog, "a rawlog of scanloom's, instead of the configured captures")
       ->check(CLI::ExistingFile);
+  addScene(app, arguments->scene)->excludes("--input");
   app.add_option("--lidars", arguments->lidars, "names of the lidars to use, separated by commas")->delimiter(',');
   app.add_option("--every-nth", arguments->every_nth, "use every N-th scan only")->check(CLI::PositiveNumber);
   return [arguments] { return run(*arguments); };

@@ -169,9 +169,26 @@ void Configuration::refuseUnknown(const Schema& known) const
         break;
       }
       const auto names = namesOf(described->fields);
-      const bool is_known = std::any_of(names.begin(), names.end(), [&, &k = key](auto& n) { return same(n, k); });
+      const std::string name_of_key = described->describedAs(key);
+      const bool is_known = std::any_of(names.begin(), names.end(), [&](auto& n) { return same(n, name_of_key); });
       if (!is_known) problems.push_back(unknown(fmt::format("{} {} is an unknown key", where, key), key, names));
     }
+  }
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
+void Configuration::refuseBeyond(const std::string& section, const std::string& list, std::size_t size) const
+{
+  std::vector<std::string> problems;
+  const SectionDescription numbers{{section, ""}, {}, list};
+  for (const std::string& key : keys(section))
+  {
+    const std::string first = numbers.describedAs(key);
+    if (first == key && key.rfind(numbered(list, 0), 0) != 0) continue;
+    const std::string number = key.substr(list.size(), key.find('_', list.size()) - list.size());
+    if (const auto value = parseNumber(number); value && *value > static_cast<double>(size))
+      problems.push_back(fmt::format("{}: [{}] {}: there are only {}; number them from 1 on and name each by {}N_name",
+                                     toString(place(section, key)), section, key, size, list));
   }
   if (!problems.empty()) throw ConfigError(problems);
 }
@@ -179,7 +196,7 @@ void Configuration::refuseUnknown(const Schema& known) const
 std::string toIni(const Schema& in_effect, const Configuration& configuration)
 {
   std::string text;
-  for (const auto& [section, fields] : in_effect)
+  for (const auto& [section, fields, list] : in_effect)
   {
     text += fmt::format("[{}]\n", section.name);
     for (const FieldDescription& described : fields)

@@ -33,6 +33,26 @@ class Configuration
   template <typename Options>
   Options read(const std::string& section, Options options = {}, const std::string& prefix = "") const;
 
+  /**
+   * As many as have a name (lidar1_name, lidar2_name, ...), each with the default of its place; without any name, as
+   * many as there are defaults.
+   */
+  template <typename Options>
+  std::vector<Options> readList(const std::string& section, std::vector<Options> defaults,
+                                const std::string& list) const;
+
+  /** One struct, or a list of them: as `options` has it. */
+  template <typename Options>
+  void readInto(Options& options, const Section& section) const
+  {
+    options = read(section.name, options, section.prefix);
+  }
+  template <typename Options>
+  void readInto(std::vector<Options>& options, const Section& section) const
+  {
+    options = readList(section.name, options, section.prefix);
+  }
+
   bool has(std::string_view section, std::string_view key) const { return find(section, key) != nullptr; }
   std::vector<std::string> sections() const;
   std::vector<std::string> keys(std::string_view section) const;
@@ -59,6 +79,9 @@ class Configuration
     std::string name;  // as it was first written
     std::map<std::string, IniEntry, CaseInsensitiveLess> entries;
   };
+
+  /** @throws ConfigError for keys of a list's elements from `size` on. */
+  void refuseBeyond(const std::string& section, const std::string& list, std::size_t size) const;
 
   void add(const std::vector<IniEntry>&, std::vector<std::string>& problems);
   const IniEntry* find(std::string_view section, std::string_view key) const;
@@ -93,6 +116,19 @@ Options Configuration::read(const std::string& section, Options options, const s
   return options;
 }
 
+template <typename Options>
+std::vector<Options> Configuration::readList(const std::string& section, std::vector<Options> defaults,
+                                             const std::string& list) const
+{
+  std::size_t named = 0;
+  while (has(section, numbered(list, named) + "name")) ++named;
+  std::vector<Options> options = std::move(defaults);
+  if (named > 0) options.resize(named);
+  refuseBeyond(section, list, options.size());
+  for (std::size_t i = 0; i < options.size(); ++i) options[i] = read(section, options[i], numbered(list, i));
+  return options;
+}
+
 /**
  * All options of a verb, and nothing in the files that no verb knows.
  * @throws ConfigError with all problems of all sections.
@@ -115,7 +151,7 @@ Settings readSettings(const Configuration& configuration, const Schema& known)
 
   Settings settings;
   Settings::sections(settings, [&](auto& options, const Section& section)
-                     { collect([&] { options = configuration.read(section.name, options, section.prefix); }); });
+                     { collect([&] { configuration.readInto(options, section); }); });
   collect([&] { configuration.refuseUnknown(known); });
   if (!problems.empty()) throw ConfigError(problems);
   return settings;

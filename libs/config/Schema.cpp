@@ -44,6 +44,17 @@ void refuseDefault(const Section& section, const Field& field, const std::string
   throw std::logic_error(fmt::format("[{}] {}: its own value {}", section.name, field.name, constraint));
 }
 
+std::string numbered(const std::string& list, std::size_t index) { return fmt::format("{}{}_", list, index + 1); }
+
+std::string SectionDescription::describedAs(const std::string& key) const
+{
+  const std::size_t digits = list.size();
+  const std::size_t rest = key.find_first_not_of("0123456789", digits);
+  const bool is_of_list = !list.empty() && key.compare(0, digits, list) == 0 && rest != std::string::npos &&
+                          rest > digits && key[rest] == '_';
+  return is_of_list ? numbered(list, 0) + key.substr(rest + 1) : key;
+}
+
 void merge(Schema& into, const SectionDescription& added)
 {
   const auto existing = std::find_if(
@@ -53,6 +64,7 @@ void merge(Schema& into, const SectionDescription& added)
     into.push_back(added);
     return;
   }
+  if (existing->list.empty()) existing->list = added.list;
   for (const FieldDescription& field : added.fields)
   {
     const auto twin = std::find_if(existing->fields.begin(), existing->fields.end(),

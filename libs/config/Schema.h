@@ -25,6 +25,9 @@ namespace scanloom
  *       visit(s.lidars[1], Section{"lidars", "where the lidars sit", "lidar2_"});
  *     }
  *   };
+ *
+ * A std::vector of options structs that have a 'name' is a list of any length: with the prefix "lidar" its keys are
+ * lidar1_name, lidar1_pose, ..., lidar2_name, ...
  */
 struct Section
 {
@@ -44,6 +47,10 @@ struct SectionDescription
 {
   Section section;
   std::vector<FieldDescription> fields;
+  std::string list = "";  // what its numbered keys begin with; empty: it holds no list
+
+  /** Of `key`, or, where it is a list's, of the list's first element: lidar7_pose is described as lidar1_pose. */
+  std::string describedAs(const std::string& key) const;
 };
 using Schema = std::vector<SectionDescription>;
 
@@ -62,6 +69,20 @@ SectionDescription describe(const Section& section, const Options& options = {})
     described.fields.push_back({field, typeName(member), toText(member)});
   };
   Options::fields(options, add);
+  return described;
+}
+
+/** `lidar` and 0 give `lidar1_`. */
+std::string numbered(const std::string& list, std::size_t index);
+
+template <typename Options>
+SectionDescription describe(const Section& section, const std::vector<Options>& list)
+{
+  SectionDescription described{section, {}, section.prefix};
+  for (std::size_t i = 0; i < list.size(); ++i)
+    for (FieldDescription& field :
+         describe(Section{section.name, section.meaning, numbered(section.prefix, i)}, list[i]).fields)
+      described.fields.push_back(std::move(field));
   return described;
 }
 

@@ -1,18 +1,44 @@
-/** The machine that carries the lidars, as they see it. */
+/** The machine that carries the lidars, as they see it: its body's boxes and its boom. */
 #pragma once
-#include "core/Rigid.h"
-#include "simulation/Ray.h"
+#include "core/Field.h"
+#include "simulation/Boom.h"
+#include "simulation/Solids.h"
 
-#include <Eigen/Geometry>
-
-#include <optional>
+#include <string>
 #include <vector>
 
 namespace scanloom
 {
-/** The boxes that the machine is made of, in the body frame: cabin and engine, and the boom. */
-const std::vector<Eigen::AlignedBox3d>& machineBoxes();
+/** Boxes in the body frame, "xmin ymin zmin xmax ymax zmax". Assumed: a mid-size harvester in four blocks. */
+struct MachineOptions
+{
+  std::string engine = "-4 -1.25 0.7 -1 1.25 2.7";
+  std::string cabin = "-1 -1.15 1 1.25 1.15 3.6";
+  std::string front = "1.25 -1 0.6 3.6 1 1.8";
+  std::string wheels = "1 -1.45 0 2.9 1.45 1.6";
 
-/** Where the ray, given in the world, meets the machine; the boxes move with the body. */
-std::optional<Hit> castMachine(const Rigid& world_T_body, const Ray&);
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.engine, Field{"engine", "m", "xmin ymin zmin xmax ymax zmax in the body frame (assumed); empty: none"});
+    visit(o.cabin, Field{"cabin", "m", "likewise (assumed)"});
+    visit(o.front, Field{"front", "m", "of the front frame that carries the boom, likewise (assumed)"});
+    visit(o.wheels, Field{"wheels", "m", "of the front axle, likewise (assumed)"});
+  }
+};
+
+class Machine
+{
+ public:
+  /** Throws std::invalid_argument naming a box that is none. */
+  Machine(const MachineOptions&, const Boom&);
+
+  /** In the body frame: they never move. */
+  const std::vector<Eigen::AlignedBox3d>& body() const { return body_; }
+  const Boom& boom() const { return boom_; }
+
+ private:
+  std::vector<Eigen::AlignedBox3d> body_;
+  Boom boom_;
+};
 }  // namespace scanloom

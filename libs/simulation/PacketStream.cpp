@@ -3,76 +3,172 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace scanloom
 {
 namespace
 {
-constexpr Duration kImuPeriod = 10ms;
-// Assumed, as nothing is published: what a cheap MEMS of the kind shows, in SI units and densities per root of Hz.
-const ImuErrors kBuiltInImu{{0.01, 1.8e-3, 1e-3, 1e-4}, {{6e-3, -3e-3, 4e-3}, {0.15, -0.2, 0.1}}};
-
-/** Transport takes 0.1 ms and rarely, when the computer was busy, up to 2 ms more: less than between two packets. */
+/** Transport takes 0.1 ms and rarely, when the computer was busy, up to 2 ms more (assumed). */
 constexpr Duration kTransport = 60us;
 constexpr double kUsualJitter = 80e-6;
 constexpr double kRareJitter = 2e-3;
 constexpr double kRareShare = 0.003;
+constexpr Duration kBetweenTwins = 30us;
 
 constexpr std::uint64_t kImuIndexOffset = 1ULL << 40;  // keeps the IMU's random numbers apart from the packets'
 }  // namespace
 
-PacketStream::PacketStream(const Scene& scene, const LidarStation& station)
-  : scene_(scene), station_(station), encoder_(station.lidar.metadata())
+PacketStream::PacketStream(const Scene& scene, const LidarStation& station) : scene_(scene), station_(station)
 {
-  Eigen::Matrix4d sensor_T_imu = station.lidar.metadata().imu_to_sensor_mm;
-  sensor_T_imu.topRightCorner<3, 1>() *= 1e-3;
-  const Rigid body_T_imu = station.lidar.bodyTSensor() * Rigid::fromMatrix(sensor_T_imu);
-  const Timestamp first = station.lidar.stampOf(scene.span.start, 0) - 7ms;
-  imu_ = simulateImu(scene.drive, scene.span, body_T_imu, first, kImuPeriod, kBuiltInImu, scene.seed, station.imu);
+  for (const LidarRun& run : station.runs)
+  {
+    encoders_.emplace_back(run.lidar.metadata());
+    imus_.emplace_back(scene.scenery.drive(), scene.span, run.imu, scene.seed);
+  }
 }
 
 std::vector<Datagram> PacketStream::finishedBefore(Timestamp until)
 {
-  const std::uint64_t first = next_packet_;
-  while (lastStampOf(next_packet_) < until) ++next_packet_;
-
-  std::vector<Datagram> datagrams(next_packet_ - first);
-  tbb::parallel_for(std::size_t{0}, datagrams.size(), [&](std::size_t i) { datagrams[i] = lidarDatagram(first + i); });
-
-  for (; next_imu_ < imu_.size() && imu_[next_imu_].stamp < until; ++next_imu_)
-    datagrams.push_back(imuDatagram(imu_[next_imu_], next_imu_));
+  std::vector<Datagram> datagrams;
+  finishRun(until, datagrams);
+  while (run().until <= until && run_ + 1 < station_.runs.size())
+  {
+    ++run_;
+    next_packet_ = next_imu_ = 0;
+    imu_waiting_.clear();
+    finishRun(until, datagrams);
+  }
   return datagrams;
 }
 
-Timestamp PacketStream::lastStampOf(std::uint64_t packet) const
+void PacketStream::finishRun(Timestamp until, std::vector<Datagram>& datagrams)
 {
-  const auto columns = static_cast<std::uint64_t>(station_.lidar.metadata().columns_per_packet);
-  return station_.lidar.stampOf(scene_.span.start, columns * (packet + 1) - 1);
+  const Timestamp end = std::min(until, run().until);
+  std::vector<Transport> arriving;
+  for (; finished(next_packet_) < end; ++next_packet_)
+    if (auto arrives = transport(next_packet_)) arriving.push_back(*arrives);
+
+  const std::size_t first = datagrams.size();
+  datagrams.resize(first + arriving.size());
+  tbb::parallel_for(std::size_t{0}, arriving.size(),
+                    [&](std::size_t i) { datagrams[first + i] = lidarDatagram(arriving[i]); });
+  for (std::size_t i = 0; i < arriving.size(); ++i)
+    if (arriving[i].received_again)
+    {
+      Datagram twin = datagrams[first + i];
+      twin.received = *arriving[i].received_again;
+      datagrams.push_back(std::move(twin));
+    }
+  addImu(end, datagrams);
 }
 
-Datagram PacketStream::lidarDatagram(std::uint64_t packet) const
+Timestamp PacketStream::finished(std::uint64_t packet) const
 {
-  const int count = station_.lidar.metadata().columns_per_packet;
+  const auto columns = static_cast<std::uint64_t>(station_.metadata().columns_per_packet);
+  return run().lidar.instantOf(columns * (packet + 1) - 1).truth;
+}
+
+/** A sensor with an azimuth window sends no packet that lies outside of it as a whole. */
+bool PacketStream::isSent(std::uint64_t packet) const
+{
+  const auto columns = static_cast<std::uint64_t>(station_.metadata().columns_per_packet);
+  for (std::uint64_t i = 0; i < columns; ++i)
+    if (run().lidar.sends(run().lidar.instantOf(columns * packet + i).measurement_id)) return true;
+  return false;
+}
+
+bool PacketStream::isLost(Timestamp sent, double luck) const
+{
+  const LidarFaultOptions& faults = station_.faults;
+  const double t = scene_.span.secondsAt(sent);
+  if (luck < faults.loss || (t >= faults.silent_from && t < faults.silent_to)) return true;
+  if (faults.burst_every <= 0) return false;
+
+  // One burst within each such time, at a place of its own; it may reach into the next.
+  const auto slot = static_cast<std::int64_t>(std::floor(t / faults.burst_every));
+  for (const std::int64_t i : {slot - 1, slot})
+  {
+    Random random(scene_.seed, RandomStream::Bursts, station_.place, static_cast<std::uint64_t>(i));
+    const double begin = (static_cast<double>(i) + random.uniform()) * faults.burst_every;
+    if (t >= begin && t < begin + faults.burst_length) return true;
+  }
+  return false;
+}
+
+std::optional<PacketStream::Transport> PacketStream::transport(std::uint64_t packet)
+{
+  if (!isSent(packet)) return std::nullopt;
+  const Timestamp sent = finished(packet);
+  Random random(scene_.seed, RandomStream::Transport, run().imu.place, packet);
+  Timestamp received = sent + delay(random);
+  const double loss = random.uniform(), disorder = random.uniform(), copy = random.uniform(), turns = random.uniform();
+  if (isLost(sent, loss))
+  {
+    ++counts_.lost;
+    return std::nullopt;
+  }
+  const Duration packet_time = finished(packet + 1) - sent;
+  if (disorder < station_.faults.reordered)
+  {
+    received += (turns < 0.5 ? 1 : 2) * packet_time + packet_time / 2;
+    ++counts_.reordered;
+  }
+  ++counts_.lidar;
+  std::optional<Timestamp> again;
+  if (copy < station_.faults.duplicated)
+  {
+    again = received + kBetweenTwins;
+    ++counts_.duplicated;
+  }
+  return Transport{packet, received, again};
+}
+
+Datagram PacketStream::lidarDatagram(const Transport& on_its_way) const
+{
+  const auto count = static_cast<std::uint64_t>(station_.metadata().columns_per_packet);
   std::vector<OusterColumn> columns;
-  for (int i = 0; i < count; ++i)
-    columns.push_back(station_.lidar.measure(scene_.world, scene_.drive, scene_.span.start, packet * count + i));
-
-  const std::uint16_t port = station_.lidar.metadata().lidar_port;
-  return {received(columns.back().stamp, packet), IpAddress::parse("127.0.0.1"), port, port,
-          encoder_.lidarPacket(columns)};
+  for (std::uint64_t i = 0; i < count; ++i)
+    columns.push_back(run().lidar.measure(scene_.scenery, on_its_way.packet * count + i));
+  const std::uint16_t port = station_.metadata().lidar_port;
+  return {on_its_way.received, IpAddress::parse("127.0.0.1"), port, port, encoders_[run_].lidarPacket(columns)};
 }
 
-Datagram PacketStream::imuDatagram(const ImuSample& sample, std::uint64_t index) const
+void PacketStream::addImu(Timestamp until, std::vector<Datagram>& datagrams)
 {
-  const std::uint16_t port = station_.lidar.metadata().imu_port;
-  return {received(sample.stamp, kImuIndexOffset + index), IpAddress::parse("127.0.0.1"), port, port,
-          encoder_.imuPacket({sample})};
+  const std::size_t per_packet = encoders_[run_].imuSamplesPerPacket();
+  for (const ImuStream::Sample& sample : imus_[run_].before(until))
+  {
+    imu_waiting_.push_back(sample);
+    if (imu_waiting_.size() < per_packet || per_packet == 0) continue;
+    const std::uint64_t index = next_imu_++;
+    Random random(scene_.seed, RandomStream::Transport, run().imu.place, kImuIndexOffset + index);
+    const std::vector<ImuStream::Sample> samples = std::exchange(imu_waiting_, {});
+    random.uniform();
+    if (isLost(samples.back().truth, random.uniform()))
+    {
+      ++counts_.lost;
+      continue;
+    }
+    datagrams.push_back(imuDatagram(samples, index));
+    ++counts_.imu;
+  }
+  if (per_packet == 0) imu_waiting_.clear();
 }
 
-Timestamp PacketStream::received(Timestamp measured, std::uint64_t index) const
+Datagram PacketStream::imuDatagram(const std::vector<ImuStream::Sample>& samples, std::uint64_t index) const
 {
-  Random random(scene_.seed, station_.transport, index);
+  Random random(scene_.seed, RandomStream::Transport, run().imu.place, kImuIndexOffset + (1ULL << 39) + index);
+  std::vector<ImuSample> readings;
+  for (const ImuStream::Sample& sample : samples) readings.push_back(sample.reading);
+  const std::uint16_t port = station_.metadata().imu_port;
+  return {samples.back().truth + delay(random), IpAddress::parse("127.0.0.1"), port, port,
+          encoders_[run_].imuPacket(readings)};
+}
+
+Duration PacketStream::delay(Random& random) const
+{
   const double jitter = random.uniform() < kRareShare ? kRareJitter : kUsualJitter;
-  return measured + kTransport + fromSeconds(jitter * random.uniform());
+  return kTransport + fromSeconds(jitter * random.uniform());
 }
 }  // namespace scanloom

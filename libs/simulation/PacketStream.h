@@ -4,10 +4,18 @@
 #include "source/Datagram.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace scanloom
 {
+/** What became of the packets of one lidar. */
+struct PacketCounts
+{
+  std::uint64_t lidar = 0, imu = 0;  // that arrived, each once
+  std::uint64_t lost = 0, reordered = 0, duplicated = 0;
+};
+
 class PacketStream
 {
  public:
@@ -20,17 +28,35 @@ class PacketStream
    */
   std::vector<Datagram> finishedBefore(Timestamp until);
 
+  const PacketCounts& counts() const { return counts_; }
+
  private:
-  Timestamp lastStampOf(std::uint64_t packet) const;
-  Datagram lidarDatagram(std::uint64_t packet) const;
-  Datagram imuDatagram(const ImuSample&, std::uint64_t index) const;
-  Timestamp received(Timestamp measured, std::uint64_t index) const;
+  /** One packet on its way: which one, and what the cable does to it. */
+  struct Transport
+  {
+    std::uint64_t packet;
+    Timestamp received;
+    std::optional<Timestamp> received_again;
+  };
+
+  const LidarRun& run() const { return station_.runs[run_]; }
+  Timestamp finished(std::uint64_t packet) const;
+  bool isSent(std::uint64_t packet) const;
+  bool isLost(Timestamp sent, double luck) const;
+  std::optional<Transport> transport(std::uint64_t packet);
+  Datagram lidarDatagram(const Transport&) const;
+  Datagram imuDatagram(const std::vector<ImuStream::Sample>&, std::uint64_t index) const;
+  void finishRun(Timestamp until, std::vector<Datagram>&);
+  void addImu(Timestamp until, std::vector<Datagram>&);
+  Duration delay(Random&) const;
 
   const Scene& scene_;
   const LidarStation& station_;
-  OusterEncoder encoder_;
-  std::vector<ImuSample> imu_;
-  std::uint64_t next_packet_ = 0;
-  std::uint64_t next_imu_ = 0;
+  std::size_t run_ = 0;
+  std::vector<OusterEncoder> encoders_;           // by run
+  std::vector<ImuStream> imus_;                   // by run
+  std::vector<ImuStream::Sample> imu_waiting_;    // for their packet to be full
+  std::uint64_t next_packet_ = 0, next_imu_ = 0;  // of this run
+  PacketCounts counts_;
 };
 }  // namespace scanloom

@@ -9,15 +9,11 @@ namespace scanloom
 enum class RandomStream : std::uint64_t
 {
   Stand,
-  LeftLidar,
-  RightLidar,
-  LeftTiming,
-  RightTiming,
-  LeftTransport,
-  RightTransport,
+  Lidar,
+  LidarTiming,
+  Transport,
+  LidarImu,
   BodyImu,
-  LeftImu,
-  RightImu,
   ImuBiases,
   TotalStation,
   Work,
@@ -27,6 +23,11 @@ enum class RandomStream : std::uint64_t
   Foliage,
   Undergrowth,
   Leaves,
+  Boom,
+  BoomRate,
+  Passers,
+  FelledTrees,
+  Bursts,
 };
 
 /** SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), one per place. */
@@ -36,6 +37,12 @@ class Random
   /** `index`: the column, the sample or the stem that is drawn for. */
   Random(std::uint64_t seed, RandomStream stream, std::uint64_t index)
     : state_(mix(mix(mix(seed) + static_cast<std::uint64_t>(stream)) + index))
+  {
+  }
+
+  /** `who`: which of several lidars, stops or passers-by. */
+  Random(std::uint64_t seed, RandomStream stream, std::uint64_t who, std::uint64_t index)
+    : state_(mix(mix(mix(mix(seed) + static_cast<std::uint64_t>(stream)) + who) + index))
   {
   }
 

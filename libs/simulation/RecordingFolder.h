@@ -1,6 +1,6 @@
 /**
- * A recording as a folder: recording.pcap, left.json, right.json, imu.csv (EuRoC), groundtruth.tum (100 Hz),
- * total_station.csv, extrinsics.txt, objects.csv (nothing moves here: only its heading) and summary.json.
+ * A recording as a folder: recording.pcap, <lidar>.json, imu.csv (EuRoC), groundtruth.tum (100 Hz), total_station.csv,
+ * extrinsics.txt, objects.csv (10 Hz) and summary.json.
  */
 #pragma once
 #include "simulation/Scene.h"
@@ -13,11 +13,12 @@
 namespace scanloom
 {
 /** What writeRecording() writes. */
-const std::vector<std::string>& recordingFileNames();
+std::vector<std::string> recordingFileNames(const SimulationSettings&);
 
 /**
- * The same scene gives the same bytes, on any number of threads. `progress` is called with the share done and may throw
- * to stop. Throws std::runtime_error if a file cannot be written; the folder must exist.
+ * The same scene gives the same bytes, on any number of threads. Everything is written as it is simulated: memory does
+ * not grow with the recording. `progress` is called with the share done and may throw to stop. Throws
+ * std::runtime_error if a file cannot be written; the folder must exist.
  */
 void writeRecording(const Scene&, const std::filesystem::path& folder, const std::function<void(double)>& progress);
 }  // namespace scanloom

@@ -1,6 +1,7 @@
 #include "simulation/Route.h"
 
 #include "simulation/Random.h"
+#include "simulation/SmoothStep.h"
 
 #include <fmt/format.h>
 
@@ -13,21 +14,6 @@ namespace scanloom
 namespace
 {
 constexpr double kWorkFade = 1.0;  // s
-
-/** 0 to 1 over one unit with two continuous derivatives (K. Perlin: Improving Noise, SIGGRAPH 2002), and its integral.
- */
-struct SmoothStep
-{
-  double integral, value, first, second;
-};
-
-SmoothStep smoothStep(double u)
-{
-  if (u <= 0) return {0, 0, 0, 0};
-  if (u >= 1) return {0.5 + (u - 1), 1, 0, 0};
-  return {((u - 3) * u + 2.5) * u * u * u * u, ((6 * u - 15) * u + 10) * u * u * u, ((30 * u - 60) * u + 30) * u * u,
-          ((120 * u - 180) * u + 60) * u};
-}
 
 /** 0 before `begin`, 1 after it by `fade` and until `end`, 0 again after `end` by `fade`. */
 Taylor pulse(double t, double begin, double end, double fade)
@@ -132,6 +118,12 @@ std::optional<WorkStop> Route::workStopAt(double t) const
   const Leg* leg = legAt(t);
   if (!leg || t < endOf(*leg)) return std::nullopt;
   return workStop(static_cast<std::uint64_t>(leg - legs_.data()));
+}
+
+std::uint64_t Route::legNumberAt(double t) const
+{
+  const Leg* leg = legAt(t);
+  return leg ? static_cast<std::uint64_t>(leg - legs_.data()) : 0;
 }
 
 std::optional<WorkStop> Route::workStop(std::uint64_t number) const

@@ -90,6 +90,10 @@ class Route
   std::optional<WorkStop> workStopAt(double t) const;
   std::optional<WorkStop> workStop(std::uint64_t number) const;
 
+  /** Of the drive that began last; 0 before the first. */
+  std::uint64_t legNumberAt(double t) const;
+  std::uint64_t legs() const { return legs_.size(); }
+
   double duration() const { return duration_; }
   double farthest() const { return farthest_; }  // m, the largest progress
 

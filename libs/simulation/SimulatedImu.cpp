@@ -1,5 +1,8 @@
 #include "simulation/SimulatedImu.h"
 
+#include "imu/Preintegration.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace scanloom
@@ -7,6 +10,7 @@ namespace scanloom
 namespace
 {
 constexpr double kRadians = M_PI / 180;
+constexpr double kSecondsPerHour = 3600;
 
 Eigen::Vector3d normalVector(Random& random)
 {
@@ -27,28 +31,54 @@ ImuSample idealImuSample(const Motion& body, const Rigid& body_T_imu, Timestamp 
   return {stamp, imu_R_body * body.angular_rate, imu_R_body * force};
 }
 
-std::vector<ImuSample> simulateImu(const Drive& drive, const RecordingSpan& span, const Rigid& body_T_imu,
-                                   Timestamp first, Duration period, const ImuErrors& errors, std::uint64_t seed,
-                                   RandomStream stream)
+SimulatedImuOptions ousterLikeImu()
 {
-  const double step = seconds(period);
-  const double gyro_deviation = errors.noise.gyro_noise_deg * kRadians / std::sqrt(step);
-  const double accel_deviation = errors.noise.accel_noise / std::sqrt(step);
-  const double gyro_walk = errors.noise.gyro_bias_walk_deg * kRadians * std::sqrt(step);
-  const double accel_walk = errors.noise.accel_bias_walk * std::sqrt(step);
+  SimulatedImuOptions options;
+  options.rate = 100;
+  options.gyro_noise_deg = 0.01;
+  options.accel_noise = 1.77e-3;
+  options.gyro_instability = 10;
+  options.accel_instability = 1e-3;
+  options.gyro_turn_on_deg = 0.3;
+  options.accel_turn_on = 0.15;
+  return options;
+}
 
-  std::vector<ImuSample> samples;
-  ImuBias bias = errors.bias;
-  for (Timestamp stamp = first; span.secondsAt(stamp) < span.duration; stamp += period)
-  {
-    Random random(seed, stream, samples.size());
-    ImuSample sample = idealImuSample(drive.at(span.secondsAt(stamp)), body_T_imu, stamp);
-    sample.gyro += bias.gyro + gyro_deviation * normalVector(random);
-    sample.accel += bias.accel + accel_deviation * normalVector(random);
-    samples.push_back(sample);
-    bias.gyro += gyro_walk * normalVector(random);
-    bias.accel += accel_walk * normalVector(random);
-  }
+ImuStream::ImuStream(const Drive& drive, const RecordingSpan& span, const ImuSetup& setup, std::uint64_t seed)
+  : drive_(drive), span_(span), setup_(setup), seed_(seed)
+{
+  Random random(seed, RandomStream::ImuBiases, static_cast<std::uint64_t>(setup.stream), setup.place);
+  turn_on_.gyro = kRadians * setup.errors.gyro_turn_on_deg * normalVector(random);
+  turn_on_.accel = setup.errors.accel_turn_on * normalVector(random);
+  gyro_wander_ = kRadians / kSecondsPerHour * setup.errors.gyro_instability * normalVector(random);
+  accel_wander_ = setup.errors.accel_instability * normalVector(random);
+}
+
+std::vector<ImuStream::Sample> ImuStream::before(Timestamp until)
+{
+  const auto due = [&] { return setup_.first + fromSeconds(static_cast<double>(index_) / setup_.errors.rate); };
+  std::vector<Sample> samples;
+  while (due() < std::min(until, span_.end())) samples.push_back(next());
   return samples;
+}
+
+ImuStream::Sample ImuStream::next()
+{
+  const SimulatedImuOptions& errors = setup_.errors;
+  const double step = 1 / errors.rate;
+  const Timestamp truth = setup_.first + fromSeconds(static_cast<double>(index_) * step);
+  Random random(seed_, setup_.stream, setup_.place, index_++);
+  ImuSample reading =
+      idealImuSample(drive_.at(span_.secondsAt(truth)), setup_.body_T_imu, setup_.clock.stamp(truth, span_.start));
+  reading.gyro +=
+      turn_on_.gyro + gyro_wander_ + kRadians * errors.gyro_noise_deg / std::sqrt(step) * normalVector(random);
+  reading.accel += turn_on_.accel + accel_wander_ + errors.accel_noise / std::sqrt(step) * normalVector(random);
+
+  // First-order Gauss-Markov: forgets, and is driven so that its deviation stays what it is.
+  const double kept = std::exp(-step / errors.correlation_time), driven = std::sqrt(1 - kept * kept);
+  gyro_wander_ =
+      kept * gyro_wander_ + driven * kRadians / kSecondsPerHour * errors.gyro_instability * normalVector(random);
+  accel_wander_ = kept * accel_wander_ + driven * errors.accel_instability * normalVector(random);
+  return {truth, reading};
 }
 }  // namespace scanloom

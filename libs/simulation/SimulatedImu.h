@@ -1,9 +1,9 @@
 #pragma once
 #include "core/Field.h"
 #include "core/ImuSample.h"
-#include "imu/Preintegration.h"
 #include "simulation/Drive.h"
 #include "simulation/Random.h"
+#include "simulation/SimulatedClock.h"
 
 #include <cstdint>
 #include <vector>
@@ -11,10 +11,49 @@
 namespace scanloom
 {
 /** What an IMU adds to the truth. */
-struct ImuErrors
+struct SimulatedImuOptions
 {
-  ImuNoise noise;
-  ImuBias bias;  // at the start; walks from there by the noise's random walks
+  double rate = 200;
+  double gyro_noise_deg = 0.003;
+  double accel_noise = 2.5e-4;
+  double gyro_instability = 1.5;
+  double accel_instability = 1.5e-4;
+  double correlation_time = 200;
+  double gyro_turn_on_deg = 0.02;
+  double accel_turn_on = 0.002;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.rate, Field{"rate", "Hz", "samples per second", between(1, 2000)});
+    visit(o.gyro_noise_deg,
+          Field{"gyro_noise_deg", "deg/s/sqrt(Hz)",
+                "white noise density of the gyroscope; 3DM-GQ7-like 0.003, Ouster-like 0.01 (assumed)", atLeast(0)});
+    visit(o.accel_noise, Field{"accel_noise", "m/s2/sqrt(Hz)",
+                               "white noise density of the accelerometer; 3DM-GQ7-like 2.5e-4 (25 ug), Ouster-like "
+                               "1.77e-3 (180 ug) (assumed)",
+                               atLeast(0)});
+    visit(o.gyro_instability,
+          Field{"gyro_instability", "deg/h", "standard deviation of the bias that wanders; 3DM-GQ7-like 1.5 (assumed)",
+                atLeast(0)});
+    visit(o.accel_instability,
+          Field{"accel_instability", "m/s2", "likewise of the accelerometer; 15 ug (assumed)", atLeast(0)});
+    visit(o.correlation_time,
+          Field{"correlation_time", "s", "of the wandering biases, first-order Gauss-Markov (assumed)", above(0)});
+    visit(o.gyro_turn_on_deg, Field{"gyro_turn_on_deg", "deg/s",
+                                    "standard deviation of the constant bias of each axis (assumed)", atLeast(0)});
+    visit(o.accel_turn_on, Field{"accel_turn_on", "m/s2", "likewise of the accelerometer (assumed)", atLeast(0)});
+  }
+};
+
+/** The values for the IMU inside a lidar. */
+SimulatedImuOptions ousterLikeImu();
+
+/** Constant over a recording; what wanders comes on top. */
+struct TurnOnBias
+{
+  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // rad/s
+  Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // m/s2
 };
 
 /** What an ideal IMU at body_T_imu measures: turn rate and specific force, in its own frame. */
@@ -27,9 +66,48 @@ struct RecordingSpan
   double duration = 0;  // s
 
   double secondsAt(Timestamp stamp) const { return seconds(stamp - start); }
+  Timestamp end() const { return start + fromSeconds(duration); }
 };
 
-/** Samples every `period` from `first` on within the span; `stream` chooses the random numbers. */
-std::vector<ImuSample> simulateImu(const Drive&, const RecordingSpan&, const Rigid& body_T_imu, Timestamp first,
-                                   Duration period, const ImuErrors&, std::uint64_t seed, RandomStream stream);
+/** Where an IMU sits, when it samples, and what its stamps say. */
+struct ImuSetup
+{
+  Rigid body_T_imu;
+  Timestamp first;  // sample, in true time
+  SimulatedImuOptions errors;
+  ClockError clock;
+  RandomStream stream = RandomStream::BodyImu;
+  std::uint64_t place = 0;  // of the lidar whose IMU it is
+};
+
+/** One IMU's samples from its first one on; the only state is its biases. */
+class ImuStream
+{
+ public:
+  /** The drive must outlive the stream. */
+  ImuStream(const Drive&, const RecordingSpan&, const ImuSetup&, std::uint64_t seed);
+
+  /** A sample with its true time. */
+  struct Sample
+  {
+    Timestamp truth;
+    ImuSample reading;  // stamped by the IMU's clock
+  };
+
+  /** Those measured before `until`, and within the span, that were not given out yet. */
+  std::vector<Sample> before(Timestamp until);
+
+  const TurnOnBias& turnOnBias() const { return turn_on_; }
+
+ private:
+  Sample next();
+
+  const Drive& drive_;
+  RecordingSpan span_;
+  ImuSetup setup_;
+  std::uint64_t seed_;
+  TurnOnBias turn_on_;
+  Eigen::Vector3d gyro_wander_, accel_wander_;
+  std::uint64_t index_ = 0;
+};
 }  // namespace scanloom

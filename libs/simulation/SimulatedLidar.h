@@ -1,54 +1,53 @@
-/** One spinning lidar: its own clock, every column cast from where the machine is at that column's instant. */
+/** One spinning lidar: every column cast from where the machine is at that column's instant. */
 #pragma once
-#include "core/Time.h"
 #include "lidar/OusterEncoder.h"
-#include "simulation/Drive.h"
 #include "simulation/Random.h"
-#include "simulation/World.h"
+#include "simulation/Scenery.h"
+#include "simulation/SimulatedClock.h"
+#include "simulation/SimulatedLidarOptions.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace scanloom
 {
-/** No phase lock: each lidar starts at some angle, at some time, and turns at a slightly wrong rate. */
-struct LidarTiming
-{
-  Duration first_stamp{0};    // of the first column, after the recording's start
-  double rate_error_ppm = 0;  // positive: columns come later than they should
-  std::uint32_t first_frame_id = 0;
-  std::uint16_t first_measurement_id = 0;  // begins a packet
-};
+/** How strong what comes back is, in multiples of the signal at which half of the returns are lost. */
+double signalStrength(double reflectivity, double cosine_incidence, double range, double range_at_ten_percent);
 
-struct LidarErrors
-{
-  double range_noise = 0;  // m, standard deviation
-  std::uint64_t seed = 0;
-  RandomStream stream = RandomStream::LeftLidar;
-};
+/** Certain to 0.7 of the range where half of the returns are lost, gone at 1.3 of it. */
+double chanceOfReturn(double strength);
+
+/** Standard deviation, m. */
+double rangeNoise(const RangingOptions&, double strength);
 
 class SimulatedLidar
 {
  public:
-  SimulatedLidar(OusterMetadata, const Rigid& body_T_sensor, const LidarTiming&, const LidarErrors&);
+  /** `place` sets its random numbers apart from those of all others. Ranges of 0 are taken from the data sheet. */
+  SimulatedLidar(OusterMetadata, const Rigid& body_T_sensor, const LidarTiming&, const RangingOptions&,
+                 std::uint64_t seed, std::uint64_t place);
 
   const OusterMetadata& metadata() const { return metadata_; }
   const Rigid& bodyTSensor() const { return body_T_sensor_; }
+  const LidarTiming& timing() const { return timing_; }
+  ColumnInstant instantOf(std::uint64_t column) const { return columnInstant(timing_, metadata_, column); }
 
-  /** Of the n-th column after the start of a recording at `start`. */
-  Timestamp stampOf(Timestamp start, std::uint64_t column) const;
+  /** Within the azimuth window that the metadata give. */
+  bool sends(std::uint16_t measurement_id) const;
 
-  /** Pure: the same column for the same arguments, in any order and on any thread. */
-  OusterColumn measure(const World&, const Drive&, Timestamp start, std::uint64_t column) const;
+  /** Pure: the same column for the same arguments, in any order and on any thread. Not valid outside the window. */
+  OusterColumn measure(const Scenery&, std::uint64_t column) const;
 
  private:
-  OusterReading measureBeam(const World&, const Rigid& world_T_body, const Ray&, Random&) const;
+  OusterReading measureBeam(const Moment&, const Ray&, Random&) const;
+  double reflectivityOf(Surface) const;
 
   OusterMetadata metadata_;
   Rigid body_T_sensor_;
   Rigid body_T_lidar_;
   LidarTiming timing_;
-  LidarErrors errors_;
+  RangingOptions ranging_;
+  std::uint64_t seed_, place_;
   double beam_radius_ = 0;                        // m from the axis of rotation to where the beams leave
   double beam_height_ = 0;                        // m
   std::vector<Eigen::Vector3d> beam_directions_;  // at encoder angle 0, in the lidar frame

@@ -93,14 +93,27 @@ std::vector<ImuSample> readEurocImu(const std::filesystem::path& path)
   return samples;
 }
 
+EurocImuWriter::EurocImuWriter(const std::filesystem::path& path) : path_(path), file_(path)
+{
+  file_ << kHeading << '\n';
+}
+
+void EurocImuWriter::add(const ImuSample& s)
+{
+  file_ << fmt::format("{},{},{},{},{},{},{}\n", nanoseconds(s.stamp), s.gyro.x(), s.gyro.y(), s.gyro.z(), s.accel.x(),
+                       s.accel.y(), s.accel.z());
+}
+
+void EurocImuWriter::close()
+{
+  file_.close();
+  if (!file_) throw std::runtime_error(fmt::format("{}: IMU file cannot be written", path_.string()));
+}
+
 void writeEurocImu(const std::filesystem::path& path, const std::vector<ImuSample>& samples)
 {
-  std::ofstream file(path);
-  file << kHeading << '\n';
-  for (const ImuSample& s : samples)
-    file << fmt::format("{},{},{},{},{},{},{}\n", nanoseconds(s.stamp), s.gyro.x(), s.gyro.y(), s.gyro.z(), s.accel.x(),
-                        s.accel.y(), s.accel.z());
-  file.close();
-  if (!file) throw std::runtime_error(fmt::format("{}: IMU file cannot be written", path.string()));
+  EurocImuWriter writer(path);
+  for (const ImuSample& sample : samples) writer.add(sample);
+  writer.close();
 }
 }  // namespace scanloom

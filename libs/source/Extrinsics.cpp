@@ -53,6 +53,13 @@ Rigid parsePose(const std::string& text)
   return poseFrom(numbersIn(stream));
 }
 
+std::string poseText(const Rigid& pose)
+{
+  const Eigen::Vector3d& t = pose.translation;
+  const Eigen::Vector3d angles = pose.yawPitchRoll() / kDegree;
+  return fmt::format("{:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}", t.x(), t.y(), t.z(), angles[0], angles[1], angles[2]);
+}
+
 std::map<std::string, Rigid> readExtrinsics(const std::filesystem::path& path)
 {
   std::ifstream file(path);

@@ -14,6 +14,9 @@ namespace scanloom
  */
 Rigid parsePose(const std::string& text);
 
+/** The other way: "x y z yaw pitch roll" with nine decimals, as extrinsics files carry it. */
+std::string poseText(const Rigid&);
+
 /**
  * A file of lines `T_a_b x y z yaw pitch roll` (m, deg), by name. The rows of 4x4 matrices that follow a line, comments
  * (#) and blank lines are skipped, but a matrix that contradicts its line by more than 1e-6 is an error.

@@ -28,6 +28,15 @@ std::vector<std::string> unknownKeys(const Configuration& configuration, const s
                                      section, key, suggestion(key, known)));
   return problems;
 }
+
+std::vector<std::string> sectionsOfRigs(const Configuration& configuration)
+{
+  std::vector<std::string> found;
+  for (const std::string& section : configuration.sections())
+    if (configuration.has(section, "driver") && configuration.text(section, "driver") == DriverOptions{}.driver)
+      found.push_back(section);
+  return found;
+}
 }  // namespace
 
 Schema rigSchema(const std::string& section)
@@ -41,12 +50,11 @@ Schema rigSchema(const std::string& section)
   return schema;
 }
 
+bool hasRigSection(const Configuration& configuration) { return !sectionsOfRigs(configuration).empty(); }
+
 std::string rigSection(const Configuration& configuration)
 {
-  std::vector<std::string> found;
-  for (const std::string& section : configuration.sections())
-    if (configuration.has(section, "driver") && configuration.text(section, "driver") == DriverOptions{}.driver)
-      found.push_back(section);
+  const std::vector<std::string> found = sectionsOfRigs(configuration);
   if (found.empty())
     throw ConfigError("no section with 'driver = CMultiLidarSensor': the lidars to be read are not configured");
   if (found.size() > 1)

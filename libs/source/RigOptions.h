@@ -113,6 +113,8 @@ Schema rigSchema(const std::string& section);
 /** The one section with driver = CMultiLidarSensor. Throws ConfigError if there is none or more than one. */
 std::string rigSection(const Configuration&);
 
+bool hasRigSection(const Configuration&);
+
 /** Throws ConfigError with all problems, unknown keys among them. */
 RigSettings readRigSettings(const Configuration&, const std::string& section);
 }  // namespace scanloom

@@ -22,7 +22,7 @@ std::vector<RoutedLidar> routesOf(const Rig& rig)
 
 RigStream::RigStream(const Rig& rig, ReceiveTimes times)
   : lidars_(rig.lidars),
-    body_imu_(rig.body_imu),
+    body_imu_(rig.body_imu.begin(), rig.body_imu.end()),
     router_(routesOf(rig)),
     batcher_(makeBatcher(rig.lidars, rig.batcher)),
     imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms)),
@@ -76,6 +76,11 @@ void RigStream::advance(Timestamp now)
     time_ += kTick;
     release(batcher_->advance(time_));
   }
+}
+
+void RigStream::takeBodyImu(const std::vector<ImuSample>& samples)
+{
+  body_imu_.insert(body_imu_.end(), samples.begin(), samples.end());
 }
 
 void RigStream::finish()
@@ -133,8 +138,8 @@ void RigStream::releaseParts(Timestamp end)
 
 void RigStream::releaseImu(Timestamp horizon)
 {
-  for (; next_body_imu_ < body_imu_.size() && body_imu_[next_body_imu_].stamp < horizon; ++next_body_imu_)
-    imu_order_.add({SensorImu::kBody, body_imu_[next_body_imu_]});
+  for (; !body_imu_.empty() && body_imu_.front().stamp < horizon; body_imu_.pop_front())
+    imu_order_.add({SensorImu::kBody, body_imu_.front()});
   for (SensorImu& imu : imu_order_.release(horizon)) ready_.emplace_back(std::move(imu));
 }
 

@@ -33,6 +33,9 @@ class RigStream
   /** Every datagram received before `now` was taken. */
   void advance(Timestamp now);
 
+  /** More of the body's IMU, later than what the rig has; before the datagrams that were received after it. */
+  void takeBodyImu(const std::vector<ImuSample>&);
+
   /** The latest time that the batcher was told of: no datagram should be received before it. */
   Timestamp time() const { return time_; }
 
@@ -66,8 +69,7 @@ class RigStream
   void releaseParts(Timestamp end);
 
   std::vector<BatchedLidar> lidars_;
-  std::vector<ImuSample> body_imu_;
-  std::size_t next_body_imu_ = 0;
+  std::deque<ImuSample> body_imu_;  // to come
   PacketRouter router_;
   std::optional<CaptureClock> capture_clock_;
   std::uint64_t capture_clock_steps_ = 0;  // as of takeWarnings()

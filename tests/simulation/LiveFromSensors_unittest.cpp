@@ -12,7 +12,7 @@
 
 #include "lidar/OusterEncoder.h"
 #include "lidar/OusterMetadata.h"
-#include "simulation/AssumedOs0.h"
+#include "simulation/AssumedOuster.h"
 #include "simulation/FakeSensor.h"
 #include "source/RigLive.h"
 #include "source/RigReplay.h"
@@ -30,9 +30,7 @@ constexpr Timestamp kEpoch{1000s};
 std::string metadataOf(const std::string& serial, std::uint16_t port, const std::string& mode = "512x10",
                        std::uint32_t init_id = 1)
 {
-  Os0Options options;
-  options.mode = mode;
-  return toJson(assumedOs0(options, serial, init_id, port));
+  return toJson(assumedOuster({"OS0-32", mode, "RNG15_RFL8_NIR8", serial, init_id, port}));
 }
 
 /** What the sensor sends in [first, first + length); every channel measures 5 m. */

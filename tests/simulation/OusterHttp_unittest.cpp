@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "lidar/OusterMetadata.h"
-#include "simulation/AssumedOs0.h"
+#include "simulation/AssumedOuster.h"
 #include "simulation/FakeSensor.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
@@ -22,7 +22,10 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-std::string someMetadata() { return toJson(assumedOs0({}, "122000000001", 4711, 7502)); }
+std::string someMetadata()
+{
+  return toJson(assumedOuster({"OS0-32", "512x10", "RNG15_RFL8_NIR8", "122000000001", 4711, 7502}));
+}
 
 SensorAddress addressOf(const FakeSensor& sensor) { return SensorAddress::parse(sensor.address()); }
 

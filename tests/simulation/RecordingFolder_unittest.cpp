@@ -1,6 +1,7 @@
 #include "simulation/RecordingFolder.h"
 
 #include "config/Configuration.h"
+#include "imu/Preintegration.h"
 #include "lidar/OusterDecoder.h"
 #include "output/Trajectory.h"
 #include "simulation/Machine.h"
@@ -26,7 +27,9 @@ SimulationSettings shortDrive()
   settings.drive.standstill = 0.5;
   settings.drive.speed_up = 1;
   settings.body.sway_deg = 3;
-  settings.lidar.range_noise = 0.02;
+  settings.ranging.range_noise = 0.02;
+  settings.ranging.range_noise_weak = 0;
+  settings.objects.person_every = settings.objects.vehicle_every = 0;
   // Ground and stems alone: surfaces that a test knows.
   settings.forest.trees.living_branches = settings.forest.trees.dead_branches = 0;
   settings.forest.stand.stumps_per_hectare = 0;
@@ -44,7 +47,7 @@ void record(const std::filesystem::path& folder, std::uint64_t seed = 1)
 std::map<std::string, std::string> contents(const std::filesystem::path& folder)
 {
   std::map<std::string, std::string> files;
-  for (const std::string& name : recordingFileNames()) files[name] = contentOf(folder / name);
+  for (const std::string& name : recordingFileNames(shortDrive())) files[name] = contentOf(folder / name);
   return files;
 }
 /** A lidar of a recorded folder, as a stranger would set it up: from the files alone. */
@@ -77,8 +80,12 @@ void forEachBlock(const std::filesystem::path& folder, const OusterDecoder& deco
 
 bool isOnMachine(const Eigen::Vector3d& in_body)
 {
+  static const Scene scene = makeScene(shortDrive(), 1);
+  const Machine& machine = scene.scenery.machine();
   const auto near = [&](const Eigen::AlignedBox3d& box) { return box.exteriorDistance(in_body) < 0.2; };
-  return std::any_of(machineBoxes().begin(), machineBoxes().end(), near);
+  for (const OrientedBox& box : machine.boom().boxes(machine.boom().at(0)))
+    if (((box.frameTBox().inverse() * in_body).cwiseAbs() - box.half()).maxCoeff() < 0.2) return true;
+  return std::any_of(machine.body().begin(), machine.body().end(), near);
 }
 
 struct Surroundings
@@ -102,7 +109,8 @@ TEST(RecordingFolder, putsDecodedPointsOntoTheSurfacesWithTheNoiseThatWasAskedFo
   const TemporaryFolder folder;
   record(folder / "a");
   const Trajectory truth = readTum(folder / "a" / "groundtruth.tum");
-  const World world = makeScene(shortDrive(), 1).world;
+  const Scene scene = makeScene(shortDrive(), 1);
+  const World& world = scene.scenery.world();
 
   for (const char* name : {"left", "right"})
   {
@@ -130,7 +138,7 @@ TEST(RecordingFolder, putsDecodedPointsOntoTheSurfacesWithTheNoiseThatWasAskedFo
                      sum += error;
                    }
                  });
-    const double injected = std::hypot(shortDrive().lidar.range_noise, 0.008 / std::sqrt(12));
+    const double injected = std::hypot(shortDrive().ranging.range_noise, 0.008 / std::sqrt(12));
     EXPECT_GT(count, 10'000) << name;
     EXPECT_LT(outliers / count, 1e-3) << name;
     EXPECT_NEAR(std::sqrt(squares / count), injected, 0.05 * injected) << name;
@@ -231,7 +239,7 @@ TEST(RecordingOptions, ofTheDemonstrationAreTheDefaults)
 TEST(Scene, namesTheOptionThatCannotBe)
 {
   SimulationSettings settings = shortDrive();
-  settings.rig.right_pose = "1 2 3";
+  settings.lidars[1].pose = "1 2 3";
   try
   {
     makeScene(settings, 1);
@@ -239,10 +247,10 @@ TEST(Scene, namesTheOptionThatCannotBe)
   }
   catch (const std::invalid_argument& error)
   {
-    EXPECT_NE(std::string(error.what()).find("right_pose"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("lidar2_pose"), std::string::npos) << error.what();
   }
   settings = shortDrive();
-  settings.lidar.mode = "512x11";
+  settings.lidars[0].mode = "512x11";
   EXPECT_THROW(makeScene(settings, 1), std::invalid_argument);
 }
 }  // namespace

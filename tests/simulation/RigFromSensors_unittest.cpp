@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "lidar/OusterMetadata.h"
-#include "simulation/AssumedOs0.h"
+#include "simulation/AssumedOuster.h"
 #include "simulation/FakeSensor.h"
 #include "source/Rig.h"
 #include "source/SensorInquiries.h"
@@ -22,7 +22,10 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-std::string someMetadata(std::uint16_t port = 7502) { return toJson(assumedOs0({}, "122000000001", 4711, port)); }
+std::string someMetadata(std::uint16_t port = 7502)
+{
+  return toJson(assumedOuster({"OS0-32", "512x10", "RNG15_RFL8_NIR8", "122000000001", 4711, port}));
+}
 
 std::string lidarIni(int number, const std::string& key, const std::string& value, const std::string& more = "")
 {

@@ -1,0 +1,99 @@
+#include "simulation/Boom.h"
+
+#include "simulation/Random.h"
+#include "simulation/SmoothStep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kRadians = M_PI / 180;
+constexpr double kRestHeight = 0.3;                // m above the pillar's joint
+constexpr double kLowest = -1.2, kHighest = 0.8;   // m, where it works
+constexpr double kLinkHalfWidth = 0.16;            // m
+const Eigen::Vector3d kPillarHalf(0.3, 0.3, 0.5);  // m
+const Eigen::Vector3d kHeadHalf(0.35, 0.4, 0.7);   // m; hangs from the tip
+
+double blend(double from, double to, double share) { return from + share * (to - from); }
+
+/** From a joint to the next, both in the boom's plane. */
+OrientedBox link(const Rigid& body_T_pillar, const Eigen::Vector2d& from, const Eigen::Vector2d& to)
+{
+  const Eigen::Vector2d middle = 0.5 * (from + to), along = to - from;
+  const Rigid pillar_T_link =
+      Rigid::fromXyzYawPitchRoll(middle.x(), 0, middle.y(), 0, -std::atan2(along.y(), along.x()), 0);
+  return {body_T_pillar * pillar_T_link, {0.5 * along.norm(), kLinkHalfWidth, kLinkHalfWidth}};
+}
+}  // namespace
+
+Boom::Boom(const BoomOptions& options, const Route& route, std::uint64_t seed)
+  : options_(options), route_(route), seed_(seed)
+{
+  const double longest = options.inner_link + options.outer_link;
+  const double shortest = std::abs(options.inner_link - options.outer_link);
+  const auto check = [&](const char* name, double reach)
+  {
+    const double farthest = std::hypot(reach, std::max(-kLowest, kHighest));
+    if (farthest >= longest || reach <= shortest)
+      throw std::invalid_argument(fmt::format("[simulated_boom] {} = {} m: links of {} and {} m do not reach there",
+                                              name, reach, options.inner_link, options.outer_link));
+  };
+  check("reach_rest", options.reach_rest);
+  check("reach_min", options.reach_min);
+  check("reach_max", options.reach_max);
+  if (options.slew_min > options.slew_max)
+    throw std::invalid_argument("[simulated_boom] slew_min: must be at most slew_max");
+}
+
+BoomPose Boom::target(const WorkStop& stop, std::uint64_t move, std::uint64_t moves) const
+{
+  if (move == 0 || move >= moves) return {0, options_.reach_rest, kRestHeight};
+  Random random(seed_, RandomStream::Boom, stop.number, move);
+  const double slew = kRadians * options_.swing_deg * random.uniform(-1, 1);
+  const double reach = random.uniform(options_.reach_min, options_.reach_max);
+  return {slew, reach, random.uniform(kLowest, kHighest)};
+}
+
+BoomPose Boom::at(double t) const
+{
+  const auto stop = route_.workStopAt(t);
+  if (!stop) return target({}, 0, 0);
+  const auto moves = static_cast<std::uint64_t>((stop->end - stop->begin) / options_.move_every);
+  const auto move = static_cast<std::uint64_t>((t - stop->begin) / options_.move_every);
+  const BoomPose from = target(*stop, move, moves), to = target(*stop, move + 1, moves);
+
+  // The rate of a smooth step is at most 15/8 of its mean: the time is what the drawn rate needs.
+  Random random(seed_, RandomStream::BoomRate, stop->number, move);
+  const double rate = kRadians * random.uniform(options_.slew_min, options_.slew_max);
+  const double needed = std::max(1.0, 15.0 / 8 * std::abs(to.slew - from.slew) / rate);
+  const double share = smoothStep((t - stop->begin - static_cast<double>(move) * options_.move_every) /
+                                  std::min(needed, options_.move_every))
+                           .value;
+  return {blend(from.slew, to.slew, share), blend(from.reach, to.reach, share), blend(from.height, to.height, share)};
+}
+
+BoomJoints Boom::jointsAt(const BoomPose& pose) const
+{
+  const double a = options_.inner_link, b = options_.outer_link, c = std::hypot(pose.reach, pose.height);
+  const double lift = std::atan2(pose.height, pose.reach) + std::acos((a * a + c * c - b * b) / (2 * a * c));
+  return {a * Eigen::Vector2d(std::cos(lift), std::sin(lift)), {pose.reach, pose.height}};
+}
+
+std::vector<OrientedBox> Boom::boxes(const BoomPose& pose) const
+{
+  if (!options_.boom) return {};
+  const Rigid body_T_pillar = Rigid::fromXyzYawPitchRoll(options_.base_x, 0, options_.base_height, pose.slew, 0, 0);
+  const BoomJoints joints = jointsAt(pose);
+  const Rigid pillar_T_head{Eigen::Quaterniond::Identity(), {joints.tip.x(), 0, joints.tip.y() - kHeadHalf.z()}};
+  return {{body_T_pillar * Rigid{Eigen::Quaterniond::Identity(), {0, 0, -kPillarHalf.z()}}, kPillarHalf},
+          link(body_T_pillar, Eigen::Vector2d::Zero(), joints.elbow),
+          link(body_T_pillar, joints.elbow, joints.tip),
+          {body_T_pillar * pillar_T_head, kHeadHalf}};
+}
+}  // namespace scanloom

@@ -1,0 +1,58 @@
+#include "simulation/Scenery.h"
+
+namespace scanloom
+{
+namespace
+{
+void keepNearer(std::optional<Hit>& nearest, const std::optional<Contact>& contact, Surface surface)
+{
+  if (contact && (!nearest || contact->range < nearest->range))
+    nearest = Hit{contact->range, contact->cosine_incidence, surface, 0};
+}
+}  // namespace
+
+Moment::Moment(const World& world, const Machine& machine, const Rigid& world_T_body, const BoomPose& boom,
+               const std::vector<MovingObject>& objects)
+  : world_(&world),
+    machine_(&machine),
+    world_T_body_(world_T_body),
+    body_R_world_(world_T_body.rotation.conjugate().toRotationMatrix()),
+    boom_(machine.boom().boxes(boom)),
+    boxes_(boxesOf(objects)),
+    cones_(conesOf(objects))
+{
+}
+
+std::optional<Hit> Moment::cast(const Ray& ray, double max_range, std::uint64_t draw) const
+{
+  const Ray in_body{body_R_world_ * (ray.origin - world_T_body_.translation), body_R_world_ * ray.direction};
+  std::optional<Hit> nearest;
+  for (const Eigen::AlignedBox3d& box : machine_->body()) keepNearer(nearest, castBox(box, in_body), Surface::Machine);
+  if (nearest && nearest->range <= max_range) return nearest;  // nothing else is so near to the machine
+
+  nearest = castMoving(ray, in_body);
+  if (nearest && nearest->range > max_range) nearest.reset();
+  const auto standing = world_->cast(ray, nearest ? nearest->range : max_range, draw);
+  return standing ? standing : nearest;
+}
+
+std::optional<Hit> Moment::castMoving(const Ray& in_world, const Ray& in_body) const
+{
+  std::optional<Hit> nearest;
+  for (const OrientedBox& box : boom_) keepNearer(nearest, box.cast(in_body), Surface::Boom);
+  for (const OrientedBox& box : boxes_) keepNearer(nearest, box.cast(in_world), Surface::Object);
+  for (const Cone& cone : cones_) keepNearer(nearest, castCone(cone, in_world), Surface::Object);
+  return nearest;
+}
+
+Scenery::Scenery(std::shared_ptr<const World> world, const Drive& drive, const Machine& machine,
+                 const MovingObjects& objects)
+  : world_(std::move(world)), drive_(drive), machine_(machine), objects_(objects)
+{
+}
+
+Moment Scenery::at(double t) const
+{
+  return {*world_, machine_, drive_.at(t).world_T_body, machine_.boom().at(t), objects_.at(t)};
+}
+}  // namespace scanloom

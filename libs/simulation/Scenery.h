@@ -1,0 +1,57 @@
+/** All that rays meet: the world that stands still, the machine, and what moves about it. */
+#pragma once
+#include "simulation/Drive.h"
+#include "simulation/Machine.h"
+#include "simulation/MovingObjects.h"
+#include "simulation/World.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/** The scenery at one instant. */
+class Moment
+{
+ public:
+  Moment(const World&, const Machine&, const Rigid& world_T_body, const BoomPose&, const std::vector<MovingObject>&);
+
+  const Rigid& worldTBody() const { return world_T_body_; }
+
+  /** The nearest surface within `max_range`; pure. `draw` as World::cast has it. */
+  std::optional<Hit> cast(const Ray& ray_in_world, double max_range, std::uint64_t draw) const;
+
+ private:
+  std::optional<Hit> castMoving(const Ray& in_world, const Ray& in_body) const;
+
+  const World* world_;
+  const Machine* machine_;
+  Rigid world_T_body_;
+  Eigen::Matrix3d body_R_world_;
+  std::vector<OrientedBox> boom_;   // in the body frame
+  std::vector<OrientedBox> boxes_;  // in the world
+  std::vector<Cone> cones_;         // in the world
+};
+
+/** Copies share the world. */
+class Scenery
+{
+ public:
+  Scenery(std::shared_ptr<const World>, const Drive&, const Machine&, const MovingObjects&);
+
+  /** `t` s after the start of the recording; the scenery must outlive it. */
+  Moment at(double t) const;
+
+  const World& world() const { return *world_; }
+  const Drive& drive() const { return drive_; }
+  const Machine& machine() const { return machine_; }
+  const MovingObjects& objects() const { return objects_; }
+
+ private:
+  std::shared_ptr<const World> world_;
+  Drive drive_;
+  Machine machine_;
+  MovingObjects objects_;
+};
+}  // namespace scanloom

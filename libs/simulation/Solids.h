@@ -1,0 +1,42 @@
+/** Rigid bodies of simple shape, met by rays in closed form and in double precision. */
+#pragma once
+#include "core/Rigid.h"
+#include "simulation/Cone.h"
+#include "simulation/Ray.h"
+
+#include <Eigen/Geometry>
+
+#include <optional>
+
+namespace scanloom
+{
+/** Where a ray from outside meets a body, and how squarely. */
+struct Contact
+{
+  double range = 0;
+  double cosine_incidence = 0;
+};
+
+std::optional<Contact> castBox(const Eigen::AlignedBox3d&, const Ray&);
+
+/** A box in any direction. Rays that pass its bounding sphere are dismissed at once. */
+class OrientedBox
+{
+ public:
+  /** `half`: m from the centre to the faces. */
+  OrientedBox(const Rigid& frame_T_box, const Eigen::Vector3d& half);
+
+  std::optional<Contact> cast(const Ray&) const;  // the ray in the frame
+
+  const Rigid& frameTBox() const { return frame_T_box_; }
+  const Eigen::Vector3d& half() const { return half_; }
+
+ private:
+  Rigid frame_T_box_;
+  Eigen::Matrix3d box_R_frame_;
+  Eigen::Vector3d half_;
+};
+
+/** Likewise for a stem, a person, a falling tree. */
+std::optional<Contact> castCone(const Cone&, const Ray&);
+}  // namespace scanloom
