@@ -8,6 +8,7 @@
 #include "config/AtomicFile.h"
 #include "config/ConfigError.h"
 #include "simulation/RecordingFolder.h"
+#include "simulation/SceneSensors.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -17,6 +18,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <thread>
 
 namespace scanloom
 {
@@ -29,6 +31,8 @@ struct SimulateArguments
   std::uint64_t seed = 1;
   double seconds = 0;  // 0: as configured
   int jobs = 0;
+  bool udp = false;
+  double delay = 3;  // s before the first packet over UDP
 };
 
 /** Ends a recording that nobody waits for any more: half of one would only mislead. */
@@ -38,26 +42,8 @@ struct Interrupted : std::exception
 
 constexpr const char* kConfigurationCopy = "configuration.ini";
 
-int run(SimulateArguments arguments)
+int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const std::filesystem::path& folder)
 {
-  if (arguments.seconds > 0)
-    arguments.configuration.assignments.push_back(fmt::format("simulated_drive.duration={}", arguments.seconds));
-  std::optional<tbb::global_control> jobs;
-  if (arguments.jobs > 0)
-    jobs.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.jobs));
-  const Loaded<SimulationSettings> loaded = load<SimulationSettings>(arguments.configuration);
-  std::vector<std::string> names = recordingFileNames(loaded.settings);
-  names.emplace_back(kConfigurationCopy);
-  refuseExisting(arguments.output, names);
-  const Scene scene = checkedScene(loaded.settings, arguments.seed);
-  if (arguments.configuration.dry_run)
-  {
-    std::cout << toIni(loaded);
-    return kDone;
-  }
-
-  catchInterruption();
-  const std::filesystem::path& folder = arguments.output.folder;
   std::filesystem::create_directories(folder);
   Progress progress("simulate", static_cast<std::uint64_t>(std::ceil(scene.span.duration)), "s");
   try
@@ -77,6 +63,48 @@ int run(SimulateArguments arguments)
   std::cout << folder.string() << '\n';
   return kDone;
 }
+
+/** Sensors on this computer; what a recorder has to know of them is printed first. */
+int play(const Scene& scene, double delay)
+{
+  SceneSensors sensors(scene);
+  std::cout << sensors.configuration() << std::flush;
+  for (double waited = 0; waited < delay && !interrupted(); waited += 0.1) std::this_thread::sleep_for(100ms);
+  Progress progress("simulate", static_cast<std::uint64_t>(std::ceil(scene.span.duration)), "s");
+  const PlayedScene played = sensors.play(
+      [&](double share)
+      {
+        progress.update(static_cast<std::uint64_t>(std::llround(share * scene.span.duration)));
+        return !interrupted();
+      });
+  fmt::print(stderr, "{} datagrams sent, {} refused, at most {:.1f} ms late\n", played.sent, played.refused,
+             1e3 * seconds(played.latest));
+  return interrupted() ? kInterrupted : kDone;
+}
+
+int run(SimulateArguments arguments)
+{
+  if (arguments.seconds > 0)
+    arguments.configuration.assignments.push_back(fmt::format("simulated_drive.duration={}", arguments.seconds));
+  std::optional<tbb::global_control> jobs;
+  if (arguments.jobs > 0)
+    jobs.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.jobs));
+  const Loaded<SimulationSettings> loaded = load<SimulationSettings>(arguments.configuration);
+  std::vector<std::string> names = recordingFileNames(loaded.settings);
+  names.emplace_back(kConfigurationCopy);
+  if (arguments.udp != arguments.output.folder.empty())
+    throw UsageError("either --out-dir, for a recording in a folder, or --udp, for packets in real time");
+  if (!arguments.udp) refuseExisting(arguments.output, names);
+  const Scene scene = checkedScene(loaded.settings, arguments.seed);
+  if (arguments.configuration.dry_run)
+  {
+    std::cout << toIni(loaded);
+    return kDone;
+  }
+
+  catchInterruption();
+  return arguments.udp ? play(scene, arguments.delay) : write(scene, loaded, arguments.output.folder);
+}
 }  // namespace
 
 Verb simulateVerb()
@@ -87,7 +115,12 @@ Verb simulateVerb()
           {
             auto arguments = std::make_shared<SimulateArguments>();
             addConfiguration(app, arguments->configuration);
-            addOutputFolder(app, arguments->output)->required();
+            addOutputFolder(app, arguments->output);
+            app.add_flag("--udp", arguments->udp,
+                         "no folder: sensors of this computer, with web pages, send in real time to 127.0.0.1; their "
+                         "section for 'record' is printed first");
+            app.add_option("--delay", arguments->delay, "with --udp: seconds before the first packet")
+                ->check(CLI::NonNegativeNumber);
             addSeed(app, arguments->seed);
             app.add_option("--seconds", arguments->seconds, "length of the recording, instead of the configured one")
                 ->check(CLI::PositiveNumber);

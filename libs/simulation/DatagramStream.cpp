@@ -1,27 +1,14 @@
 #include "simulation/DatagramStream.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstring>
-#include <stdexcept>
 
 #include "source/CaptureReader.h"
-#include "source/SocketAddress.h"
 
 namespace scanloom
 {
 namespace
 {
 using Clock = std::chrono::steady_clock;
-
-FileDescriptor openSocket(const IpAddress& source)
-{
-  const SocketAddress own = SocketAddress::of(source, 0);
-  FileDescriptor socket(::socket(own.storage.ss_family, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  if (socket.isOpen() && ::bind(socket.number(), own.get(), own.length) == 0) return socket;
-  throw std::runtime_error(fmt::format("no UDP socket can be bound to {}: {}", source.text(), std::strerror(errno)));
-}
 }  // namespace
 
 std::vector<Datagram> readDatagrams(const std::filesystem::path& capture, const std::string& source)
@@ -34,7 +21,7 @@ std::vector<Datagram> readDatagrams(const std::filesystem::path& capture, const 
 }
 
 DatagramStream::DatagramStream(std::vector<Datagram> datagrams, const IpAddress& source, const StreamOptions& options)
-  : socket_(openSocket(source))
+  : sender_(source)
 {
   const IpAddress destination = IpAddress::parse(options.destination);
   thread_ = std::thread([this, datagrams = std::move(datagrams), destination, options]
@@ -64,10 +51,7 @@ void DatagramStream::run(const std::vector<Datagram>& datagrams, const IpAddress
     const Clock::time_point due = options.start + after;
     while (!stop_ && Clock::now() < due) std::this_thread::sleep_until(std::min(due, Clock::now() + kLongestSleep));
     if (stop_) return;
-    const SocketAddress to = SocketAddress::of(destination, datagram.destination_port);
-    const auto size = static_cast<ssize_t>(datagram.payload.size());
-    const bool done =
-        ::sendto(socket_.number(), datagram.payload.data(), datagram.payload.size(), 0, to.get(), to.length) == size;
+    const bool done = sender_.send(datagram, destination);
     ++(done ? sent_ : refused_);
   }
 }

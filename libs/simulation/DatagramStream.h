@@ -1,7 +1,7 @@
 /** A recording played to UDP ports in its own rhythm. */
 #pragma once
+#include "simulation/DatagramSender.h"
 #include "source/Datagram.h"
-#include "source/FileDescriptor.h"
 
 #include <atomic>
 #include <chrono>
@@ -46,7 +46,7 @@ class DatagramStream
  private:
   void run(const std::vector<Datagram>&, const IpAddress& destination, const StreamOptions&);
 
-  FileDescriptor socket_;
+  DatagramSender sender_;
   std::atomic<bool> stop_{false};
   std::atomic<std::uint64_t> sent_{0}, refused_{0};
   std::thread thread_;

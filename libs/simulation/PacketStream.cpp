@@ -9,7 +9,8 @@ namespace scanloom
 {
 namespace
 {
-/** Transport takes 0.1 ms and rarely, when the computer was busy, up to 2 ms more (assumed). */
+/** Transport takes 0.1 ms and rarely, when the computer was busy, up to 2 ms more (assumed); packets do not overtake.
+ */
 constexpr Duration kTransport = 60us;
 constexpr double kUsualJitter = 80e-6;
 constexpr double kRareJitter = 2e-3;
@@ -101,14 +102,14 @@ std::optional<PacketStream::Transport> PacketStream::transport(std::uint64_t pac
   if (!isSent(packet)) return std::nullopt;
   const Timestamp sent = finished(packet);
   Random random(scene_.seed, RandomStream::Transport, run().imu.place, packet);
-  Timestamp received = sent + delay(random);
+  const Duration packet_time = finished(packet + 1) - sent;
+  Timestamp received = sent + delay(random, seconds(packet_time));
   const double loss = random.uniform(), disorder = random.uniform(), copy = random.uniform(), turns = random.uniform();
   if (isLost(sent, loss))
   {
     ++counts_.lost;
     return std::nullopt;
   }
-  const Duration packet_time = finished(packet + 1) - sent;
   if (disorder < station_.faults.reordered)
   {
     received += (turns < 0.5 ? 1 : 2) * packet_time + packet_time / 2;
@@ -162,13 +163,14 @@ Datagram PacketStream::imuDatagram(const std::vector<ImuStream::Sample>& samples
   std::vector<ImuSample> readings;
   for (const ImuStream::Sample& sample : samples) readings.push_back(sample.reading);
   const std::uint16_t port = station_.metadata().imu_port;
-  return {samples.back().truth + delay(random), IpAddress::parse("127.0.0.1"), port, port,
+  return {samples.back().truth + delay(random, kRareJitter), IpAddress::parse("127.0.0.1"), port, port,
           encoders_[run_].imuPacket(readings)};
 }
 
-Duration PacketStream::delay(Random& random) const
+Duration PacketStream::delay(Random& random, double packet_time) const
 {
-  const double jitter = random.uniform() < kRareShare ? kRareJitter : kUsualJitter;
+  const double rare = std::min(kRareJitter, 0.8 * packet_time);
+  const double jitter = random.uniform() < kRareShare ? rare : kUsualJitter;
   return kTransport + fromSeconds(jitter * random.uniform());
 }
 }  // namespace scanloom

@@ -48,7 +48,7 @@ class PacketStream
   Datagram imuDatagram(const std::vector<ImuStream::Sample>&, std::uint64_t index) const;
   void finishRun(Timestamp until, std::vector<Datagram>&);
   void addImu(Timestamp until, std::vector<Datagram>&);
-  Duration delay(Random&) const;
+  Duration delay(Random&, double packet_time) const;
 
   const Scene& scene_;
   const LidarStation& station_;

@@ -25,7 +25,7 @@ class SceneRigInput : public RigInput
     : scene_(std::move(scene)),
       packets_(*scene_),
       imu_(scene_->scenery.drive(), scene_->span, scene_->body_imu, scene_->seed),
-      stream_(rig)
+      stream_(rig, RigStream::ReceiveTimes::OfCapture)
   {
   }
 
@@ -99,7 +99,7 @@ class SceneInput : public SensorInput
   const RecordingHeader& header() const override { return header_; }
   double progress() const override { return input_->progress(); }
   std::map<std::string, std::uint64_t> counts() const override { return countsOf(input_->account()); }
-  std::string damage() const override { return ""; }
+  std::vector<std::string> takeWarnings() override { return input_->takeWarnings(); }
 
   std::optional<Rigid> body_T_imu(int sensor) const override
   {

@@ -1,0 +1,76 @@
+/** `scanloom simulate --udp` and `scanloom record`, which knows of its lidars the addresses only. */
+#include "mrpt_bridge/RawlogReader.h"
+#include "support/ChildProcess.h"
+#include "support/TemporaryFolder.h"
+#include "support/TestData.h"
+#include "support/UdpSender.h"
+
+#include <gmock/gmock.h>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <thread>
+
+namespace scanloom
+{
+namespace
+{
+using testing::HasSubstr;
+
+/** What a child printed so far, up to the end of its section. */
+std::string sectionPrintedBy(const ChildProcess& child)
+{
+  for (int i = 0; i < 1000; ++i)
+  {
+    const std::string log = child.log();
+    if (log.find("lidar2_pose") != std::string::npos && log.back() == '\n') return log.substr(log.find("[lidars]"));
+    std::this_thread::sleep_for(10ms);
+  }
+  return "";
+}
+}  // namespace
+
+TEST(SimulateUdp, isRecordedByAddressesAlone)
+{
+  const TemporaryFolder folder;
+  const std::uint16_t left = freeUdpPort(), right = freeUdpPort();
+  std::ofstream(folder / "scene.ini") << fmt::format(
+      "[simulated_drive]\nduration = 4\nroute = work\nspeed_up = 1\n[simulated_stand]\nstems_per_hectare = 0\n"
+      "[simulated_lidars]\nlidar1_name = left\nlidar1_model = OS0-16\nlidar1_port = {}\nlidar2_name = right\n"
+      "lidar2_port = {}\n",
+      left, right);
+  ChildProcess simulate(fmt::format("{}/scanloom simulate -c {} --udp --delay 4", SCANLOOM_BIN_DIR,
+                                    (folder / "scene.ini").string()),
+                        folder / "simulate.txt");
+  const std::string section = sectionPrintedBy(simulate);
+  ASSERT_THAT(section, HasSubstr("lidar1_address = 127.0.0.2:"));
+  std::ofstream(folder / "live.ini") << section << "deadline_ms = 200\n";
+  ChildProcess record(fmt::format("{}/scanloom record -c {} -o {}", SCANLOOM_BIN_DIR, (folder / "live.ini").string(),
+                                  (folder / "live.rawlog").string()),
+                      folder / "record.txt");
+
+  EXPECT_EQ(simulate.wait(), 0) << simulate.log();
+  std::this_thread::sleep_for(300ms);
+  record.send(SIGINT);
+  EXPECT_EQ(record.wait(), 130) << record.log();
+
+  std::array<std::size_t, 2> columns{};
+  RawlogReader reader(folder / "live.rawlog");
+  while (auto event = reader.next())
+    if (const auto* recorded = std::get_if<RecordedScan>(&*event))
+      for (std::size_t i : {0, 1}) columns[i] += recorded->scan.columns_of[i];
+  for (const std::size_t received : columns)
+    EXPECT_GE(received, 37u * 512) << "4 s of 10 turns, less what was before the start: " << record.log();
+  EXPECT_THAT(simulate.log(), HasSubstr(" 0 refused"));
+}
+
+TEST(SimulateUdp, isEitherForAFolderOrForRealTime)
+{
+  const TemporaryFolder folder;
+  ChildProcess neither(fmt::format("{}/scanloom simulate", SCANLOOM_BIN_DIR), folder / "log.txt");
+  EXPECT_EQ(neither.wait(), 2);
+  EXPECT_THAT(neither.log(), HasSubstr("--out-dir"));
+}
+}  // namespace scanloom

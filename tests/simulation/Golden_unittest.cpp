@@ -1,0 +1,55 @@
+/** The bytes of small recordings, known by their checksums: nothing changes them unnoticed. */
+#include "simulation/ScenePackets.h"
+#include "support/TestData.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "config/Configuration.h"
+
+namespace scanloom
+{
+namespace
+{
+/** FNV-1a. Not a CRC: that of packets which end with their own one is the same for all. */
+class Checksum
+{
+ public:
+  void add(const std::uint8_t* bytes, std::size_t count)
+  {
+    for (std::size_t i = 0; i < count; ++i) value_ = (value_ ^ bytes[i]) * 0x100000001b3;
+  }
+  std::string text() const { return fmt::format("{:016x}", value_); }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+/** Of all packets and their times of receipt. */
+std::string checksumOf(const char* file)
+{
+  Configuration configuration =
+      Configuration::fromFiles({std::filesystem::path(SCANLOOM_SOURCE_DIR) / "params/simulation" / file});
+  for (const char* change : {"simulated_lidars.lidar1_model=OS0-8", "simulated_drive.duration=10"})
+    configuration.set(change);
+  const Scene scene = makeScene(readSettings<SimulationSettings>(configuration, schemaOf<SimulationSettings>()), 1);
+  ScenePackets packets(scene);
+  Checksum checksum;
+  for (Datagram datagram; packets.time() < scene.span.start + 1s && packets.next(datagram);)
+  {
+    const auto received = static_cast<std::uint64_t>(nanoseconds(datagram.received));
+    checksum.add(reinterpret_cast<const std::uint8_t*>(&received), sizeof received);
+    checksum.add(datagram.payload.data(), datagram.payload.size());
+  }
+  return checksum.text();
+}
+}  // namespace
+
+/** A change of the world, the machine or the sensors that is meant changes these: put the new ones here. */
+TEST(Golden, recordingsOfTheFirstSecondHaveTheirChecksums)
+{
+  EXPECT_EQ(checksumOf("demo.ini"), "18e2e8f2d4339d9e");
+  EXPECT_EQ(checksumOf("sparse.ini"), "c052c8a56d7f547e");
+  EXPECT_EQ(checksumOf("dense.ini"), "2b767fed757ce63f");
+}
+}  // namespace scanloom
