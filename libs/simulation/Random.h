@@ -13,7 +13,11 @@ enum class RandomStream : std::uint64_t
   LidarTiming,
   Transport,
   LidarImu,
+  Boom,
+  BoomRate,
   BodyImu,
+  Passers,
+  FelledTrees,
   ImuBiases,
   TotalStation,
   Work,
@@ -23,10 +27,6 @@ enum class RandomStream : std::uint64_t
   Foliage,
   Undergrowth,
   Leaves,
-  Boom,
-  BoomRate,
-  Passers,
-  FelledTrees,
   Bursts,
 };
 

@@ -153,7 +153,7 @@ Semantics ofSimulation(const std::filesystem::path& metadata)
   settings.drive.route = "work";
   settings.drive.duration = 0.35;
   settings.drive.speed_up = 1;
-  settings.stand.stems_per_hectare = 0;
+  settings.forest.stand.stems_per_hectare = 0;
   settings.lidars.resize(1);
   settings.lidars[0] = SimulatedLidarOptions{};
   settings.lidars[0].name = "real";
