@@ -93,10 +93,15 @@ void LidarInput::readBlocks(Bytes packet, Timestamp received)
   const LidarDescription& description = decoder_->description();
   const std::size_t all = blocks_.size();
   any_block_ = blocks_.empty() ? MeasurementBlock{} : blocks_.front();
+  const auto dropImplausible = [&]
+  {
+    for (MeasurementBlock& block : blocks_) block.valid = block.valid && isPlausible(block.stamp, received);
+  };
   for (MeasurementBlock& block : blocks_)
     block.valid = block.valid && block.measurement_id < description.columns_per_frame;
+  dropImplausible();
   if (description.stamp_modulus > Duration{0}) unwrapStamps(received);
-  for (MeasurementBlock& block : blocks_) block.valid = block.valid && isPlausible(block.stamp, received);
+  dropImplausible();
   implausible_ = keepAgreeing(blocks_, description.numbering, continuity_->blockPeriod());
   invalid_ = all - implausible_ - blocks_.size();
 }

@@ -18,6 +18,12 @@ double marginFor(double extent) { return 1e-4 + extent * 0x1p-21; }
 /** Returns at once what lies so little behind Embree's thickened surface that nothing else can be in between. */
 constexpr double kMarginsToBark = 4;
 
+/**
+ * m. Embree loses rays at the thin end of long cones: its error in radius grows with length^2 / radius, and exceeds the
+ * margin at the top of an 8 m stem.
+ */
+constexpr double kLongestPiece = 1.5;
+
 /** Geometries of the scene. */
 constexpr unsigned kTrunks = 0, kBranches = 1;
 
@@ -61,6 +67,17 @@ void attachCones(RTCDevice device, RTCScene scene, unsigned id, std::size_t coun
   rtcReleaseGeometry(geometry);
 }
 
+std::vector<Cone> piecesOf(const Cone& whole)
+{
+  const double count = std::max(1.0, std::ceil(whole.length / kLongestPiece));
+  const double narrowing = (whole.base_radius - whole.tip_radius) / count;
+  std::vector<Cone> pieces;
+  for (double i = 0; i < count; ++i)
+    pieces.push_back({whole.base + i / count * whole.length * whole.axis, whole.axis, whole.length / count,
+                      whole.base_radius - i * narrowing, whole.base_radius - (i + 1) * narrowing});
+  return pieces;
+}
+
 Eigen::AlignedBox3d boundsOf(const std::vector<Cone>& cones)
 {
   Eigen::AlignedBox3d box(Eigen::Vector3d::Zero());
@@ -91,9 +108,17 @@ Wood::Wood(std::vector<Stem> stems, const std::vector<Cone>& stumps, const TreeO
   margin_ = marginFor(bounds.sizes().maxCoeff());
   growLooks(trees);
 
+  std::vector<Cone> pieces;
+  for (std::size_t i = 0; i < trunks_.size(); ++i)
+    for (const Cone& piece : piecesOf(trunks_[i]))
+    {
+      pieces.push_back(piece);
+      trunk_of_piece_.push_back(static_cast<std::uint32_t>(i));
+    }
+
   scene_.reset(rtcNewScene(device_.get()));
-  attachCones(device_.get(), scene_.get(), kTrunks, trunks_.size(), origin_, margin_,
-              [&](auto&& add) { std::for_each(trunks_.begin(), trunks_.end(), add); });
+  attachCones(device_.get(), scene_.get(), kTrunks, pieces.size(), origin_, margin_,
+              [&](auto&& add) { std::for_each(pieces.begin(), pieces.end(), add); });
   attachCones(device_.get(), scene_.get(), kBranches, first_branch_.back(), origin_, margin_,
               [&](auto&& add)
               {
@@ -165,7 +190,10 @@ std::optional<Hit> Wood::hitOf(const Candidate& candidate, const Ray& ray) const
     return Hit{entry->range, std::abs(entry->normal.dot(ray.direction)), surface, id};
   };
   if (candidate.geometry == kTrunks)
-    return hitAt(trunks_[candidate.index], Surface::Stem, candidate.index < stems_.size() ? candidate.index : 0);
+  {
+    const std::uint32_t trunk = trunk_of_piece_[candidate.index];
+    return hitAt(trunks_[trunk], Surface::Stem, trunk < stems_.size() ? trunk : 0);
+  }
 
   const auto next_stem = std::upper_bound(first_branch_.begin(), first_branch_.end(), candidate.index);
   const auto stem = static_cast<std::uint32_t>(next_stem - first_branch_.begin()) - 1;

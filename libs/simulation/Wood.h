@@ -53,7 +53,7 @@ class Wood
   {
     double range;            // m, to the solid with its margin
     std::uint32_t geometry;  // of the scene
-    std::uint32_t index;     // of the trunk, or of the branch among those of all stems
+    std::uint32_t index;     // of the piece of a trunk, or of the branch among those of all stems
   };
 
   void growLooks(const TreeOptions&);
@@ -62,6 +62,7 @@ class Wood
 
   std::vector<Stem> stems_;
   std::vector<Cone> trunks_;                          // stems, then stumps
+  std::vector<std::uint32_t> trunk_of_piece_;         // Embree knows trunks in pieces
   std::vector<std::vector<Cone>> looks_;              // branches of a tree
   std::vector<std::uint32_t> look_of_;                // of each stem: into looks_
   std::vector<std::uint32_t> first_branch_{0};        // of each stem, and one more for the end

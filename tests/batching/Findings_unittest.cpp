@@ -1,6 +1,8 @@
 // What fuzzing found: each of these failed once.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "FaultRig.h"
 #include "batching/PacketConsensus.h"
 
@@ -167,4 +169,19 @@ TEST(Findings, aPacketWithoutIdsMaySpanAGapButNotHalfAnHour)
   damaged[4].stamp += 1800s;
   EXPECT_EQ(keepAgreeing(damaged, Numbering::Stamps, 55us), 1u);
   EXPECT_EQ(damaged.size(), 11u);
+}
+
+TEST(Findings, aStampThatIsFarFromTheHostsIsNotTurnedIntoOneNearby)
+{
+  FakeLidarOptions lidar;
+  lidar.numbering = Numbering::Stamps;
+  lidar.stamp_modulus = 3600s;
+  const Rig rig{lidar};
+  Session session(rig, {});
+  std::vector<Arrival> arrivals = drive(rig, 1s);
+  store(arrivals[20].packet, FakeLidar::kHeaderSize, std::numeric_limits<std::int64_t>::min());
+  for (const Arrival& a : arrivals) session.push(a.lidar, a.packet, a.received);
+  session.take(session.batcher.finish());
+  EXPECT_EQ(session.batcher.counters(0).invalid, 1u);
+  EXPECT_EQ(session.batcher.counters(0).implausible, 0u);
 }

@@ -29,7 +29,7 @@ Stand thicketAt(double x)
   options.stems_per_hectare = 2000;
   options.spacing = 0.6;
   options.reach = 20;
-  return growStand(options, branchyTrees(), Ground(GroundOptions{}), Lane({{x, 0}}), 5);
+  return growStand(options, branchyTrees(), Ground(GroundOptions{}), Lane({{x, 0}}), 1);
 }
 
 Ray randomRay(double x, Random& random)
@@ -78,7 +78,10 @@ class BruteForce
   std::vector<Named> cones_;
 };
 
-/** 1.5 km from the world's origin single precision leaves 0.1 mm. */
+/**
+ * 1.5 km from the world's origin single precision leaves 0.1 mm. In this very thicket Embree loses two rays at thin tops
+ * of stems that it is given whole.
+ */
 TEST(Wood, isMetWhereASearchThroughAllConesMeetsIt)
 {
   constexpr double kFarAway = 1500;
@@ -123,7 +126,8 @@ TEST(Wood, isMetOnTheBark)
     ++met;
     const Cone bark = wood.stems()[hit->id].wood();
     const Eigen::Vector3d p = ray.at(hit->range);
-    if ((p - bark.base).dot(bark.axis) > bark.length - 1e-6) continue;  // the top's flat end
+    const double along = (p - bark.base).dot(bark.axis);
+    if (along < 1e-6 || along > bark.length - 1e-6) continue;  // a flat end
     farthest_off = std::max(farthest_off, std::abs(bark.distanceToMantle(p)));
     EXPECT_NEAR(hit->cosine_incidence, -bark.normal(p).dot(ray.direction), 1e-9);
   }
