@@ -5,6 +5,7 @@
  *   merge_crc/...                                   the same, a valid CRC-64 in every packet
  *   order/...                                       TimeBatcher::push without making points
  *   decode/...                                      kind, readBlocks and appendPoints, without TimeBatcher
+ *   store/...                                       zeros into the arrays of as many points: what memory alone takes
  *   crc/...                                         CRC-64 alone
  *
  * One turn of packets (64) per sensor is cycled, for 20 ms of work and 20 ms of copies in turn. `us_per_packet` is the
@@ -120,24 +121,48 @@ void merge(benchmark::State& state, const OusterProfile& profile, int channels, 
   besideMemcpy(state, rig, oneTurn);
 }
 
+void decodePacket(const PacketDecoder& decoder, std::size_t lidar, const Packet& packet,
+                  std::vector<MeasurementBlock>& blocks, PointCloud& points)
+{
+  if (decoder.kind(packet) != PacketKind::Lidar) return;
+  decoder.readBlocks(packet, blocks);
+  for (const MeasurementBlock& block : blocks)
+    decoder.appendPoints(packet, block.index, 0, static_cast<std::uint8_t>(lidar), points);
+}
+
 void decode(benchmark::State& state, const OusterProfile& profile, int channels, int sensors, Crc crc, Kernel kernel)
 {
   Rig rig(profile, channels, sensors, crc);
   const std::vector<BatchedLidar> lidars = rig.lidars<OusterDecoder>(kernel);
   PointCloud points;
   std::vector<MeasurementBlock> blocks;
-  const auto decodePacket = [&](std::size_t lidar, const Packet& packet, Timestamp)
-  {
-    const PacketDecoder& decoder = *lidars[lidar].decoder;
-    if (decoder.kind(packet) != PacketKind::Lidar) return;
-    decoder.readBlocks(packet, blocks);
-    for (const MeasurementBlock& block : blocks)
-      decoder.appendPoints(packet, block.index, 0, static_cast<std::uint8_t>(lidar), points);
-  };
   const auto oneTurn = [&]
   {
     points.clear();
-    rig.forEachPacket(decodePacket);
+    rig.forEachPacket([&](std::size_t lidar, const Packet& packet, Timestamp)
+                      { decodePacket(*lidars[lidar].decoder, lidar, packet, blocks, points); });
+    return points.size();
+  };
+  besideMemcpy(state, rig, oneTurn);
+}
+
+void store(benchmark::State& state, const OusterProfile& profile, int channels, int sensors, Crc crc, Kernel kernel)
+{
+  Rig rig(profile, channels, sensors, crc);
+  const std::vector<BatchedLidar> lidars = rig.lidars<OusterDecoder>(kernel);
+  PointCloud points;
+  std::vector<MeasurementBlock> blocks;
+  std::vector<std::size_t> ends;
+  rig.forEachPacket(
+      [&](std::size_t lidar, const Packet& packet, Timestamp)
+      {
+        decodePacket(*lidars[lidar].decoder, lidar, packet, blocks, points);
+        ends.push_back(points.size());
+      });
+  const auto oneTurn = [&]
+  {
+    points.clear();
+    for (const std::size_t end : ends) points.resize(end);
     return points.size();
   };
   besideMemcpy(state, rig, oneTurn);
@@ -180,6 +205,7 @@ void addProfile(const OusterProfile& profile, Kernel kernel)
   for (const int sensors : {1, 4, 8}) add("merge", merge<OusterDecoder>, profile, channels, sensors, Crc::None, kernel);
   add("merge_crc", merge<OusterDecoder>, profile, channels, 2, Crc::Valid, kernel);
   add("decode", decode, profile, channels, 1, Crc::None, kernel);
+  add("store", store, profile, channels, 2, Crc::None, kernel);
   add("crc", checksum, profile, channels, 1, Crc::Valid, kernel);
 }
 
