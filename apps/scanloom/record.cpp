@@ -152,6 +152,7 @@ Source openSource(const RecordArguments& arguments, const Configuration& configu
 {
   if (arguments.scene.given())
   {
+    refuseExisting({arguments.output}, arguments.overwrite);
     SimulatedRig simulated = simulatedRig(arguments.scene, configuration, arguments.lidars);
     const bool has_rig = hasRigSection(configuration);
     return {has_rig ? configuration.read<DriverOptions>(rigSection(configuration)) : DriverOptions{},
@@ -179,7 +180,6 @@ RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& dr
 int run(const RecordArguments& arguments)
 {
   const Loaded<RecordSettings> loaded = load<RecordSettings>(withScene(arguments.configuration, arguments.scene));
-  refuseExisting({arguments.output}, arguments.overwrite);
   const Source source = openSource(arguments, loaded.configuration);
   const bool live = source.isLive();
   if (!live && arguments.seconds > 0)

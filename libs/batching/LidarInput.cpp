@@ -100,8 +100,11 @@ void LidarInput::readBlocks(Bytes packet, Timestamp received)
   for (MeasurementBlock& block : blocks_)
     block.valid = block.valid && block.measurement_id < description.columns_per_frame;
   dropImplausible();
-  if (description.stamp_modulus > Duration{0}) unwrapStamps(received);
-  dropImplausible();
+  if (description.stamp_modulus > Duration{0})
+  {
+    unwrapStamps(received);
+    dropImplausible();
+  }
   implausible_ = keepAgreeing(blocks_, description.numbering, continuity_->blockPeriod());
   invalid_ = all - implausible_ - blocks_.size();
 }

@@ -8,30 +8,34 @@ namespace scanloom
 {
 namespace
 {
-class CaptureInput : public SensorInput
+class RigSensorInput : public SensorInput
 {
  public:
-  explicit CaptureInput(Rig rig) : rig_(std::move(rig)), header_(recordingHeader(rig_)), replay_(rig_) {}
+  RigSensorInput(const Rig& rig, std::unique_ptr<RigInput> input, bool has_body_imu)
+    : lidars_(rig.lidars), header_(recordingHeader(rig)), input_(std::move(input))
+  {
+    if (has_body_imu) body_T_imu_ = rig.body_T_imu;
+  }
 
-  std::optional<SensorEvent> next() override { return replay_.next(); }
+  std::optional<SensorEvent> next() override { return input_->next(); }
   const RecordingHeader& header() const override { return header_; }
-  double progress() const override { return replay_.progress(); }
-  std::map<std::string, std::uint64_t> counts() const override { return countsOf(replay_.account()); }
+  double progress() const override { return input_->progress(); }
+  std::map<std::string, std::uint64_t> counts() const override { return countsOf(input_->account()); }
 
   std::optional<Rigid> body_T_imu(int sensor) const override
   {
-    if (sensor == SensorImu::kBody)
-      return rig_.body_imu.empty() ? std::optional<Rigid>() : std::optional<Rigid>(rig_.body_T_imu);
-    const LidarDescription& lidar = rig_.lidars.at(static_cast<std::size_t>(sensor)).decoder->description();
+    if (sensor == SensorImu::kBody) return body_T_imu_;
+    const LidarDescription& lidar = lidars_.at(static_cast<std::size_t>(sensor)).decoder->description();
     return lidar.body_T_sensor * lidar.sensor_T_imu;
   }
 
-  std::vector<std::string> takeWarnings() override { return replay_.takeWarnings(); }
+  std::vector<std::string> takeWarnings() override { return input_->takeWarnings(); }
 
  private:
-  Rig rig_;
+  std::vector<BatchedLidar> lidars_;
   RecordingHeader header_;
-  RigReplay replay_;
+  std::optional<Rigid> body_T_imu_;
+  std::unique_ptr<RigInput> input_;
 };
 }  // namespace
 
@@ -48,5 +52,13 @@ std::map<std::string, std::uint64_t> countsOf(const RigAccount& account)
   return counts;
 }
 
-std::unique_ptr<SensorInput> makeCaptureInput(Rig rig) { return std::make_unique<CaptureInput>(std::move(rig)); }
+std::unique_ptr<SensorInput> makeRigSensorInput(const Rig& rig, std::unique_ptr<RigInput> input, bool has_body_imu)
+{
+  return std::make_unique<RigSensorInput>(rig, std::move(input), has_body_imu);
+}
+
+std::unique_ptr<SensorInput> makeCaptureInput(const Rig& rig)
+{
+  return makeRigSensorInput(rig, std::make_unique<RigReplay>(rig), !rig.body_imu.empty());
+}
 }  // namespace scanloom

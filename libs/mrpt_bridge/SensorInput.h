@@ -36,8 +36,11 @@ class SensorInput
   virtual std::vector<std::string> takeWarnings() = 0;
 };
 
+/** Whatever reads a rig; `has_body_imu`: samples of the body's own IMU come with it. */
+std::unique_ptr<SensorInput> makeRigSensorInput(const Rig&, std::unique_ptr<RigInput>, bool has_body_imu);
+
 /** The captures of a rig. */
-std::unique_ptr<SensorInput> makeCaptureInput(Rig);
+std::unique_ptr<SensorInput> makeCaptureInput(const Rig&);
 
 /**
  * A rawlog of ours; `only` names the lidars whose columns are wanted, empty means all. Throws std::runtime_error if it

@@ -1,6 +1,5 @@
 #include "simulation/SceneInput.h"
 
-#include "mrpt_bridge/RigObservations.h"
 #include "simulation/ScenePackets.h"
 #include "source/Extrinsics.h"
 #include "source/RigStream.h"
@@ -87,33 +86,6 @@ class SceneRigInput : public RigInput
   bool ended_ = false;
 };
 
-class SceneInput : public SensorInput
-{
- public:
-  SceneInput(std::shared_ptr<const Scene> scene, const Rig& rig)
-    : rig_(rig), header_(recordingHeader(rig_)), input_(makeSceneRigInput(std::move(scene), rig_))
-  {
-  }
-
-  std::optional<SensorEvent> next() override { return input_->next(); }
-  const RecordingHeader& header() const override { return header_; }
-  double progress() const override { return input_->progress(); }
-  std::map<std::string, std::uint64_t> counts() const override { return countsOf(input_->account()); }
-  std::vector<std::string> takeWarnings() override { return input_->takeWarnings(); }
-
-  std::optional<Rigid> body_T_imu(int sensor) const override
-  {
-    if (sensor == SensorImu::kBody) return rig_.body_T_imu;
-    const LidarDescription& lidar = rig_.lidars.at(static_cast<std::size_t>(sensor)).decoder->description();
-    return lidar.body_T_sensor * lidar.sensor_T_imu;
-  }
-
- private:
-  Rig rig_;
-  RecordingHeader header_;
-  std::unique_ptr<RigInput> input_;
-};
-
 /** What a pose is after it was written and read. */
 Rigid asWritten(const Rigid& pose) { return parsePose(poseText(pose)); }
 }  // namespace
@@ -149,6 +121,6 @@ std::unique_ptr<RigInput> makeSceneRigInput(std::shared_ptr<const Scene> scene, 
 
 std::unique_ptr<SensorInput> makeSceneInput(std::shared_ptr<const Scene> scene, const Rig& rig)
 {
-  return std::make_unique<SceneInput>(std::move(scene), rig);
+  return makeRigSensorInput(rig, makeSceneRigInput(std::move(scene), rig), true);
 }
 }  // namespace scanloom
