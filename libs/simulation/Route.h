@@ -12,7 +12,7 @@ namespace scanloom
 {
 struct DriveOptions
 {
-  double duration = 22.0;
+  double duration = 60.0;
   std::string route = "winding";
   double standstill = 2.5;
   double speed = 0.8;
