@@ -1,76 +1,132 @@
 #include "simulation/Foliage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace scanloom
 {
 namespace
 {
-/** A ray along one axis, in voxels. */
-struct Axis
+/** x, y, z and something that never comes first: one instruction for three axes on every processor of 64 bits. */
+using Axes = float __attribute__((vector_size(16)));
+using AxesInt = int __attribute__((vector_size(16)));
+
+Axes same(float value) { return Axes{value, value, value, value}; }
+
+/** To the next whole number, but for those that lie halfway: either may do. */
+Axes rounded(Axes value)
 {
-  Axis(double from, double metres_per_metre, double voxel_size)
-    : origin(from / voxel_size), speed(metres_per_metre / voxel_size)
+  constexpr float kWhole = 0x1.8p23F;  // added and taken away again, it leaves no room for a fraction
+  return (value + kWhole) - kWhole;
+}
+
+Axes clamped(Axes value, Axes least, Axes most)
+{
+  value = value < least ? least : value;
+  return value > most ? most : value;
+}
+
+/**
+ * A ray on its way, voxel by voxel, in voxels from the one that it starts in: floats are exact to 10 um at 100 m.
+ * After J. Amanatides and A. Woo: A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987; but through open
+ * space in cubes as large as it is empty, and without branches that no processor foresees.
+ */
+class Walk
+{
+ public:
+  Walk() = default;
+  Walk(const FoliageVoxels& voxels, const FoliageQuery& query) : optical_depth_(static_cast<float>(query.optical_depth))
   {
-    constexpr double kStill = 1e-12;  // a ray across the axis never comes to a border
-    if (std::abs(speed) < kStill) speed = kStill;
-    inverse = 1 / speed;
-    forwards = speed > 0 ? 1 : 0;
+    const Ray& ray = query.ray;
+    const double size = voxels.voxelSize();
+    const Eigen::Array3i start = voxels.voxelAt(ray.origin);
+    constexpr double kStill = 1e-12;  // a ray across an axis never comes to a border
+    for (int i = 0; i < 3; ++i)
+    {
+      const double speed = std::abs(ray.direction[i]) < kStill ? kStill : ray.direction[i];
+      start_[i] = start[i];
+      origin_[i] = static_cast<float>(ray.origin[i] / size - start[i]);
+      speed_[i] = static_cast<float>(speed / size);
+      inverse_[i] = static_cast<float>(size / speed);
+      sign_[i] = speed > 0 ? 1 : -1;
+      forwards_[i] = speed > 0 ? 1 : 0;
+    }
+    const float lowest = static_cast<float>(voxels.lowest() - start.z()),
+                above = static_cast<float>(voxels.above() - start.z());
+    const float to_floor = (lowest - origin_[2]) * inverse_[2], to_ceiling = (above - origin_[2]) * inverse_[2];
+    range_ = std::max(0.0F, std::min(to_floor, to_ceiling));
+    end_ = std::min(static_cast<float>(query.max_range), std::max(to_floor, to_ceiling));
+    at_ = voxelAt(range_);
+    at_[2] = std::clamp(at_[2], lowest, above - 1);
   }
 
-  /** Rounds down without a branch. */
-  int voxelAt(double range) const
+  bool hasEnded() const { return range_ >= end_; }
+  const std::optional<Leaf>& leaf() const { return leaf_; }
+
+  void step(const FoliageVoxels& voxels)
   {
-    constexpr int kPositive = 1 << 21;
-    return static_cast<int>(origin + range * speed + kPositive) - kPositive;
+    const AxesInt voxel = start_ + __builtin_convertvector(at_, AxesInt);
+    const FoliageVoxel content = voxels.at(voxel[0], voxel[1], voxel[2]);
+    const Axes around = same(static_cast<float>(content.around()));
+    const Axes leaves = (at_ + sign_ * around + forwards_ - origin_) * inverse_;
+    const float first = std::min(leaves[0], std::min(leaves[1], leaves[2]));
+    const float next = std::max(range_, first);
+    if (!content.isEmpty())
+    {
+      const float extinction = static_cast<float>(content.extinction());
+      const float depth = extinction * (std::min(next, end_) - range_);
+      if (depth >= optical_depth_)
+      {
+        leaf_ = Leaf{range_ + optical_depth_ / extinction, content.surface()};
+        range_ = end_;
+        return;
+      }
+      optical_depth_ -= depth;
+    }
+    range_ = next;
+    const Axes inside = clamped(voxelAt(next), at_ - around, at_ + around);
+    at_ = leaves == same(first) ? at_ + sign_ * (around + 1) : inside;
   }
 
-  double rangeOf(int border) const { return (border - origin) * inverse; }
+ private:
+  Axes voxelAt(float range) const { return rounded(origin_ + same(range) * speed_ - 0.5F); }
 
-  double origin, speed, inverse;  // voxels, voxels per metre of ray, metres of ray per voxel
-  int forwards;                   // 1, or 0 if backwards
+  AxesInt start_{};                      // voxel of the ray's origin
+  Axes origin_{}, speed_{}, inverse_{};  // voxels from there, voxels per metre of ray, metres of ray per voxel
+  Axes sign_{}, forwards_{};             // 1 and 1, or -1 and 0
+  Axes at_{};                            // voxels from that of the origin
+  float range_ = 0, end_ = 0, optical_depth_ = 0;
+  std::optional<Leaf> leaf_;
 };
 }  // namespace
 
-std::optional<Foliage::Leaf> Foliage::intersect(const Ray& ray, double max_range, double optical_depth) const
+std::vector<std::optional<Leaf>> Foliage::intersect(const std::vector<FoliageQuery>& queries) const
 {
-  const double size = voxels_.voxelSize();
-  const Axis x(ray.origin.x(), ray.direction.x(), size), y(ray.origin.y(), ray.direction.y(), size),
-      z(ray.origin.z(), ray.direction.z(), size);
-  const double to_floor = z.rangeOf(voxels_.lowest()), to_ceiling = z.rangeOf(voxels_.above());
-  double range = std::max(0.0, std::min(to_floor, to_ceiling));
-  const double end = std::min(max_range, std::max(to_floor, to_ceiling));
-  int at_x = x.voxelAt(range), at_y = y.voxelAt(range);
-  int at_z = std::clamp(z.voxelAt(range), voxels_.lowest(), voxels_.above() - 1);
-
-  // After J. Amanatides and A. Woo: A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987; but through
-  // open space in cubes as large as it is empty, and without branches that no processor foresees.
-  while (range < end)
+  std::vector<std::optional<Leaf>> leaves(queries.size());
+  struct Slot
   {
-    const FoliageVoxel content = voxels_.at(at_x, at_y, at_z);
-    const int around = content.around();
-    const auto borderOf = [&](const Axis& axis, int at) { return at - around + axis.forwards * (2 * around + 1); };
-    const int border_x = borderOf(x, at_x), border_y = borderOf(y, at_y), border_z = borderOf(z, at_z);
-    const double leaves_x = x.rangeOf(border_x), leaves_y = y.rangeOf(border_y), leaves_z = z.rangeOf(border_z);
-    const double leaves = std::min(leaves_x, std::min(leaves_y, leaves_z));
-    const double next = std::max(range, leaves);
-    if (!content.isEmpty())
+    Walk walk;
+    std::size_t query = 0;
+  };
+  // Some at a time, a step of each in turn: every step waits for its memory and its sums, but not for other rays'.
+  constexpr std::size_t kAtOnce = 4;
+  std::array<Slot, kAtOnce> slots;
+  std::size_t active = 0, next = 0;
+  const auto start = [&] { return Slot{Walk(voxels_, queries[next]), next++}; };
+  while (active < kAtOnce && next < queries.size()) slots[active++] = start();
+  while (active > 0)
+    for (std::size_t i = 0; i < active; ++i)
     {
-      const double depth = content.extinction() * (std::min(next, end) - range);
-      if (depth >= optical_depth) return Leaf{range + optical_depth / content.extinction(), content.surface()};
-      optical_depth -= depth;
+      Slot& slot = slots[i];
+      if (!slot.walk.hasEnded())
+      {
+        slot.walk.step(voxels_);
+        continue;
+      }
+      leaves[slot.query] = slot.walk.leaf();
+      slot = next < queries.size() ? start() : slots[--active];
     }
-    range = next;
-    const auto enter = [&](const Axis& axis, int at, int border, double leaves_axis)
-    {
-      const int inside = std::min(std::max(axis.voxelAt(next), at - around), at + around);
-      return leaves_axis == leaves ? border - 1 + axis.forwards : inside;
-    };
-    at_x = enter(x, at_x, border_x, leaves_x);
-    at_y = enter(y, at_y, border_y, leaves_y);
-    at_z = enter(z, at_z, border_z, leaves_z);
-  }
-  return std::nullopt;
+  return leaves;
 }
 }  // namespace scanloom

@@ -8,25 +8,37 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace scanloom
 {
+struct Leaf
+{
+  double range;  // m
+  Surface surface;
+};
+
+struct FoliageQuery
+{
+  Ray ray;
+  double max_range;      // m
+  double optical_depth;  // of the foliage that the ray gets through
+};
+
 class Foliage
 {
  public:
   explicit Foliage(FoliageVoxels voxels) : voxels_(std::move(voxels)) { voxels_.measureOpenSpace(); }
 
-  struct Leaf
-  {
-    double range;  // m
-    Surface surface;
-  };
-
   /**
-   * Where the ray has passed so much foliage that the integral of its extinction reaches `optical_depth`. An
+   * Where each ray has passed so much foliage that the integral of its extinction reaches `optical_depth`. An
    * exponentially distributed depth gives every voxel the chance of a return that its extinction asks for.
    */
-  std::optional<Leaf> intersect(const Ray&, double max_range, double optical_depth) const;
+  std::vector<std::optional<Leaf>> intersect(const std::vector<FoliageQuery>&) const;
+  std::optional<Leaf> intersect(const FoliageQuery& query) const
+  {
+    return intersect(std::vector<FoliageQuery>{query}).front();
+  }
 
   const FoliageVoxels& voxels() const { return voxels_; }
 

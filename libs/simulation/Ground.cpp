@@ -22,8 +22,8 @@ SineCosine sineCosine(const Eigen::Array2d& angle)
   Eigen::Array2d sine = Eigen::Array2d::Ones(), cosine = Eigen::Array2d::Ones();
   for (int n = 16; n >= 2; n -= 2)  // Taylor's series to r^17, inside out
   {
-    sine = 1 - q * sine * (1.0 / (n * (n + 1)));
-    cosine = 1 - q * cosine * (1.0 / (n * (n - 1)));
+    sine = 1 - (q * (1.0 / (n * (n + 1)))) * sine;
+    cosine = 1 - (q * (1.0 / (n * (n - 1)))) * cosine;
   }
   return {sign * r * sine, sign * cosine};
 }

@@ -14,6 +14,14 @@ struct Ray
   Eigen::Vector3d at(double range) const { return origin + range * direction; }
 };
 
+/** What a ray is asked: the nearest surface within `max_range`. */
+struct RayQuery
+{
+  Ray ray;
+  double max_range;    // m
+  std::uint64_t draw;  // decides what is left to chance: of a ray through foliage, which leaf it meets
+};
+
 enum class Surface
 {
   Ground,

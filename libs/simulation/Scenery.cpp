@@ -23,17 +23,34 @@ Moment::Moment(const World& world, const Machine& machine, const Rigid& world_T_
 {
 }
 
-std::optional<Hit> Moment::cast(const Ray& ray, double max_range, std::uint64_t draw) const
+std::vector<std::optional<Hit>> Moment::cast(const std::vector<RayQuery>& queries) const
 {
-  const Ray in_body{body_R_world_ * (ray.origin - world_T_body_.translation), body_R_world_ * ray.direction};
+  std::vector<std::optional<Hit>> nearest(queries.size());
+  std::vector<RayQuery> beyond;
+  std::vector<std::size_t> beyond_of;  // of the queries
+  for (std::size_t i = 0; i < queries.size(); ++i)
+  {
+    const auto& [ray, max_range, draw] = queries[i];
+    const Ray in_body{body_R_world_ * (ray.origin - world_T_body_.translation), body_R_world_ * ray.direction};
+    nearest[i] = castMachine(in_body);
+    if (nearest[i] && nearest[i]->range <= max_range) continue;  // nothing else is so near to the machine
+
+    nearest[i] = castMoving(ray, in_body);
+    if (nearest[i] && nearest[i]->range > max_range) nearest[i].reset();
+    beyond.push_back({ray, nearest[i] ? nearest[i]->range : max_range, draw});
+    beyond_of.push_back(i);
+  }
+  const std::vector<std::optional<Hit>> standing = world_->cast(beyond);
+  for (std::size_t i = 0; i < standing.size(); ++i)
+    if (standing[i]) nearest[beyond_of[i]] = standing[i];
+  return nearest;
+}
+
+std::optional<Hit> Moment::castMachine(const Ray& in_body) const
+{
   std::optional<Hit> nearest;
   for (const Eigen::AlignedBox3d& box : machine_->body()) keepNearer(nearest, castBox(box, in_body), Surface::Machine);
-  if (nearest && nearest->range <= max_range) return nearest;  // nothing else is so near to the machine
-
-  nearest = castMoving(ray, in_body);
-  if (nearest && nearest->range > max_range) nearest.reset();
-  const auto standing = world_->cast(ray, nearest ? nearest->range : max_range, draw);
-  return standing ? standing : nearest;
+  return nearest;
 }
 
 std::optional<Hit> Moment::castMoving(const Ray& in_world, const Ray& in_body) const

@@ -19,10 +19,12 @@ class Moment
 
   const Rigid& worldTBody() const { return world_T_body_; }
 
-  /** The nearest surface within `max_range`; pure. `draw` as World::cast has it. */
-  std::optional<Hit> cast(const Ray& ray_in_world, double max_range, std::uint64_t draw) const;
+  /** What each ray, in the world, meets; pure, as World::cast is. */
+  std::vector<std::optional<Hit>> cast(const std::vector<RayQuery>&) const;
+  std::optional<Hit> cast(const RayQuery& query) const { return cast(std::vector<RayQuery>{query}).front(); }
 
  private:
+  std::optional<Hit> castMachine(const Ray& in_body) const;
   std::optional<Hit> castMoving(const Ray& in_world, const Ray& in_body) const;
 
   const World* world_;

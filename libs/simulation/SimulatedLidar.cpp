@@ -89,33 +89,43 @@ OusterColumn SimulatedLidar::measure(const Scenery& scenery, std::uint64_t colum
   const Eigen::Vector3d origin = world_T_rotor * Eigen::Vector3d(beam_radius_, 0, beam_height_);
   const Eigen::Matrix3d world_R_rotor = world_T_rotor.rotation.toRotationMatrix();
 
+  // Every beam draws the same number of times, so that one lost return does not change its neighbours.
   Random random(seed_, RandomStream::Lidar, place_, column);
-  measured.readings.reserve(beam_directions_.size());
+  std::vector<RayQuery> queries;
+  std::vector<Luck> lucks;
   for (const Eigen::Vector3d& direction : beam_directions_)
-    measured.readings.push_back(measureBeam(moment, {origin, world_R_rotor * direction}, random));
+  {
+    queries.push_back({{origin, world_R_rotor * direction}, ranging_.farthest_range, random.bits()});
+    lucks.push_back(drawLuck(random));
+  }
+  const std::vector<std::optional<Hit>> hits = moment.cast(queries);
+  for (std::size_t beam = 0; beam < hits.size(); ++beam)
+    measured.readings.push_back(readingOf(hits[beam], lucks[beam]));
   return measured;
 }
 
-OusterReading SimulatedLidar::measureBeam(const Moment& moment, const Ray& ray, Random& random) const
+SimulatedLidar::Luck SimulatedLidar::drawLuck(Random& random)
 {
-  // Every beam draws the same number of times, so that one lost return does not change its neighbours.
-  const std::uint64_t draw = random.bits();
-  const double noise = random.normal();
-  const double luck = random.uniform();
-  const double shade = random.normal();
+  Luck luck;
+  luck.noise = random.normal();
+  luck.detection = random.uniform();
+  luck.shade = random.normal();
+  return luck;
+}
 
+OusterReading SimulatedLidar::readingOf(const std::optional<Hit>& hit, const Luck& luck) const
+{
   OusterReading measured;
-  const auto hit = moment.cast(ray, ranging_.farthest_range, draw);
-  const double reflectivity = hit ? std::max(0.01, reflectivityOf(hit->surface) * (1 + 0.1 * shade)) : 0;
-  measured.near_ir = photons((hit ? kNearIrOfWhite * reflectivity : kSkyNearIr) * (1 + 0.1 * shade));
+  const double reflectivity = hit ? std::max(0.01, reflectivityOf(hit->surface) * (1 + 0.1 * luck.shade)) : 0;
+  measured.near_ir = photons((hit ? kNearIrOfWhite * reflectivity : kSkyNearIr) * (1 + 0.1 * luck.shade));
   if (!hit || hit->range < ranging_.least_range) return measured;
   const double strength =
       signalStrength(reflectivity, hit->cosine_incidence, hit->range, ranging_.range_at_ten_percent);
-  if (luck >= chanceOfReturn(strength)) return measured;
+  if (luck.detection >= chanceOfReturn(strength)) return measured;
 
   // The sensor's range is counted from the axis of rotation, along the path of the light: radius, then beam.
   const double origin_to_axis = std::hypot(beam_radius_, beam_height_);
-  const double range = hit->range + rangeNoise(ranging_, strength) * noise + origin_to_axis;
+  const double range = hit->range + rangeNoise(ranging_, strength) * luck.noise + origin_to_axis;
   measured.first.range_mm = static_cast<std::uint32_t>(std::lround(std::max(range, kMillimetre) / kMillimetre));
   measured.first.reflectivity = static_cast<std::uint8_t>(std::clamp(100 * reflectivity, 1.0, 100.0));
   measured.first.signal = photons(kPhotonsAtHalf * strength);

@@ -39,7 +39,16 @@ class SimulatedLidar
   OusterColumn measure(const Scenery&, std::uint64_t column) const;
 
  private:
-  OusterReading measureBeam(const Moment&, const Ray&, Random&) const;
+  /** What chance does to a beam. */
+  struct Luck
+  {
+    double noise;      // standard normal
+    double detection;  // uniform: the return is lost if its chance is not above
+    double shade;      // standard normal: of the surface's reflectivity
+  };
+
+  static Luck drawLuck(Random&);
+  OusterReading readingOf(const std::optional<Hit>&, const Luck&) const;
   double reflectivityOf(Surface) const;
 
   OusterMetadata metadata_;

@@ -59,6 +59,6 @@ bool TotalStation::isHidden(const Scenery& scenery, double t, const Eigen::Vecto
 {
   const Eigen::Vector3d from = eye(scenery.world()), sight = prism - from;
   const double free_way = sight.norm() - kPrismRadius;
-  return free_way > 0 && scenery.at(t).cast({from, sight.normalized()}, free_way, draw).has_value();
+  return free_way > 0 && scenery.at(t).cast({{from, sight.normalized()}, free_way, draw}).has_value();
 }
 }  // namespace scanloom

@@ -7,6 +7,19 @@
 
 namespace scanloom
 {
+namespace
+{
+Random leavesOf(std::uint64_t draw) { return {draw, RandomStream::Leaves, 0}; }
+
+/** Leaves that face all directions alike are met in proportion to the area that they show: cosines of density 2c. */
+double cosineOfLeaf(std::uint64_t draw)
+{
+  Random random = leavesOf(draw);
+  random.exponential();  // that was the optical depth
+  return std::sqrt(random.uniform());
+}
+}  // namespace
+
 World::World(const Ground& ground, const ForestOptions& options, const std::vector<Eigen::Vector2d>& path,
              std::uint64_t seed)
   : World(ground, options, Lane(path), seed)
@@ -25,22 +38,33 @@ World::World(const Ground& ground, const ForestOptions& options, const Lane& lan
 {
 }
 
-std::optional<Hit> World::cast(const Ray& ray, double max_range, std::uint64_t draw) const
+std::vector<std::optional<Hit>> World::cast(const std::vector<RayQuery>& queries) const
 {
-  std::optional<Hit> nearest;
-  const auto reach = [&] { return nearest ? nearest->range : max_range; };
-  if (const auto range = ground_.intersect(ray, reach()))
+  std::vector<std::optional<Hit>> nearest(queries.size());
+  std::vector<FoliageQuery> through_foliage;
+  through_foliage.reserve(queries.size());
+  const auto reach = [&](std::size_t i) { return nearest[i] ? nearest[i]->range : queries[i].max_range; };
+  for (std::size_t i = 0; i < queries.size(); ++i)
   {
-    const Eigen::Vector3d p = ray.at(*range);
-    nearest = Hit{*range, std::abs(ground_.normal(p.x(), p.y()).dot(ray.direction)), Surface::Ground, 0};
+    const auto& [ray, max_range, draw] = queries[i];
+    nearest[i] = castGround(ray, max_range);
+    // An exponential depth has no memory: one for the whole ray is as good as a new one for every voxel.
+    through_foliage.push_back({ray, reach(i), leavesOf(draw).exponential()});
   }
-  // An exponential depth has no memory: one for the whole ray is as good as a new one for every voxel.
-  Random random(draw, RandomStream::Leaves, 0);
-  const double optical_depth = random.exponential();
-  // Leaves that face all directions alike are met in proportion to the area that they show: cosines of density 2c.
-  if (const auto leaf = foliage_.intersect(ray, reach(), optical_depth))
-    nearest = Hit{leaf->range, std::sqrt(random.uniform()), leaf->surface, 0};
-  if (const auto wood = wood_.cast(ray, reach())) nearest = wood;
+  const std::vector<std::optional<Leaf>> leaves = foliage_.intersect(through_foliage);
+  for (std::size_t i = 0; i < queries.size(); ++i)
+  {
+    if (leaves[i]) nearest[i] = Hit{leaves[i]->range, cosineOfLeaf(queries[i].draw), leaves[i]->surface, 0};
+    if (const auto wood = wood_.cast(queries[i].ray, reach(i))) nearest[i] = wood;
+  }
   return nearest;
+}
+
+std::optional<Hit> World::castGround(const Ray& ray, double max_range) const
+{
+  const auto range = ground_.intersect(ray, max_range);
+  if (!range) return std::nullopt;
+  const Eigen::Vector3d p = ray.at(*range);
+  return Hit{*range, std::abs(ground_.normal(p.x(), p.y()).dot(ray.direction)), Surface::Ground, 0};
 }
 }  // namespace scanloom

@@ -6,6 +6,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -14,6 +15,7 @@ namespace scanloom
 namespace
 {
 constexpr double kMaxRange = 50;
+constexpr int kBeams = 128;
 
 SimulationSettings settingsOf(const std::string& stand)
 {
@@ -40,7 +42,7 @@ std::vector<Ray> fan(const World& world, double x)
   std::vector<Ray> rays;
   const Eigen::Vector3d origin(x, 0, world.ground().height(x, 0.0) + 2.5);
   for (int column = 0; column < 1024; column += 2)
-    for (int beam = 0; beam < 128; ++beam)
+    for (int beam = 0; beam < kBeams; ++beam)
     {
       const double azimuth = 2 * M_PI * column / 1024, altitude = M_PI / 4 * (1 - beam / 63.5);
       rays.push_back(
@@ -75,12 +77,17 @@ void castRays(benchmark::State& state, const std::string& stand)
   std::array<double, 8> returns{};
   double rays = 0;
   std::uint64_t draw = static_cast<std::uint64_t>(state.thread_index()) << 32;
+  std::vector<RayQuery> column(kBeams);
   for (auto _ : state)
-    for (const Ray& ray : course.rays)
+    for (auto first = course.rays.begin(); first != course.rays.end(); first += kBeams)
     {
-      const auto hit = course.world.cast(ray, kMaxRange, ++draw);
-      if (hit) ++returns[static_cast<std::size_t>(hit->surface)];
-      ++rays;
+      std::transform(first, first + kBeams, column.begin(),
+                     [&](const Ray& ray) {
+                       return RayQuery{ray, kMaxRange, ++draw};
+                     });
+      for (const auto& hit : course.world.cast(column))
+        if (hit) ++returns[static_cast<std::size_t>(hit->surface)];
+      rays += kBeams;
     }
   state.SetItemsProcessed(static_cast<std::int64_t>(rays));
   constexpr std::array kNames{"ground", "stem", "branch", "crown", "undergrowth"};
@@ -113,9 +120,16 @@ void castFoliage(benchmark::State& state, const std::string& stand)
 {
   const Course& course = courseThrough(stand);
   Random random(1, RandomStream::Leaves, 0);
+  std::vector<FoliageQuery> column(kBeams);
   for (auto _ : state)
-    for (const Ray& ray : course.rays)
-      benchmark::DoNotOptimize(course.world.foliage().intersect(ray, kMaxRange, random.exponential()));
+    for (auto first = course.rays.begin(); first != course.rays.end(); first += kBeams)
+    {
+      std::transform(first, first + kBeams, column.begin(),
+                     [&](const Ray& ray) {
+                       return FoliageQuery{ray, kMaxRange, random.exponential()};
+                     });
+      benchmark::DoNotOptimize(course.world.foliage().intersect(column));
+    }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(course.rays.size()));
 }
 BENCHMARK_CAPTURE(castFoliage, sparse, "sparse")->Unit(benchmark::kMillisecond);

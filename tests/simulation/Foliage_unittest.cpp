@@ -59,7 +59,7 @@ TEST(Foliage, letsLightThroughAsBeerAndLambertSay)
   double depth = 0;
   for (int i = 0; i < kRays; ++i)
   {
-    const auto leaf = hedge.intersect(ray, kMaxRange, random.exponential());
+    const auto leaf = hedge.intersect({ray, kMaxRange, random.exponential()});
     through += !leaf;
     if (!leaf) continue;
     EXPECT_EQ(leaf->surface, Surface::Crown);
@@ -82,7 +82,7 @@ TEST(Foliage, isMetWhereTheSumOfItsExtinctionReachesTheDepth)
   {
     const Ray ray = randomRay(random);
     const double wanted = random.exponential();
-    const auto leaf = foliage.intersect(ray, kMaxRange, wanted);
+    const auto leaf = foliage.intersect({ray, kMaxRange, wanted});
 
     constexpr double kStep = 5e-3;  // m
     const double end = leaf ? leaf->range : kMaxRange;
@@ -107,10 +107,10 @@ TEST(Foliage, isNotMetBeyondTheRange)
   {
     const Ray ray = randomRay(random);
     const double wanted = random.exponential();
-    const auto leaf = foliage.intersect(ray, kMaxRange, wanted);
+    const auto leaf = foliage.intersect({ray, kMaxRange, wanted});
     if (!leaf) continue;
-    EXPECT_FALSE(foliage.intersect(ray, 0.999 * leaf->range, wanted));
-    EXPECT_TRUE(foliage.intersect(ray, 1.001 * leaf->range, wanted));
+    EXPECT_FALSE(foliage.intersect({ray, 0.999 * leaf->range, wanted}));
+    EXPECT_TRUE(foliage.intersect({ray, 1.001 * leaf->range, wanted}));
   }
 }
 
@@ -125,7 +125,7 @@ TEST(Foliage, isFoundByRaysAlongTheAxes)
         Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0, -1)})
   {
     const Eigen::Vector3d centre(8.25, 3.25, 2.25);
-    const auto leaf = bush.intersect({centre - 2 * direction, direction}, kMaxRange, 0.5 * 2.4 * 0.25);
+    const auto leaf = bush.intersect({{centre - 2 * direction, direction}, kMaxRange, 0.5 * 2.4 * 0.25});
     ASSERT_TRUE(leaf) << direction.transpose();
     EXPECT_NEAR(leaf->range, 1.75 + 0.125, 1e-9);
     EXPECT_EQ(leaf->surface, Surface::Undergrowth);

@@ -38,13 +38,13 @@ TEST(Machine, isSeenWhereverItStands)
   const Moment moment(scene.scenery.world(), machine, world_T_body, machine.boom().at(0), {});
   const Ray sideways{world_T_body * Eigen::Vector3d(-2, 5, 1.5), world_T_body.rotation * -Eigen::Vector3d::UnitY()};
 
-  const auto hit = moment.cast(sideways, 50, 0);
+  const auto hit = moment.cast({sideways, 50, 0});
 
   ASSERT_TRUE(hit);
   EXPECT_EQ(hit->surface, Surface::Machine);
   EXPECT_NEAR(hit->range, 5 - 1.25, 1e-9);
   EXPECT_NEAR(hit->cosine_incidence, 1, 1e-9);
-  EXPECT_FALSE(moment.cast(sideways, 3, 0)) << "beyond the range that was asked for";
+  EXPECT_FALSE(moment.cast({sideways, 3, 0})) << "beyond the range that was asked for";
 }
 
 TEST(Machine, hidesAboutAThirdOfEachLidarsDirections)
@@ -62,7 +62,7 @@ TEST(Machine, hidesAboutAThirdOfEachLidarsDirections)
         const double azimuth = 2 * M_PI * i / 512, altitude = (j - 15.5) / 32 * M_PI / 2;
         const Eigen::Vector3d direction(std::cos(azimuth) * std::cos(altitude), std::sin(azimuth) * std::cos(altitude),
                                         std::sin(altitude));
-        const auto hit = moment.cast({world_T_sensor.translation, world_T_sensor.rotation * direction}, 50, 0);
+        const auto hit = moment.cast({{world_T_sensor.translation, world_T_sensor.rotation * direction}, 50, 0});
         hidden += hit && (hit->surface == Surface::Machine || hit->surface == Surface::Boom);
         ++rays;
       }

@@ -79,8 +79,8 @@ class BruteForce
 };
 
 /**
- * 1.5 km from the world's origin single precision leaves 0.1 mm. In this very thicket Embree loses two rays at thin tops
- * of stems that it is given whole.
+ * 1.5 km from the world's origin single precision leaves 0.1 mm. In this very thicket Embree loses two rays at thin
+ * tops of stems that it is given whole.
  */
 TEST(Wood, isMetWhereASearchThroughAllConesMeetsIt)
 {

@@ -36,7 +36,7 @@ TEST(World, isMetWhereItsSurfacesAre)
   std::uint64_t draw = 0;
   for (const Ray& ray : fan(world))
   {
-    const auto hit = world.cast(ray, kMaxRange, ++draw);
+    const auto hit = world.cast({ray, kMaxRange, ++draw});
     if (!hit) continue;
     ++met[hit->surface];
     const Eigen::Vector3d p = ray.at(hit->range);
@@ -63,7 +63,7 @@ TEST(World, givesTheNearestOfItsSurfaces)
   std::uint64_t draw = 0;
   for (const Ray& ray : fan(world))
   {
-    const auto hit = world.cast(ray, kMaxRange, ++draw);
+    const auto hit = world.cast({ray, kMaxRange, ++draw});
     const double range = hit ? hit->range : kMaxRange;
     const auto wood = world.wood().cast(ray, kMaxRange);
     EXPECT_LE(range, world.ground().intersect(ray, kMaxRange).value_or(kMaxRange));
@@ -76,7 +76,7 @@ TEST(World, hasCrownsAboveEightMetresInTheSparseStand)
   const World world = worldAround({});
   std::uint64_t draw = 0;
   for (const Ray& ray : fan(world))
-    if (const auto hit = world.cast(ray, kMaxRange, ++draw); hit && hit->surface == Surface::Crown)
+    if (const auto hit = world.cast({ray, kMaxRange, ++draw}); hit && hit->surface == Surface::Crown)
     {
       const Eigen::Vector3d p = ray.at(hit->range);
       EXPECT_GT(p.z() - world.ground().height(p.x(), p.y()), 7.4) << "but for half a voxel and the slope";
@@ -93,7 +93,7 @@ TEST(World, answersTheSameOnAnyThreadAndOtherwiseForAnotherDraw)
     tbb::parallel_for(std::size_t{0}, rays.size(),
                       [&](std::size_t i)
                       {
-                        const auto hit = world.cast(rays[i], kMaxRange, draw + i);
+                        const auto hit = world.cast({rays[i], kMaxRange, draw + i});
                         ranges[i] = hit ? hit->range : 0;
                       });
     return ranges;
@@ -101,7 +101,7 @@ TEST(World, answersTheSameOnAnyThreadAndOtherwiseForAnotherDraw)
   std::vector<double> one_by_one;
   for (std::size_t i = 0; i < rays.size(); ++i)
   {
-    const auto hit = world.cast(rays[i], kMaxRange, i);
+    const auto hit = world.cast({rays[i], kMaxRange, i});
     one_by_one.push_back(hit ? hit->range : 0);
   }
   EXPECT_EQ(castAll(0), one_by_one);
@@ -141,7 +141,7 @@ TEST(World, hasTheStemDiametersOfItsTable)
     for (double side = -0.12; side <= 0.12; side += 0.002)
     {
       const Ray ray{eye, (breast + Eigen::Vector3d(0, side, 0) - eye).normalized()};
-      const auto hit = world.cast(ray, 4, 1);
+      const auto hit = world.cast({ray, 4, 1});
       if (hit && hit->surface == Surface::Stem && hit->id == i && hit->cosine_incidence > 0.3)
         across.emplace_back((ray.at(hit->range) - breast).dot(u), (ray.at(hit->range) - breast).dot(v));
     }
