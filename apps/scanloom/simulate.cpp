@@ -8,6 +8,7 @@
 #include "config/AtomicFile.h"
 #include "config/ConfigError.h"
 #include "simulation/RecordingFolder.h"
+#include "simulation/ScenePictures.h"
 #include "simulation/SceneSensors.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,7 @@ struct SimulateArguments
   int jobs = 0;
   bool udp = false;
   double delay = 3;  // s before the first packet over UDP
+  std::string pictures;
 };
 
 /** Ends a recording that nobody waits for any more: half of one would only mislead. */
@@ -60,6 +62,17 @@ int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const st
     return kInterrupted;
   }
   writeAtomically(folder / kConfigurationCopy, [&](std::ostream& file) { file << toIni(loaded); });
+  std::cout << folder.string() << '\n';
+  return kDone;
+}
+
+/** Of the middle of the drive. */
+int draw(const Scene& scene, const std::filesystem::path& folder)
+{
+  const double middle = 0.5 * scene.span.duration;
+  std::filesystem::create_directories(folder);
+  drawStand(scene, middle, folder / "stand.png");
+  drawScans(scene, middle, folder / "scans.png");
   std::cout << folder.string() << '\n';
   return kDone;
 }
@@ -92,9 +105,9 @@ int run(SimulateArguments arguments)
   const Loaded<SimulationSettings> loaded = load<SimulationSettings>(arguments.configuration);
   std::vector<std::string> names = recordingFileNames(loaded.settings);
   names.emplace_back(kConfigurationCopy);
-  if (arguments.udp != arguments.output.folder.empty())
-    throw UsageError("either --out-dir, for a recording in a folder, or --udp, for packets in real time");
-  if (!arguments.udp) refuseExisting(arguments.output, names);
+  if (arguments.udp + !arguments.output.folder.empty() + !arguments.pictures.empty() != 1)
+    throw UsageError("one of --out-dir, for a recording in a folder, --udp, for packets in real time, and --pictures");
+  if (!arguments.output.folder.empty()) refuseExisting(arguments.output, names);
   const Scene scene = checkedScene(loaded.settings, arguments.seed);
   if (arguments.configuration.dry_run)
   {
@@ -102,6 +115,7 @@ int run(SimulateArguments arguments)
     return kDone;
   }
 
+  if (!arguments.pictures.empty()) return draw(scene, arguments.pictures);
   catchInterruption();
   return arguments.udp ? play(scene, arguments.delay) : write(scene, loaded, arguments.output.folder);
 }
@@ -119,6 +133,9 @@ Verb simulateVerb()
             app.add_flag("--udp", arguments->udp,
                          "no folder: sensors of this computer, with web pages, send in real time to 127.0.0.1; their "
                          "section for 'record' is printed first");
+            app.add_option("--pictures", arguments->pictures,
+                           "no recording: draws the stand and a turn of every lidar halfway through the drive into "
+                           "this folder");
             app.add_option("--delay", arguments->delay, "with --udp: seconds before the first packet")
                 ->check(CLI::NonNegativeNumber);
             addSeed(app, arguments->seed);

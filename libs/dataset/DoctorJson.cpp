@@ -83,7 +83,11 @@ json jsonOf(const LidarExamination& seen)
                        {"scatter_s", seen.phase->scatter},
                        {"rate_error_ppm", seen.phase->rate_error_ppm},
                        {"turn_s", seen.phase->turn}};
-  if (seen.return_share) result["return_share"] = *seen.return_share;
+  if (const auto& returns = seen.returns)
+    result["returns"] = {{"share", returns->share},
+                         {"range_p05_m", returns->range_p05},
+                         {"range_p50_m", returns->range_p50},
+                         {"range_p95_m", returns->range_p95}};
   if (seen.ground) result["ground"] = jsonOf(*seen.ground);
   if (seen.own_parts.told) result["own_parts"] = {{"share", seen.own_parts.share}};
   if (!seen.own_parts.box.isEmpty())

@@ -74,9 +74,11 @@ Findings groundFindings(const RigExamination& rig, std::size_t lidar, const Geom
 {
   const LidarExamination &seen = rig.lidars[lidar], &first = rig.lidars.front();
   Findings findings;
-  if (seen.return_share)
-    findings.push_back(
-        {seen.name, "returns", Verdict::Ok, fmt::format("{:.1f} % of the readings", 100 * *seen.return_share), ""});
+  if (const auto& returns = seen.returns)
+    findings.push_back({seen.name, "returns", Verdict::Ok,
+                        fmt::format("{:.1f} % of the readings; 5, 50, 95 % of them within {:.1f}, {:.1f}, {:.1f} m",
+                                    100 * returns->share, returns->range_p05, returns->range_p50, returns->range_p95),
+                        ""});
   findings.push_back(groundFinding(seen, rig.poses_known, limits));
   findings.push_back(ownPartsFinding(seen));
   if (lidar > 0 && rig.poses_known && seen.ground && first.ground)

@@ -1,5 +1,7 @@
 #include "dataset/RigExamination.h"
 
+#include "dataset/Statistics.h"
+
 #include <algorithm>
 
 namespace scanloom
@@ -78,16 +80,25 @@ ImuExamination examineImu(const ImuEvidence& imu, const ImuEvidence& first, cons
                           seconds(lidars.last - lidars.first));
   return seen;
 }
-std::optional<double> returnShare(const std::vector<RigSnapshot>& snapshots, std::size_t lidar)
+std::optional<ReturnStatistics> returnStatistics(const std::vector<RigSnapshot>& snapshots, std::size_t lidar)
 {
   std::uint64_t readings = 0, returns = 0;
+  std::vector<double> ranges;
   for (const RigSnapshot& snapshot : snapshots)
   {
     readings += snapshot[lidar].readings;
     returns += snapshot[lidar].returns;
+    for (const std::uint32_t millimetres : snapshot[lidar].points.range) ranges.push_back(1e-3 * millimetres);
   }
   if (readings == 0) return std::nullopt;
-  return static_cast<double>(returns) / static_cast<double>(readings);
+  ReturnStatistics statistics;
+  statistics.share = static_cast<double>(returns) / static_cast<double>(readings);
+  if (ranges.empty()) return statistics;
+  std::sort(ranges.begin(), ranges.end());
+  statistics.range_p05 = quantileOfSorted(ranges, 0.05);
+  statistics.range_p50 = quantileOfSorted(ranges, 0.50);
+  statistics.range_p95 = quantileOfSorted(ranges, 0.95);
+  return statistics;
 }
 
 std::optional<GroundPlane> groundOf(const std::vector<RigSnapshot>& snapshots, std::size_t lidar,
@@ -121,7 +132,7 @@ RigExamination examine(RigEvidence evidence, const DoctorLimits& limits)
   rig.poses_known = evidence.poses_known;
   for (std::size_t i = 0; i < rig.lidars.size(); ++i)
   {
-    rig.lidars[i].return_share = returnShare(evidence.snapshots, i);
+    rig.lidars[i].returns = returnStatistics(evidence.snapshots, i);
     rig.lidars[i].ground = groundOf(evidence.snapshots, i, rig.lidars[i].lidar);
     rig.lidars[i].own_parts = markOwnParts(evidence.snapshots, i, rig.lidars[i].ground);
     if (i > 0 && evidence.poses_known) rig.pairs.push_back(examinePair(evidence, i, 0));

@@ -15,6 +15,13 @@
 #include "dataset/RotorPhase.h"
 #include "dataset/SensorFlags.h"
 
+/** What came back, the machine's own parts included. */
+struct ReturnStatistics
+{
+  double share = 0;                                    // of all readings
+  double range_p05 = 0, range_p50 = 0, range_p95 = 0;  // m from the sensor, of the returns beyond half a metre
+};
+
 namespace scanloom
 {
 struct LidarExamination
@@ -35,7 +42,7 @@ struct LidarExamination
   std::optional<ClockDrift> drift_to_first;
   std::optional<RotorPhase> phase;
 
-  std::optional<double> return_share;  // of all readings: what came back
+  std::optional<ReturnStatistics> returns;
   std::optional<GroundPlane> ground;
   OwnParts own_parts;
 };

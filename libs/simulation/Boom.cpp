@@ -14,21 +14,16 @@ namespace scanloom
 namespace
 {
 constexpr double kRadians = M_PI / 180;
-constexpr double kRestHeight = 0.3;                // m above the pillar's joint
-constexpr double kLowest = -1.2, kHighest = 0.8;   // m, where it works
-constexpr double kLinkHalfWidth = 0.16;            // m
-const Eigen::Vector3d kPillarHalf(0.3, 0.3, 0.5);  // m
-const Eigen::Vector3d kHeadHalf(0.35, 0.4, 0.7);   // m; hangs from the tip
 
 double blend(double from, double to, double share) { return from + share * (to - from); }
 
 /** From a joint to the next, both in the boom's plane. */
-OrientedBox link(const Rigid& body_T_pillar, const Eigen::Vector2d& from, const Eigen::Vector2d& to)
+OrientedBox link(const Rigid& body_T_pillar, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width)
 {
   const Eigen::Vector2d middle = 0.5 * (from + to), along = to - from;
   const Rigid pillar_T_link =
       Rigid::fromXyzYawPitchRoll(middle.x(), 0, middle.y(), 0, -std::atan2(along.y(), along.x()), 0);
-  return {body_T_pillar * pillar_T_link, {0.5 * along.norm(), kLinkHalfWidth, kLinkHalfWidth}};
+  return {body_T_pillar * pillar_T_link, {0.5 * along.norm(), 0.5 * width, 0.5 * width}};
 }
 }  // namespace
 
@@ -39,7 +34,9 @@ Boom::Boom(const BoomOptions& options, const Route& route, std::uint64_t seed)
   const double shortest = std::abs(options.inner_link - options.outer_link);
   const auto check = [&](const char* name, double reach)
   {
-    const double farthest = std::hypot(reach, std::max(-kLowest, kHighest));
+    const double steepest =
+        std::max({std::abs(options.height_rest), std::abs(options.height_min), std::abs(options.height_max)});
+    const double farthest = std::hypot(reach, steepest);
     if (farthest >= longest || reach <= shortest)
       throw std::invalid_argument(fmt::format("[simulated_boom] {} = {} m: links of {} and {} m do not reach there",
                                               name, reach, options.inner_link, options.outer_link));
@@ -53,11 +50,11 @@ Boom::Boom(const BoomOptions& options, const Route& route, std::uint64_t seed)
 
 BoomPose Boom::target(const WorkStop& stop, std::uint64_t move, std::uint64_t moves) const
 {
-  if (move == 0 || move >= moves) return {0, options_.reach_rest, kRestHeight};
+  if (move == 0 || move >= moves) return {0, options_.reach_rest, options_.height_rest};
   Random random(seed_, RandomStream::Boom, stop.number, move);
   const double slew = kRadians * options_.swing_deg * random.uniform(-1, 1);
   const double reach = random.uniform(options_.reach_min, options_.reach_max);
-  return {slew, reach, random.uniform(kLowest, kHighest)};
+  return {slew, reach, random.uniform(options_.height_min, options_.height_max)};
 }
 
 BoomPose Boom::at(double t) const
@@ -90,10 +87,16 @@ std::vector<OrientedBox> Boom::boxes(const BoomPose& pose) const
   if (!options_.boom) return {};
   const Rigid body_T_pillar = Rigid::fromXyzYawPitchRoll(options_.base_x, 0, options_.base_height, pose.slew, 0, 0);
   const BoomJoints joints = jointsAt(pose);
-  const Rigid pillar_T_head{Eigen::Quaterniond::Identity(), {joints.tip.x(), 0, joints.tip.y() - kHeadHalf.z()}};
-  return {{body_T_pillar * Rigid{Eigen::Quaterniond::Identity(), {0, 0, -kPillarHalf.z()}}, kPillarHalf},
-          link(body_T_pillar, Eigen::Vector2d::Zero(), joints.elbow),
-          link(body_T_pillar, joints.elbow, joints.tip),
-          {body_T_pillar * pillar_T_head, kHeadHalf}};
+  const Eigen::Vector3d pillar_half =
+      0.5 * Eigen::Vector3d(options_.pillar_width, options_.pillar_width, options_.pillar_height);
+  const Eigen::Vector3d head_half =
+      0.5 * Eigen::Vector3d(options_.head_length, options_.head_width, options_.head_height);
+  const auto hangingFrom = [&](double x, double z, const Eigen::Vector3d& half) {
+    return OrientedBox(body_T_pillar * Rigid{Eigen::Quaterniond::Identity(), {x, 0, z - half.z()}}, half);
+  };
+  return {hangingFrom(0, 0, pillar_half),
+          link(body_T_pillar, Eigen::Vector2d::Zero(), joints.elbow, options_.link_width),
+          link(body_T_pillar, joints.elbow, joints.tip, options_.link_width),
+          hangingFrom(joints.tip.x(), joints.tip.y(), head_half)};
 }
 }  // namespace scanloom

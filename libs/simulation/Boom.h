@@ -19,6 +19,15 @@ struct BoomOptions
   double reach_rest = 4.5;
   double reach_min = 4.0;
   double reach_max = 7.5;
+  double height_rest = 0.3;
+  double height_min = -1.2;
+  double height_max = 0.8;
+  double link_width = 0.32;
+  double pillar_width = 0.6;
+  double pillar_height = 1.0;
+  double head_length = 0.7;
+  double head_width = 0.8;
+  double head_height = 1.4;
   double swing_deg = 60;
   double slew_min = 20;
   double slew_max = 40;
@@ -36,6 +45,19 @@ struct BoomOptions
           Field{"reach_rest", "m", "from the pillar to the head while the machine drives (assumed)", above(0)});
     visit(o.reach_min, Field{"reach_min", "m", "nearest that it works (assumed)", above(0)});
     visit(o.reach_max, Field{"reach_max", "m", "farthest that it works (assumed)", above(0)});
+    visit(o.height_rest,
+          Field{"height_rest", "m", "of the head's joint above the lower link's while it drives (assumed)",
+                between(-10, 10)});
+    visit(o.height_min, Field{"height_min", "m", "lowest that it works, likewise (assumed)", between(-10, 10)});
+    visit(o.height_max, Field{"height_max", "m", "highest that it works, likewise (assumed)", between(-10, 10)});
+    visit(o.link_width, Field{"link_width", "m", "of both links (assumed)", between(0.01, 2)});
+    visit(o.pillar_width, Field{"pillar_width", "m", "of the pillar (assumed)", between(0.01, 3)});
+    visit(o.pillar_height, Field{"pillar_height", "m", "below the lower link's joint (assumed)", between(0.01, 3)});
+    visit(o.head_length,
+          Field{"head_length", "m", "of the felling head, away from the machine (assumed)", between(0.01, 3)});
+    visit(o.head_width, Field{"head_width", "m", "of the head (assumed)", between(0.01, 3)});
+    visit(o.head_height,
+          Field{"head_height", "m", "of the head, which hangs from the upper link (assumed)", between(0.01, 3)});
     visit(o.swing_deg, Field{"swing_deg", "deg", "to both sides while it works (assumed)", between(0, 90)});
     visit(o.slew_min, Field{"slew_min", "deg/s", "slowest of the largest rates of its moves (assumed)", above(0)});
     visit(o.slew_max, Field{"slew_max", "deg/s", "fastest of them (assumed)", above(0)});

@@ -7,8 +7,7 @@ namespace scanloom
 namespace
 {
 constexpr double kRadians = M_PI / 180;
-constexpr double kBehindStart = 15.0;       // m: there the total station may stand
-constexpr double kSlow = 3.2, kFast = 5.0;  // Hz, of the engine and the hydraulics
+constexpr double kBehindStart = 15.0;  // m: there the total station may stand
 
 /** The angle's rate as a quantity of its own; its second derivative is not known and must not be used. */
 Taylor rateOf(const Taylor& angle) { return {angle.rate, angle.acceleration, std::nan("")}; }
@@ -66,11 +65,12 @@ Motion Drive::at(double t) const
   const Taylor driving = route_.driving(t), working = route_.working(t);
   const Taylor sway = kRadians * body_.sway_deg * (driving + body_.work_sway * working);
   const Taylor shake = driving + working;
-  const Taylor z = stance.height + body_.vibration * shake * (oscillation(t, kSlow) + oscillation(t, kFast, 1.0));
+  const double slow = body_.vibration_slow, fast = body_.vibration_fast;
+  const Taylor z = stance.height + body_.vibration * shake * (oscillation(t, slow) + oscillation(t, fast, 1.0));
   const Taylor pitch = stance.pitch + 2.0 / 3 * sway * oscillation(t, 1.3 * body_.sway_rate, 0.9) +
-                       kRadians * body_.vibration_deg * shake * oscillation(t, kFast, 2.0);
+                       kRadians * body_.vibration_deg * shake * oscillation(t, fast, 2.0);
   const Taylor roll = stance.roll + sway * oscillation(t, body_.sway_rate) +
-                      kRadians * body_.vibration_deg * shake * oscillation(t, kSlow, 0.5);
+                      kRadians * body_.vibration_deg * shake * oscillation(t, slow, 0.5);
   const Turn turn = turnOf(yaw, pitch, roll);
   return {Rigid::fromXyzYawPitchRoll(x.value, y.value, z.value, yaw.value, pitch.value, roll.value),
           {x.rate, y.rate, z.rate},

@@ -18,6 +18,8 @@ struct BodyMotionOptions
   double work_sway = 0.6;
   double vibration = 0.0003;
   double vibration_deg = 0.02;
+  double vibration_slow = 3.2;
+  double vibration_fast = 5.0;
   double wheelbase = 3.5;
   double track = 2.0;
 
@@ -29,10 +31,13 @@ struct BodyMotionOptions
     visit(o.sway_rate,
           Field{"sway_rate", "Hz", "of the roll; the pitch is 1.3 times as fast (assumed)", between(0, 5)});
     visit(o.work_sway, Field{"work_sway", "", "share of the sway while the boom works (assumed)", between(0, 1)});
-    visit(o.vibration, Field{"vibration", "m", "of height, at 3.2 Hz and again at 5 Hz, unless at rest (assumed)",
-                             between(0, 0.02)});
-    visit(o.vibration_deg,
-          Field{"vibration_deg", "deg", "of roll at 3.2 Hz and of pitch at 5 Hz (assumed)", between(0, 1)});
+    visit(o.vibration,
+          Field{"vibration", "m", "of height, at each of the two rates, unless at rest (assumed)", between(0, 0.02)});
+    visit(o.vibration_deg, Field{"vibration_deg", "deg",
+                                 "of roll at the slow rate and of pitch at the fast one (assumed)", between(0, 1)});
+    visit(o.vibration_slow,
+          Field{"vibration_slow", "Hz", "of the engine and the hydraulics (assumed)", between(0, 100)});
+    visit(o.vibration_fast, Field{"vibration_fast", "Hz", "likewise (assumed)", between(0, 100)});
     visit(o.wheelbase, Field{"wheelbase", "m",
                              "between the axles: pitch and height follow the ground under them (assumed)", above(0.1)});
     visit(o.track, Field{"track", "m", "between the wheels of an axle: the roll follows them (assumed)", above(0.1)});

@@ -10,10 +10,8 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kTopShare = 0.2;    // of a tree's diameter, at its top
 constexpr double kShortestStop = 8;  // s: no tree falls at a shorter one
 constexpr double kLying = M_PI / 2;  // rad
-const Eigen::Vector3d kPersonSize(0.5, 0.5, 1.75), kVehicleSize(4.2, 1.9, 1.7);
 
 /** Of their kind, so that no two share an id. */
 constexpr std::uint64_t kKinds = 3;
@@ -38,7 +36,7 @@ std::vector<Cone> conesOf(const std::vector<MovingObject>& objects)
     if (object.kind != ObjectKind::Tree) continue;
     const Eigen::Vector3d away(std::cos(object.yaw), std::sin(object.yaw), 0);
     const Eigen::Vector3d axis = std::cos(object.tilt) * Eigen::Vector3d::UnitZ() + std::sin(object.tilt) * away;
-    cones.push_back({object.ground_point, axis, object.size.z(), radius, kTopShare * radius});
+    cones.push_back({object.ground_point, axis, object.size.z(), radius, object.taper * radius});
   }
   return cones;
 }
@@ -125,7 +123,10 @@ void MovingObjects::addPassers(std::vector<MovingObject>& objects, ObjectKind ki
     object.ground_point << at, drive_.ground().height(at.x(), at.y());
     object.yaw = yaw;
     object.velocity = speed * along;
-    object.size = is_person ? kPersonSize : kVehicleSize;
+    if (is_person)
+      object.size << options_.person_width, options_.person_width, options_.person_height;
+    else
+      object.size << options_.vehicle_length, options_.vehicle_width, options_.vehicle_height;
     objects.push_back(object);
   }
 }
@@ -144,6 +145,7 @@ void MovingObjects::addTrees(std::vector<MovingObject>& objects, double t) const
     object.ground_point = tree.foot;
     object.yaw = tree.yaw;
     object.size << options_.tree_diameter, options_.tree_diameter, options_.tree_length;
+    object.taper = options_.tree_taper;
     object.tilt = kLying * fallenShare((t - tree.falls) / options_.fall_time);
     object.moves = t >= tree.falls && t <= tree.falls + options_.fall_time;
     objects.push_back(object);

@@ -12,13 +12,19 @@ struct ObjectOptions
 {
   double person_every = 60;
   double person_speed = 2.78;
+  double person_height = 1.75;
+  double person_width = 0.5;
   double vehicle_every = 120;
   double vehicle_speed = 2.78;
+  double vehicle_length = 4.2;
+  double vehicle_width = 1.9;
+  double vehicle_height = 1.7;
   double pass_distance = 9;
   double pass_length = 60;
   bool felled_trees = true;
   double tree_length = 16;
   double tree_diameter = 0.24;
+  double tree_taper = 0.2;
   double tree_distance = 6.5;
   double fall_time = 3;
 
@@ -27,9 +33,14 @@ struct ObjectOptions
   {
     visit(o.person_every, Field{"person_every", "s", "a person runs past so often; 0: never (assumed)", atLeast(0)});
     visit(o.person_speed, Field{"person_speed", "m/s", "10 km/h", above(0)});
+    visit(o.person_height, Field{"person_height", "m", "a cylinder (assumed)", between(0.1, 3)});
+    visit(o.person_width, Field{"person_width", "m", "its diameter (assumed)", between(0.1, 3)});
     visit(o.vehicle_every,
           Field{"vehicle_every", "s", "a vehicle drives past so often; 0: never (assumed)", atLeast(0)});
     visit(o.vehicle_speed, Field{"vehicle_speed", "m/s", "of the vehicle (assumed)", above(0)});
+    visit(o.vehicle_length, Field{"vehicle_length", "m", "a box (assumed)", between(0.1, 30)});
+    visit(o.vehicle_width, Field{"vehicle_width", "m", "of the box (assumed)", between(0.1, 10)});
+    visit(o.vehicle_height, Field{"vehicle_height", "m", "of the box (assumed)", between(0.1, 10)});
     visit(o.pass_distance,
           Field{"pass_distance", "m", "from the machine, 0.6 to 1.4 times as far (assumed)", between(2, 100)});
     visit(o.pass_length,
@@ -37,6 +48,8 @@ struct ObjectOptions
     visit(o.felled_trees, Field{"felled_trees", "", "true: at every stop for work a tree falls"});
     visit(o.tree_length, Field{"tree_length", "m", "of that tree (assumed)", between(1, 60)});
     visit(o.tree_diameter, Field{"tree_diameter", "m", "at its foot (assumed)", between(0.02, 2)});
+    visit(o.tree_taper,
+          Field{"tree_taper", "", "diameter at its top, share of that at its foot (assumed)", between(0, 1)});
     visit(o.tree_distance,
           Field{"tree_distance", "m", "of its foot from the machine's origin (assumed)", between(3, 30)});
     visit(o.fall_time, Field{"fall_time", "s", "from upright to lying (assumed)", between(0.5, 20)});
@@ -59,6 +72,7 @@ struct MovingObject
   double yaw = 0;                                          // rad, of its way; of a tree: where it falls
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();      // m/s
   Eigen::Vector3d size = Eigen::Vector3d::Zero();          // m: length, width, height (upright)
+  double taper = 1;                                        // of a tree: diameter at its top, share of that at its foot
   double tilt = 0;                                         // rad, of a tree, from upright
   bool moves = true;                                       // a tree only while it falls
 };

@@ -9,12 +9,6 @@ namespace scanloom
 {
 namespace
 {
-/** Transport takes 0.1 ms and rarely, when the computer was busy, up to 2 ms more (assumed); packets do not overtake.
- */
-constexpr Duration kTransport = 60us;
-constexpr double kUsualJitter = 80e-6;
-constexpr double kRareJitter = 2e-3;
-constexpr double kRareShare = 0.003;
 constexpr Duration kBetweenTwins = 30us;
 
 constexpr std::uint64_t kImuIndexOffset = 1ULL << 40;  // keeps the IMU's random numbers apart from the packets'
@@ -52,8 +46,10 @@ void PacketStream::finishRun(Timestamp until, std::vector<Datagram>& datagrams)
 
   const std::size_t first = datagrams.size();
   datagrams.resize(first + arriving.size());
+  std::vector<ReturnCounts> returns(arriving.size());
   tbb::parallel_for(std::size_t{0}, arriving.size(),
-                    [&](std::size_t i) { datagrams[first + i] = lidarDatagram(arriving[i]); });
+                    [&](std::size_t i) { datagrams[first + i] = lidarDatagram(arriving[i], returns[i]); });
+  for (const ReturnCounts& of_packet : returns) counts_.returns.add(of_packet);
   for (std::size_t i = 0; i < arriving.size(); ++i)
     if (arriving[i].received_again)
     {
@@ -125,12 +121,16 @@ std::optional<PacketStream::Transport> PacketStream::transport(std::uint64_t pac
   return Transport{packet, received, again};
 }
 
-Datagram PacketStream::lidarDatagram(const Transport& on_its_way) const
+Datagram PacketStream::lidarDatagram(const Transport& on_its_way, ReturnCounts& returns) const
 {
   const auto count = static_cast<std::uint64_t>(station_.metadata().columns_per_packet);
   std::vector<OusterColumn> columns;
   for (std::uint64_t i = 0; i < count; ++i)
-    columns.push_back(run().lidar.measure(scene_.scenery, on_its_way.packet * count + i));
+  {
+    MeasuredColumn measured = run().lidar.measure(scene_.scenery, on_its_way.packet * count + i);
+    returns.add(measured.returns);
+    columns.push_back(std::move(measured.column));
+  }
   const std::uint16_t port = station_.metadata().lidar_port;
   return {on_its_way.received, IpAddress::parse("127.0.0.1"), port, port, encoders_[run_].lidarPacket(columns)};
 }
@@ -145,7 +145,6 @@ void PacketStream::addImu(Timestamp until, std::vector<Datagram>& datagrams)
     const std::uint64_t index = next_imu_++;
     Random random(scene_.seed, RandomStream::Transport, run().imu.place, kImuIndexOffset + index);
     const std::vector<ImuStream::Sample> samples = std::exchange(imu_waiting_, {});
-    random.uniform();
     if (isLost(samples.back().truth, random.uniform()))
     {
       ++counts_.lost;
@@ -163,14 +162,15 @@ Datagram PacketStream::imuDatagram(const std::vector<ImuStream::Sample>& samples
   std::vector<ImuSample> readings;
   for (const ImuStream::Sample& sample : samples) readings.push_back(sample.reading);
   const std::uint16_t port = station_.metadata().imu_port;
-  return {samples.back().truth + delay(random, kRareJitter), IpAddress::parse("127.0.0.1"), port, port,
+  return {samples.back().truth + delay(random, scene_.network.rare_jitter), IpAddress::parse("127.0.0.1"), port, port,
           encoders_[run_].imuPacket(readings)};
 }
 
 Duration PacketStream::delay(Random& random, double packet_time) const
 {
-  const double rare = std::min(kRareJitter, 0.8 * packet_time);
-  const double jitter = random.uniform() < kRareShare ? rare : kUsualJitter;
-  return kTransport + fromSeconds(jitter * random.uniform());
+  const NetworkOptions& network = scene_.network;
+  const double rare = std::min(network.rare_jitter, 0.8 * packet_time);  // packets do not overtake each other
+  const double jitter = random.uniform() < network.rare_share ? rare : network.jitter;
+  return fromSeconds(network.delay + jitter * random.uniform());
 }
 }  // namespace scanloom

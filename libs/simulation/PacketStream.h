@@ -14,6 +14,7 @@ struct PacketCounts
 {
   std::uint64_t lidar = 0, imu = 0;  // that arrived, each once
   std::uint64_t lost = 0, reordered = 0, duplicated = 0;
+  ReturnCounts returns;  // of the packets that arrived
 };
 
 class PacketStream
@@ -44,7 +45,7 @@ class PacketStream
   bool isSent(std::uint64_t packet) const;
   bool isLost(Timestamp sent, double luck) const;
   std::optional<Transport> transport(std::uint64_t packet);
-  Datagram lidarDatagram(const Transport&) const;
+  Datagram lidarDatagram(const Transport&, ReturnCounts&) const;
   Datagram imuDatagram(const std::vector<ImuStream::Sample>&, std::uint64_t index) const;
   void finishRun(Timestamp until, std::vector<Datagram>&);
   void addImu(Timestamp until, std::vector<Datagram>&);

@@ -28,6 +28,7 @@ enum class RandomStream : std::uint64_t
   Undergrowth,
   Leaves,
   Bursts,
+  Beside,
 };
 
 /** SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), one per place. */

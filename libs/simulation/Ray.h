@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace scanloom
@@ -33,6 +34,8 @@ enum class Surface
   Boom,         // of that machine
   Object,       // that moves by itself
 };
+
+constexpr std::size_t kSurfaces = 8;
 
 struct Hit
 {

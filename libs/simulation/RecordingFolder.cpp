@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace scanloom
@@ -126,6 +127,18 @@ void writeText(const std::filesystem::path& path, const std::string& text)
   writeAtomically(path, [&](std::ostream& file) { file << text << '\n'; });
 }
 
+/** "none", or by surface; all lidars together. */
+nlohmann::json returnsJson(const std::vector<PacketCounts>& counts)
+{
+  constexpr std::array<const char*, kSurfaces> kNames{"ground",      "stem",    "branch", "crown",
+                                                      "undergrowth", "machine", "boom",   "object"};
+  ReturnCounts all;
+  for (const PacketCounts& lidar : counts) all.add(lidar.returns);
+  nlohmann::json returns{{"none", all.none}};
+  for (std::size_t i = 0; i < kSurfaces; ++i) returns[kNames[i]] = all.of_surface[i];
+  return returns;
+}
+
 nlohmann::json vectorJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 std::string summaryOf(const Scene& scene, const std::vector<PacketCounts>& counts, const TurnOnBias& bias)
@@ -135,13 +148,17 @@ std::string summaryOf(const Scene& scene, const std::vector<PacketCounts>& count
                          {"stems", scene.scenery.world().stems().size()},
                          {"epoch_ns", nanoseconds(scene.span.start)},
                          {"imu_bias_gyro_rad_s", vectorJson(bias.gyro)},
-                         {"imu_bias_accel_m_s2", vectorJson(bias.accel)}};
+                         {"imu_bias_accel_m_s2", vectorJson(bias.accel)},
+                         {"returns", returnsJson(counts)}};
   for (std::size_t i = 0; i < counts.size(); ++i)
     summary[scene.lidars[i].name] = {{"lidar_packets", counts[i].lidar},
                                      {"imu_packets", counts[i].imu},
                                      {"lost", counts[i].lost},
                                      {"reordered", counts[i].reordered},
                                      {"duplicated", counts[i].duplicated}};
+  std::uint64_t rays = 0;
+  for (const auto& returns : summary["returns"]) rays += returns.get<std::uint64_t>();
+  summary["rays"] = rays;
   return summary.dump(2);
 }
 }  // namespace

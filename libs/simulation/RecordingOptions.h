@@ -45,6 +45,7 @@ struct SimulationSettings
   SimulatedRigOptions rig;
   std::vector<SimulatedLidarOptions> lidars = dualOs0();
   RangingOptions ranging;
+  NetworkOptions network;
   SimulatedImuOptions imu;
   SimulatedImuOptions lidar_imu = ousterLikeImu();
   TotalStationOptions station;
@@ -63,6 +64,7 @@ struct SimulationSettings
     visit(s.rig, Section{"simulated_rig", "where the other sensors sit"});
     visit(s.lidars, Section{"simulated_lidars", "any number of lidars: lidar1_, lidar2_, ...", "lidar"});
     visit(s.ranging, Section{"simulated_ranging", "what comes back to all lidars"});
+    visit(s.network, Section{"simulated_network", "what lies between the lidars and the computer"});
     visit(s.imu, Section{"simulated_imu", "the body's IMU"});
     visit(s.lidar_imu, Section{"simulated_lidar_imu", "the IMUs inside the lidars"});
     visit(s.station, Section{"simulated_total_station", "what tracks the prism"});

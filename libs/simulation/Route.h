@@ -70,7 +70,7 @@ struct WorkStop
   double begin = 0, end = 0;  // s
 };
 
-/** Drawn once for the whole recording: 48 bytes per stop; a query is a binary search. */
+/** Drawn once for the whole recording; a query is a binary search among its legs. */
 class Route
 {
  public:

@@ -43,6 +43,7 @@ Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
           Scenery(std::make_shared<const World>(ground, settings.forest, drive.path(), seed), drive, machine,
                   MovingObjects(settings.objects, drive, seed)),
           std::move(lidars),
+          settings.network,
           {body_T_imu, kStart + kImuPhase, settings.imu, {}, RandomStream::BodyImu, 0},
           TotalStation(settings.station, body_T_prism.translation, span, seed),
           body_T_prism};

@@ -1,24 +1,41 @@
 /** One spinning lidar: every column cast from where the machine is at that column's instant. */
 #pragma once
-#include "lidar/OusterEncoder.h"
-#include "simulation/Random.h"
+#include "simulation/Receiver.h"
 #include "simulation/Scenery.h"
 #include "simulation/SimulatedClock.h"
-#include "simulation/SimulatedLidarOptions.h"
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace scanloom
 {
-/** How strong what comes back is, in multiples of the signal at which half of the returns are lost. */
-double signalStrength(double reflectivity, double cosine_incidence, double range, double range_at_ten_percent);
+/** What the first returns of many beams came from. */
+struct ReturnCounts
+{
+  std::array<std::uint64_t, kSurfaces> of_surface{};
+  std::uint64_t none = 0;
 
-/** Certain to 0.7 of the range where half of the returns are lost, gone at 1.3 of it. */
-double chanceOfReturn(double strength);
+  void add(const std::optional<Surface>& surface)
+  {
+    if (surface)
+      ++of_surface[static_cast<std::size_t>(*surface)];
+    else
+      ++none;
+  }
+  void add(const ReturnCounts& other)
+  {
+    for (std::size_t i = 0; i < of_surface.size(); ++i) of_surface[i] += other.of_surface[i];
+    none += other.none;
+  }
+};
 
-/** Standard deviation, m. */
-double rangeNoise(const RangingOptions&, double strength);
+struct MeasuredColumn
+{
+  OusterColumn column;
+  ReturnCounts returns;
+};
 
 class SimulatedLidar
 {
@@ -36,29 +53,18 @@ class SimulatedLidar
   bool sends(std::uint16_t measurement_id) const;
 
   /** Pure: the same column for the same arguments, in any order and on any thread. Not valid outside the window. */
-  OusterColumn measure(const Scenery&, std::uint64_t column) const;
+  MeasuredColumn measure(const Scenery&, std::uint64_t column) const;
 
  private:
-  /** What chance does to a beam. */
-  struct Luck
-  {
-    double noise;      // standard normal
-    double detection;  // uniform: the return is lost if its chance is not above
-    double shade;      // standard normal: of the surface's reflectivity
-  };
-
-  static Luck drawLuck(Random&);
-  OusterReading readingOf(const std::optional<Hit>&, const Luck&) const;
-  double reflectivityOf(Surface) const;
-
   OusterMetadata metadata_;
   Rigid body_T_sensor_;
   Rigid body_T_lidar_;
   LidarTiming timing_;
-  RangingOptions ranging_;
   std::uint64_t seed_, place_;
-  double beam_radius_ = 0;                        // m from the axis of rotation to where the beams leave
-  double beam_height_ = 0;                        // m
+  bool two_returns_;
+  double beam_radius_ = 0;  // m from the axis of rotation to where the beams leave
+  double beam_height_ = 0;  // m
+  Receiver receiver_;
   std::vector<Eigen::Vector3d> beam_directions_;  // at encoder angle 0, in the lidar frame
 };
 }  // namespace scanloom

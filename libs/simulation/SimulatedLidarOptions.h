@@ -63,6 +63,26 @@ struct LidarFaultOptions
   }
 };
 
+/** From a lidar to the recording computer's stamp. */
+struct NetworkOptions
+{
+  double delay = 60e-6;
+  double jitter = 80e-6;
+  double rare_jitter = 2e-3;
+  double rare_share = 0.003;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.delay, Field{"delay", "s", "from a packet's last measurement to its receipt (assumed)", between(0, 0.1)});
+    visit(o.jitter, Field{"jitter", "s", "up to so much more, all delays alike (assumed)", between(0, 0.1)});
+    visit(o.rare_jitter,
+          Field{"rare_jitter", "s", "up to so much more when the computer is busy, but no packet overtakes (assumed)",
+                between(0, 0.1)});
+    visit(o.rare_share, Field{"rare_share", "", "of the packets, for which it is busy (assumed)", between(0, 1)});
+  }
+};
+
 struct SimulatedLidarOptions
 {
   std::string name;
@@ -108,6 +128,12 @@ struct RangingOptions
   double range_at_ten_percent = 0;
   double least_range = 0;
   double farthest_range = 50;
+  double beam_divergence_deg = 0.35;
+  double least_separation = 0.5;
+  double shade = 0.1;
+  double photons = 25;
+  double daylight = 1200;
+  double sky = 900;
   double ground = 0.15;
   double stem = 0.3;
   double branch = 0.3;
@@ -132,6 +158,17 @@ struct RangingOptions
     visit(o.least_range,
           Field{"least_range", "m", "nothing nearer returns; 0: the model's data sheet (0.3, 0.5, 1)", between(0, 10)});
     visit(o.farthest_range, Field{"farthest_range", "m", "no ray is followed farther", between(1, 500)});
+    visit(o.beam_divergence_deg, Field{"beam_divergence_deg", "deg",
+                                       "full angle of a beam, within which profiles of two returns look for the second "
+                                       "(assumed: an OS0's data sheet; OS1 and OS2 0.18, 0.09)",
+                                       between(0, 2)});
+    visit(o.least_separation,
+          Field{"least_separation", "m", "two returns of a beam are this far apart, or one (assumed)", between(0, 10)});
+    visit(o.shade,
+          Field{"shade", "", "standard deviation of each reflectivity, share of it (assumed)", between(0, 0.5)});
+    visit(o.photons, Field{"photons", "", "signal where half of the returns are lost (assumed)", above(0)});
+    visit(o.daylight, Field{"daylight", "", "near infrared of a white surface under trees (assumed)", atLeast(0)});
+    visit(o.sky, Field{"sky", "", "near infrared where nothing is met (assumed)", atLeast(0)});
     visit(o.ground, Field{"ground", "", "reflectivity at 865 nm: litter and moss (assumed)", between(0, 1)});
     visit(o.stem, Field{"stem", "", "reflectivity of bark (assumed)", between(0, 1)});
     visit(o.branch, Field{"branch", "", "reflectivity of branches (assumed)", between(0, 1)});

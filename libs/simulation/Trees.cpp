@@ -23,17 +23,17 @@ int classOfLength(double length)
       std::lround(std::log(std::max(length, kShortestTree) / kShortestTree) / std::log(kLengthRatio)));
 }
 
-/** Elevation at which branches leave the stem, deg (assumed). */
-double branchElevation(Species species)
+/** Elevation at which living branches leave the stem, deg. */
+double branchElevation(const TreeOptions& options, Species species)
 {
   switch (species)
   {
     case Species::Pine:
-      return 20;
+      return options.pine_branch_deg;
     case Species::Spruce:
-      return -10;
+      return options.spruce_branch_deg;
     case Species::Birch:
-      return 45;
+      return options.birch_branch_deg;
   }
   return 0;
 }
@@ -41,7 +41,7 @@ double branchElevation(Species species)
 Cone growBranch(double height, double length, double elevation_deg, double radius, Random& random)
 {
   const double azimuth = random.uniform(0, 2 * M_PI);
-  const double elevation = kRadians * (elevation_deg + 10 * random.normal());
+  const double elevation = kRadians * elevation_deg;
   return {{0, 0, height},
           {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation), std::sin(elevation)},
           length,
@@ -120,8 +120,9 @@ std::vector<Cone> growBranches(const TreeOptions& options, const TreeLook& look)
   {
     const double share = (i + random.uniform()) / options.living_branches;
     const double height = options.crown_base + (1 - options.crown_base) * (0.02 + 0.93 * share);
-    const double elevation = branchElevation(look.species);
-    const double length = crownRadius(options, look.species, height) / std::cos(kRadians * elevation);
+    const double mean = branchElevation(options, look.species);
+    const double length = crownRadius(options, look.species, height) / std::cos(kRadians * mean);
+    const double elevation = mean + options.branch_spread_deg * random.normal();
     if (length > 0)
       branches.push_back(growBranch(tree * height, tree * length, elevation, thickest * (1 - 0.7 * share), random));
   }
@@ -129,7 +130,8 @@ std::vector<Cone> growBranches(const TreeOptions& options, const TreeLook& look)
   {
     const double height = random.uniform(options.dead_branch_base, options.crown_base);
     const double length = options.crown_radius * random.uniform(0.1, 0.8);  // some are broken off
-    branches.push_back(growBranch(tree * height, tree * length, 0, 0.6 * thickest, random));
+    const double elevation = options.branch_spread_deg * random.normal();
+    branches.push_back(growBranch(tree * height, tree * length, elevation, 0.6 * thickest, random));
   }
   return branches;
 }

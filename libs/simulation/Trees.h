@@ -33,6 +33,10 @@ struct TreeOptions
   int dead_branches = 12;
   double dead_branch_base = 0.15;
   double branch_diameter = 0.03;
+  double pine_branch_deg = 20;
+  double spruce_branch_deg = -10;
+  double birch_branch_deg = 45;
+  double branch_spread_deg = 10;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -54,6 +58,12 @@ struct TreeOptions
           Field{"dead_branch_base", "", "the lowest dead branch, share of the height (assumed)", between(0, 0.95)});
     visit(o.branch_diameter,
           Field{"branch_diameter", "m", "of the thickest branches of a mean tree (assumed)", between(0.002, 0.2)});
+    visit(o.pine_branch_deg,
+          Field{"pine_branch_deg", "deg", "living branches rise by so much (assumed)", between(-60, 80)});
+    visit(o.spruce_branch_deg, Field{"spruce_branch_deg", "deg", "likewise (assumed)", between(-60, 80)});
+    visit(o.birch_branch_deg, Field{"birch_branch_deg", "deg", "likewise (assumed)", between(-60, 80)});
+    visit(o.branch_spread_deg,
+          Field{"branch_spread_deg", "deg", "standard deviation of each branch's rise (assumed)", between(0, 30)});
   }
 };
 

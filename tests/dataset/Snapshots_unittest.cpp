@@ -1,7 +1,8 @@
-#include "dataset/Snapshots.h"
+#include "dataset/RigExamination.h"
 
 #include <gtest/gtest.h>
 
+#include "dataset/RigEvidence.h"
 #include "support/FakeLidar.h"
 
 using namespace scanloom;
@@ -41,4 +42,24 @@ TEST(SnapshotTaker, keepsAFewHoweverLongItTakes)
     EXPECT_LE(snapshots, 12u);
     EXPECT_GE(snapshots, 6u);
   }
+}
+
+TEST(RigExamination, tellsHowFarAwayIsWhatComesBack)
+{
+  Snapshot snapshot;
+  snapshot.readings = 200;
+  snapshot.returns = 101;
+  snapshot.points.resize(101);
+  for (std::uint32_t i = 0; i < 101; ++i) snapshot.points.range[i] = 10'000 - 100 * i;
+  RigEvidence evidence;
+  evidence.packets_known = false;
+  evidence.lidars.resize(1);
+  evidence.snapshots = {{snapshot}};
+
+  const auto returns = examine(evidence, {}).lidars[0].returns;
+  ASSERT_TRUE(returns);
+  EXPECT_NEAR(returns->share, 0.505, 1e-12);
+  EXPECT_NEAR(returns->range_p05, 0.5, 1e-9);
+  EXPECT_NEAR(returns->range_p50, 5, 1e-9);
+  EXPECT_NEAR(returns->range_p95, 9.5, 1e-9);
 }

@@ -97,6 +97,7 @@ TEST(MovingObjects, standWhereTheyAreSaidToBe)
   MovingObject tree = person;
   tree.kind = ObjectKind::Tree;
   tree.size << 0.24, 0.24, 16;
+  tree.taper = 0.2;
   tree.tilt = M_PI / 2;
   tree.yaw = M_PI / 2;
   const auto cones = conesOf({person, tree});

@@ -10,8 +10,10 @@
 #include "source/Extrinsics.h"
 #include "support/TemporaryFolder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
@@ -143,6 +145,9 @@ TEST(RecordingFolder, putsDecodedPointsOntoTheSurfacesWithTheNoiseThatWasAskedFo
     EXPECT_LT(outliers / count, 1e-3) << name;
     EXPECT_NEAR(std::sqrt(squares / count), injected, 0.05 * injected) << name;
     EXPECT_NEAR(sum / count, 0, 1e-3) << name << ": no bias";
+    RecordProperty(fmt::format("{}_rms_mm", name), fmt::format("{:.2f}", 1e3 * std::sqrt(squares / count)));
+    RecordProperty(fmt::format("{}_injected_mm", name), fmt::format("{:.2f}", 1e3 * injected));
+    RecordProperty(fmt::format("{}_mean_mm", name), fmt::format("{:.3f}", 1e3 * sum / count));
   }
 }
 
@@ -189,6 +194,31 @@ TEST(RecordingFolder, holdsEveryColumnOnceInOrderAndEveryReceiptAfterItsMeasurem
     }
   }
   EXPECT_TRUE(wrapped) << "40 turns from 65500 on";
+}
+
+TEST(RecordingFolder, tellsWhereEveryReturnCameFrom)
+{
+  const TemporaryFolder folder;
+  record(folder / "a");
+  const auto summary = nlohmann::json::parse(contentOf(folder / "a" / "summary.json"));
+
+  std::uint64_t blocks = 0, points = 0, channels = 0;
+  for (const char* name : {"left", "right"})
+  {
+    const OusterDecoder decoder = decoderOf(folder / "a", name);
+    channels = static_cast<std::uint64_t>(decoder.description().channels);
+    forEachBlock(folder / "a", decoder,
+                 [&](const MeasurementBlock&, const PointCloud& cloud)
+                 {
+                   ++blocks;
+                   points += cloud.size();
+                 });
+  }
+
+  EXPECT_EQ(summary["rays"], channels * blocks);
+  EXPECT_EQ(summary["returns"]["none"], channels * blocks - points);
+  EXPECT_GT(summary["returns"]["ground"], summary["returns"]["stem"]);
+  EXPECT_EQ(summary["returns"]["crown"], 0) << "this stand is bare";
 }
 
 TEST(RecordingFolder, hasBothImusAndTheTruthOnOneClock)

@@ -2,6 +2,7 @@
 
 #include "imu/Preintegration.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace scanloom
@@ -66,6 +67,8 @@ TEST(SimulatedImu, withoutErrorsIntegratesToTheDrive)
   const Vector6d error = boxMinus(predicted.map_T_imu, end.world_T_body * body_T_imu);
   EXPECT_LT(error.head<3>().norm(), 1e-3) << "m";
   EXPECT_LT(error.tail<3>().norm(), 1e-5) << "rad";
+  RecordProperty("position_um", fmt::format("{:.1f}", 1e6 * error.head<3>().norm()));
+  RecordProperty("rotation_urad", fmt::format("{:.3f}", 1e6 * error.tail<3>().norm()));
 }
 
 TEST(SimulatedImu, hasTheNoiseThatWasAskedFor)

@@ -1,6 +1,7 @@
 #include "simulation/World.h"
 #include "simulation/Random.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
@@ -131,6 +132,7 @@ TEST(World, hasTheStemDiametersOfItsTable)
   options.trees.dead_branches = 0;
   const World world = worldAround(options);
   int measured = 0;
+  double largest_error = 0;
   for (std::uint32_t i = 0; i < world.stems().size(); ++i)
   {
     const Stem& stem = world.stems()[i];
@@ -148,7 +150,10 @@ TEST(World, hasTheStemDiametersOfItsTable)
     if (across.size() < 20) continue;  // another stem stands in between
     ++measured;
     EXPECT_NEAR(fittedDiameter(across), stem.diameter, 5e-4) << "stem " << i;
+    largest_error = std::max(largest_error, std::abs(fittedDiameter(across) - stem.diameter));
   }
+  RecordProperty("stems", measured);
+  RecordProperty("largest_error_mm", fmt::format("{:.3f}", 1e3 * largest_error));
   EXPECT_GT(measured, 500);
 }
 }  // namespace

@@ -1,0 +1,128 @@
+#include "simulation/Receiver.h"
+
+#include "simulation/AssumedOuster.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kMillimetre = 1e-3;
+
+/** A unit without a product line is taken for an OS1, as the metadata's parser does. */
+RangingOptions ofDataSheet(RangingOptions ranging, const std::string& product_line)
+{
+  const OusterFamily& family = ousterFamily(product_line.empty() ? "OS1" : product_line);
+  if (ranging.range_at_ten_percent == 0) ranging.range_at_ten_percent = family.range_at_ten_percent;
+  if (ranging.least_range == 0) ranging.least_range = family.least_range;
+  return ranging;
+}
+
+std::uint16_t photons(double count) { return static_cast<std::uint16_t>(std::clamp(count, 1.0, 65535.0)); }
+
+double reflectivityOfSurface(const RangingOptions& options, Surface surface)
+{
+  switch (surface)
+  {
+    case Surface::Ground:
+      return options.ground;
+    case Surface::Stem:
+      return options.stem;
+    case Surface::Branch:
+      return options.branch;
+    case Surface::Crown:
+      return options.crown;
+    case Surface::Undergrowth:
+      return options.undergrowth;
+    case Surface::Machine:
+    case Surface::Boom:
+      return options.machine;
+    case Surface::Object:
+      return options.object;
+  }
+  return 0;
+}
+}  // namespace
+
+double signalStrength(double reflectivity, double cosine_incidence, double range, double range_at_ten_percent)
+{
+  const double reach = range_at_ten_percent / range;
+  return reflectivity / 0.10 * cosine_incidence * reach * reach;
+}
+
+double chanceOfReturn(double strength) { return std::clamp((1.3 - 1 / std::sqrt(strength)) / 0.6, 0.0, 1.0); }
+
+double rangeNoise(const RangingOptions& ranging, double strength)
+{
+  return std::hypot(ranging.range_noise, ranging.range_noise_weak / std::sqrt(strength));
+}
+
+Luck::Luck(Random& random) : noise(random.normal()), detection(random.uniform()), shade(random.normal()) {}
+
+Receiver::Receiver(RangingOptions options, const std::string& product_line, double origin_to_axis)
+  : options_(ofDataSheet(options, product_line)), origin_to_axis_(origin_to_axis)
+{
+}
+
+Reception Receiver::receive(const Echo& echo) const
+{
+  Reception reception;
+  reception.reading.near_ir = nearIrOf(echo);
+  if (const auto only = returnOf(echo, 1))
+  {
+    reception.reading.first = only->measured;
+    reception.surface = only->surface;
+  }
+  return reception;
+}
+
+Reception Receiver::receive(const Echo& on_axis, const Echo& beside) const
+{
+  const bool apart =
+      on_axis.hit && beside.hit && std::abs(on_axis.hit->range - beside.hit->range) >= options_.least_separation;
+  if (!apart) return receive(on_axis);
+
+  auto stronger = returnOf(on_axis, 0.5), weaker = returnOf(beside, 0.5);
+  if (weaker && (!stronger || weaker->measured.signal > stronger->measured.signal)) std::swap(stronger, weaker);
+  Reception reception;
+  reception.reading.near_ir = nearIrOf(on_axis);
+  if (stronger)
+  {
+    reception.reading.first = stronger->measured;
+    reception.surface = stronger->surface;
+  }
+  if (weaker) reception.reading.second = weaker->measured;
+  return reception;
+}
+
+std::optional<Receiver::Return> Receiver::returnOf(const Echo& echo, double share_of_light) const
+{
+  if (!echo.hit || echo.hit->range < options_.least_range) return std::nullopt;
+  const Hit& hit = *echo.hit;
+  const double reflectivity = reflectivityOf(hit, echo.luck);
+  const double strength =
+      share_of_light * signalStrength(reflectivity, hit.cosine_incidence, hit.range, options_.range_at_ten_percent);
+  if (echo.luck.detection >= chanceOfReturn(strength)) return std::nullopt;
+
+  const double range = hit.range + rangeNoise(options_, strength) * echo.luck.noise + origin_to_axis_;
+  OusterReturn measured;
+  measured.range_mm = static_cast<std::uint32_t>(std::lround(std::max(range, kMillimetre) / kMillimetre));
+  measured.reflectivity = static_cast<std::uint8_t>(std::clamp(100 * reflectivity, 1.0, 100.0));
+  measured.signal = photons(options_.photons * strength);
+  return Return{measured, hit.surface};
+}
+
+std::uint16_t Receiver::nearIrOf(const Echo& echo) const
+{
+  const double sunlight = echo.hit ? options_.daylight * reflectivityOf(*echo.hit, echo.luck) : options_.sky;
+  return photons(sunlight * (1 + options_.shade * echo.luck.shade));
+}
+
+double Receiver::reflectivityOf(const Hit& hit, const Luck& luck) const
+{
+  constexpr double kDarkest = 0.01;
+  return std::max(kDarkest, reflectivityOfSurface(options_, hit.surface) * (1 + options_.shade * luck.shade));
+}
+}  // namespace scanloom
