@@ -1,6 +1,6 @@
 #pragma once
 #include "core/Bytes.h"
-#include "lidar/Kernel.h"
+#include "core/Kernel.h"
 
 #include <cstdint>
 

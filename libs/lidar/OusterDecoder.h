@@ -1,7 +1,7 @@
 /** Ouster's packets: every profile of OusterProfiles.h, both header types, both IMU formats. */
 #pragma once
 #include "lidar/BeamTable.h"
-#include "lidar/Kernel.h"
+#include "core/Kernel.h"
 #include "lidar/OusterMetadata.h"
 #include "lidar/OusterPoints.h"
 #include "lidar/PacketDecoder.h"

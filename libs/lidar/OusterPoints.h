@@ -6,7 +6,7 @@
 #include "core/Bytes.h"
 #include "core/PointCloud.h"
 #include "lidar/BeamTable.h"
-#include "lidar/Kernel.h"
+#include "core/Kernel.h"
 #include "lidar/OusterProfiles.h"
 
 #include <cstdint>

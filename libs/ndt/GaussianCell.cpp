@@ -15,14 +15,22 @@ void forEachSum(Moments& a, const Moments& b, Operation&& apply)
   apply(a.yy, b.yy), apply(a.yz, b.yz), apply(a.zz, b.zz);
 }
 
-Eigen::Matrix3d withFlooredEigenvalues(const Eigen::Matrix3d& covariance, double floor)
-{
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(covariance);
-  const Eigen::Vector3d missing = (floor - eigen.eigenvalues().array()).max(0.0);
-  return covariance + eigen.eigenvectors() * missing.asDiagonal() * eigen.eigenvectors().transpose();
-}
 }  // namespace
+
+Moments Moments::about(const Eigen::Matrix<std::int64_t, 3, 1>& corner) const
+{
+  const std::int64_t dx = corner.x(), dy = corner.y(), dz = corner.z();
+  Moments m;
+  m.n = n;
+  m.x = x + n * dx, m.y = y + n * dy, m.z = z + n * dz;
+  m.xx = xx + 2 * dx * x + n * dx * dx;
+  m.yy = yy + 2 * dy * y + n * dy * dy;
+  m.zz = zz + 2 * dz * z + n * dz * dz;
+  m.xy = xy + dx * y + dy * x + n * dx * dy;
+  m.xz = xz + dx * z + dz * x + n * dx * dz;
+  m.yz = yz + dy * z + dz * y + n * dy * dz;
+  return m;
+}
 
 Moments& Moments::operator+=(const Moments& other)
 {
@@ -36,7 +44,7 @@ Moments& Moments::operator-=(const Moments& other)
   return *this;
 }
 
-GaussianCell gaussianOf(const Moments& m, const Eigen::Vector3d& corner, double min_deviation)
+GaussianCell gaussianOf(const Moments& m, const Eigen::Vector3d& corner, double edge, double min_deviation)
 {
   const double n = static_cast<double>(m.n);
   const Eigen::Vector3d mean =
@@ -48,7 +56,13 @@ GaussianCell gaussianOf(const Moments& m, const Eigen::Vector3d& corner, double 
   const Eigen::Matrix3d covariance =
       (products - n * mean * mean.transpose()) * (Moments::kQuantum * Moments::kQuantum / (n - 1));
 
-  return {corner + Moments::kQuantum * mean, withFlooredEigenvalues(covariance, min_deviation * min_deviation),
-          static_cast<std::uint32_t>(m.n)};
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(covariance);
+  const Eigen::Array3d variances = eigen.eigenvalues().array().max(min_deviation * min_deviation);
+  const Eigen::Vector3d missing = variances - eigen.eigenvalues().array();
+  const Eigen::Vector3d thin = (1 - variances / (edge * edge / 12)).max(0.0).sqrt();
+  const auto along = [&](const Eigen::Vector3d& v) -> Eigen::Matrix3d
+  { return eigen.eigenvectors() * v.asDiagonal() * eigen.eigenvectors().transpose(); };
+  return {corner + Moments::kQuantum * mean, covariance + along(missing), static_cast<std::uint32_t>(m.n), along(thin)};
 }
 }  // namespace scanloom

@@ -12,6 +12,11 @@ struct GaussianCell
   Eigen::Vector3d mean;        // m
   Eigen::Matrix3d covariance;  // m^2, no eigenvalue below the floor of the map's options
   std::uint32_t points = 0;
+  /**
+   * Takes away the directions in which the points fill the cell (variance near edge^2 / 12). There the mean tells where
+   * the grid lies, not where the world does: a wall's cells resist sliding along it although nothing in the wall does.
+   */
+  Eigen::Matrix3d structure = Eigen::Matrix3d::Zero();
 };
 
 /**
@@ -36,13 +41,16 @@ struct Moments
     xx += px * px, xy += px * py, xz += px * pz;
     yy += py * py, yz += py * pz, zz += pz * pz;
   }
+  /** The same points, counted from `corner` before the own one. */
+  Moments about(const Eigen::Matrix<std::int64_t, 3, 1>& corner) const;
+
   Moments& operator+=(const Moments&);
   Moments& operator-=(const Moments&);
 };
 
 /**
- * The Gaussian of at least two points whose sums are about `corner`. Eigenvalues below min_deviation^2 are raised to
- * it: walls and stems are thinner than the noise of their cells is known.
+ * The Gaussian of at least two points in a cell of `edge` m whose sums are about its `corner`. Eigenvalues below
+ * min_deviation^2 are raised to it: walls and stems are thinner than the noise of their cells is known.
  */
-GaussianCell gaussianOf(const Moments&, const Eigen::Vector3d& corner, double min_deviation);
+GaussianCell gaussianOf(const Moments&, const Eigen::Vector3d& corner, double edge, double min_deviation);
 }  // namespace scanloom

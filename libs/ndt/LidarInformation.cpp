@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace scanloom
 {
@@ -14,7 +13,6 @@ namespace
 {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Matrix36 = Eigen::Matrix<double, 3, 6>;
 using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
 // Points of one cell share beams, edges and the surface's own unevenness: past this number they teach nothing new.
@@ -32,27 +30,14 @@ Matrix3d covarianceOfMean(const GaussianCell& cell)
   return cell.covariance / std::min<double>(cell.points, kMostIndependentPoints);
 }
 
-/**
- * Takes away the directions in which points fill their cell. There a cell's mean tells where the grid lies, not where
- * the world does: a wall's cells resist sliding along the wall although nothing in the wall does.
- */
-Matrix3d thinDirections(const GaussianCell& cell, double edge)
-{
-  const double filled = edge * edge / 12;  // variance of a uniform distribution
-  Eigen::SelfAdjointEigenSolver<Matrix3d> eigen;
-  eigen.computeDirect(cell.covariance);
-  const Vector3d share = (1 - eigen.eigenvalues().array() / filled).max(0.0).sqrt();
-  return eigen.eigenvectors() * share.asDiagonal() * eigen.eigenvectors().transpose();
-}
-
-/** What is gathered per target cell; most are met by several source cells, many by none. */
+/** What is gathered per target cell, of which most are met by several source cells, many by none: d force / d mean. */
 struct TargetRole
 {
-  Matrix63 pull = Matrix63::Zero();  // d gradient / d mean
-  std::optional<Matrix3d> thin;
+  bool met = false;
+  Matrix3d force = Matrix3d::Zero(), torque = Matrix3d::Zero();
 };
 
-/** Sums over all pairs; steps in metres. */
+/** Sums over all pairs; steps in the target's frame, in m and rad, about the source's origin. */
 struct Evidence
 {
   Matrix6d resistance = Matrix6d::Zero();  // sum J' wB J
@@ -61,6 +46,16 @@ struct Evidence
   Matrix6d noise = Matrix6d::Zero();       // covariance of the gradient
 };
 
+/** J' A J of J = [I, -skew(v)]. */
+void addTo(Matrix6d& sum, const Matrix3d& a, const Matrix3d& cross)
+{
+  const Matrix3d a_cross = a * cross;
+  sum.topLeftCorner<3, 3>() += a;
+  sum.topRightCorner<3, 3>() -= a_cross;
+  sum.bottomLeftCorner<3, 3>() += cross * a;
+  sum.bottomRightCorner<3, 3>() -= cross * a_cross;
+}
+
 Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
   const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
@@ -68,16 +63,16 @@ Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, dou
   Evidence evidence;
   for (std::size_t i = 0; i < all.source().size(); ++i)
   {
+    const auto targets = all.of(i);
+    if (targets.begin() == targets.end()) continue;
     const GaussianCell& source = all.source()[i];
-    const Vector3d mean = target_T_source * source.mean;
+    const Vector3d v = rotation * source.mean, mean = v + target_T_source.translation;
     const Matrix3d covariance = rotation * source.covariance * rotation.transpose();
-    const Matrix3d thin_source = rotation * thinDirections(source, all.sourceEdge()) * rotation.transpose();
-    Matrix36 jacobian;  // of m
-    jacobian << rotation, -rotation * skew(source.mean);
-    jacobian = jacobian * stepOfMetres().asDiagonal();
+    const Matrix3d thin_source = rotation * source.structure * rotation.transpose();
+    const Matrix3d cross = skew(v);
 
     Matrix3d weights = Matrix3d::Zero(), structures = Matrix3d::Zero(), pulls = Matrix3d::Zero();
-    for (const std::uint32_t j : all.of(i))
+    for (const std::uint32_t j : targets)
     {
       const GaussianCell& target = all.target()[j];
       const Matrix3d b = (covariance + target.covariance).inverse();
@@ -85,24 +80,40 @@ Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, dou
       const Vector3d u = b * m;
       const double w = d2 * std::exp(-d2 / 2 * m.dot(u));
       const Matrix3d pull = w * (b - d2 * u * u.transpose());
-      TargetRole& role = roles[j];
-      if (!role.thin) role.thin = thinDirections(target, all.targetEdge());
-      const Matrix3d thin = thin_source * *role.thin;
+      const Matrix3d thin = thin_source * target.structure;
       weights += w * b;
       structures += w * thin * b * thin.transpose();
       pulls += pull;
-      role.pull += jacobian.transpose() * pull;
+      TargetRole& role = roles[j];
+      role.met = true;
+      role.force += pull;
+      role.torque += cross * pull;
     }
-    const Matrix63 pull_of_source = jacobian.transpose() * pulls;
-    evidence.resistance += jacobian.transpose() * weights * jacobian;
-    evidence.structure += jacobian.transpose() * structures * jacobian;
-    evidence.curvature += pull_of_source * jacobian;
-    evidence.noise +=
-        pull_of_source * rotation * covarianceOfMean(source) * rotation.transpose() * pull_of_source.transpose();
+    addTo(evidence.resistance, weights, cross);
+    addTo(evidence.structure, structures, cross);
+    addTo(evidence.curvature, pulls, cross);
+    addTo(evidence.noise, pulls * rotation * covarianceOfMean(source) * rotation.transpose() * pulls, cross);
   }
   for (std::size_t j = 0; j < roles.size(); ++j)
-    if (roles[j].thin) evidence.noise += roles[j].pull * covarianceOfMean(all.target()[j]) * roles[j].pull.transpose();
+  {
+    if (!roles[j].met) continue;
+    Matrix63 pull;
+    pull << roles[j].force, roles[j].torque;
+    evidence.noise += pull * covarianceOfMean(all.target()[j]) * pull.transpose();
+  }
   return evidence;
+}
+
+/** Steps in the source's frame, in metres (see stepOfMetres). */
+Evidence inSource(const Evidence& in_target, const Rigid& target_T_source)
+{
+  const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
+  Matrix6d target_of_step = Matrix6d::Zero();
+  target_of_step.topLeftCorner<3, 3>() = target_of_step.bottomRightCorner<3, 3>() = rotation;
+  target_of_step = target_of_step * stepOfMetres().asDiagonal();
+  const auto turned = [&](const Matrix6d& m) -> Matrix6d { return target_of_step.transpose() * m * target_of_step; };
+  return {turned(in_target.resistance), turned(in_target.structure), turned(in_target.curvature),
+          turned(in_target.noise)};
 }
 
 /** Steps whose resistance has too little structure; orthonormal. */
@@ -139,7 +150,7 @@ Vector6d stepOfMetres()
 
 LidarInformation lidarInformation(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
-  const Evidence evidence = evidenceOf(all, target_T_source, d2);
+  const Evidence evidence = inSource(evidenceOf(all, target_T_source, d2), target_T_source);
   const Matrix6d inverse = safeInverse(evidence.curvature);
   Matrix6d metres = inverse * evidence.noise * inverse;
   metres.diagonal().head<3>().array() += kTranslationFloor * kTranslationFloor;

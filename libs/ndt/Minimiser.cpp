@@ -23,7 +23,6 @@ NormalEquations at(const Rigid& pose, const Pairs& pairs, double d2)
   NormalEquations sum;
   for (Neighbourhoods* neighbourhoods : pairs)
   {
-    neighbourhoods->moveTo(pose);
     const NormalEquations one = normalEquations(*neighbourhoods, pose, d2);
     sum.value += one.value;
     sum.gradient += one.gradient;

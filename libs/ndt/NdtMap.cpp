@@ -1,10 +1,12 @@
 #include "ndt/NdtMap.h"
 
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -12,44 +14,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr int kBitsPerAxis = 21;
-constexpr std::int64_t kIndexLimit = std::int64_t{1} << (kBitsPerAxis - 1);
-
-using Quanta = Eigen::Matrix<std::int64_t, 3, 1>;  // a position in Moments::kQuantum
-
-bool fits(std::int64_t index) { return index >= -kIndexLimit && index < kIndexLimit; }
-
-/** Keys sort as (z, y, x). */
-std::uint64_t keyOf(std::int64_t x, std::int64_t y, std::int64_t z)
-{
-  const auto biased = [](std::int64_t index) { return static_cast<std::uint64_t>(index + kIndexLimit); };
-  return (biased(z) << (2 * kBitsPerAxis)) | (biased(y) << kBitsPerAxis) | biased(x);
-}
-
-Eigen::Vector3d indexOfKey(std::uint64_t key)
-{
-  const auto axis = [key](int i)
-  {
-    return static_cast<double>(static_cast<std::int64_t>((key >> (i * kBitsPerAxis)) & (2 * kIndexLimit - 1)) -
-                               kIndexLimit);
-  };
-  return {axis(0), axis(1), axis(2)};
-}
-
-/** Rounds down without a branch or a library call, as long as |value| < 2^40. */
-std::int64_t floorToInt(double value)
-{
-  constexpr std::int64_t kBias = std::int64_t{1} << 40;
-  return static_cast<std::int64_t>(value + static_cast<double>(kBias)) - kBias;
-}
-
-std::int64_t quantaOf(double coordinate) { return floorToInt(coordinate * (1 / Moments::kQuantum) + 0.5); }
-
-std::int64_t cellOf(std::int64_t quanta, std::int64_t cell_quanta)
-{
-  return quanta >= 0 ? quanta / cell_quanta : (quanta + 1) / cell_quanta - 1;
-}
-
 void check(const NdtOptions& options)
 {
   NdtOptions::fields(
@@ -65,11 +29,42 @@ void check(const NdtOptions& options)
             std::isfinite(f.bounds.highest) ? fmt::format(" and at most {}", f.bounds.highest) : std::string()));
       });
 }
+
+/** What of one axis lies in one block: the cells from -1 to 1 around the centre, and the centre alone. */
+struct AxisInBlock
+{
+  std::uint64_t block = 0;   // index of the block along the axis
+  std::uint64_t around = 0;  // bits of a block's 64 cells
+  std::uint64_t centre = 0;
+};
+
+/** `spread`: of the four indices of an axis to the 64 cells. */
+template <typename Spread>
+int splitAxis(std::int64_t index, Spread&& spread, std::array<AxisInBlock, 2>& parts)
+{
+  int count = 0;
+  for (std::int64_t i = index - 1; i <= index + 1; ++i)
+  {
+    const std::uint64_t biased = CellKey::biased(i), block = biased >> 2;
+    if (count == 0 || parts[static_cast<std::size_t>(count - 1)].block != block)
+      parts[static_cast<std::size_t>(count++)] = {block, 0, 0};
+    AxisInBlock& part = parts[static_cast<std::size_t>(count - 1)];
+    part.around |= spread(biased & 3);
+    if (i == index) part.centre = spread(biased & 3);
+  }
+  return count;
+}
 }  // namespace
 
 NdtMap::NdtMap(const NdtOptions& options)
   : options_((check(options), options)), cell_quanta_(std::llround(options.cell_size / Moments::kQuantum))
 {
+}
+
+NdtMap::NdtMap(const NdtOptions& options, std::int64_t cell_quanta, const std::vector<Bin>& bins)
+  : options_(options), cell_quanta_(cell_quanta)
+{
+  combine(bins, [](Moments& a, const Moments& b) { a += b; });
 }
 
 NdtMap::NdtMap(const PointCloud& points, const NdtOptions& options) : NdtMap(options) { add(points); }
@@ -78,48 +73,21 @@ NdtMap::NdtMap(const std::vector<Eigen::Vector3f>& points, const NdtOptions& opt
 
 void NdtMap::add(const PointCloud& cloud)
 {
-  addPoints(cloud.size(), [&cloud](std::size_t i) { return cloud.position(i); });
+  add(Coordinates{cloud.x.data(), cloud.y.data(), cloud.z.data(), 1, cloud.size()});
 }
 
 void NdtMap::add(const std::vector<Eigen::Vector3f>& points)
 {
-  addPoints(points.size(), [&points](std::size_t i) -> const Eigen::Vector3f& { return points[i]; });
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  const float* first = points.empty() ? nullptr : points.front().data();
+  add(Coordinates{first, first + 1, first + 2, 3, points.size()});
 }
 
-template <typename PositionOf>
-void NdtMap::addPoints(std::size_t count, PositionOf&& positionOf)
+void NdtMap::add(const Coordinates& points)
 {
-  const auto reach = static_cast<float>((kIndexLimit - 1) * static_cast<double>(cell_quanta_) * Moments::kQuantum);
-  const auto edge = static_cast<std::uint64_t>(cell_quanta_);
-  std::vector<Bin> bins;
-  tsl::robin_map<std::uint64_t, std::uint32_t, KeyHash> bin_of_key;
-  std::uint32_t bin = 0;
-  Quanta corner = Quanta::Constant(std::numeric_limits<std::int64_t>::max() / 2);  // of that bin
-
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const Eigen::Vector3f p = positionOf(i);
-    if (!(std::abs(p.x()) < reach && std::abs(p.y()) < reach && std::abs(p.z()) < reach))  // also what is not finite
-    {
-      ++points_left_out_;
-      continue;
-    }
-    const Quanta point(quantaOf(p.x()), quantaOf(p.y()), quantaOf(p.z()));
-    const auto sameCell = [edge, &corner, &point](int k)
-    { return static_cast<std::uint64_t>(point[k] - corner[k]) < edge; };
-    if (!(sameCell(0) && sameCell(1) && sameCell(2)))  // neighbours in a column mostly share a cell
-    {
-      const Quanta cell(cellOf(point[0], cell_quanta_), cellOf(point[1], cell_quanta_), cellOf(point[2], cell_quanta_));
-      corner = cell * cell_quanta_;
-      const std::uint64_t key = keyOf(cell.x(), cell.y(), cell.z());
-      const auto [found, is_new] = bin_of_key.try_emplace(key, static_cast<std::uint32_t>(bins.size()));
-      if (is_new) bins.push_back({key, {}});
-      bin = found->second;
-    }
-    bins[bin].moments.add(point[0] - corner[0], point[1] - corner[1], point[2] - corner[2]);
-  }
-  std::sort(bins.begin(), bins.end(), [](const Bin& a, const Bin& b) { return a.key < b.key; });
-  combine(bins, [](Moments& a, const Moments& b) { a += b; });
+  const CellBins counted = countInto(points, cell_quanta_);
+  points_left_out_ += counted.left_out;
+  combine(counted.bins, [](Moments& a, const Moments& b) { a += b; });
 }
 
 void NdtMap::add(const NdtMap& other)
@@ -134,23 +102,63 @@ void NdtMap::remove(const NdtMap& other)
   combine(other.bins_, [](Moments& a, const Moments& b) { a -= b; });
 }
 
+NdtMap NdtMap::coarser(int factor) const
+{
+  NdtOptions options = options_;
+  options.cell_size *= factor;
+  check(options);
+  return {options, cell_quanta_ * factor, coarserBins(bins_, cell_quanta_, factor)};
+}
+
 template <typename Combine>
 void NdtMap::combine(const std::vector<Bin>& others, Combine&& apply)
 {
-  std::vector<Bin> combined;
-  combined.reserve(bins_.size() + others.size());
+  std::vector<Bin> bins;
+  std::vector<GaussianCell> cells;
+  bins.reserve(bins_.size() + others.size());
+  cells.reserve(cells_.size() + others.size());
+  struct Changed
+  {
+    std::size_t bin, cell;
+  };
+  std::vector<Changed> changed;
   auto mine = bins_.cbegin();
+  auto my_cell = cells_.cbegin();
+  const auto keep = [&](const Bin& bin)
+  {
+    bins.push_back(bin);
+    if (hasGaussian(bin)) cells.push_back(*my_cell++);
+  };
   for (const Bin& other : others)
   {
-    while (mine != bins_.cend() && mine->key < other.key) combined.push_back(*mine++);
-    Bin sum = mine != bins_.cend() && mine->key == other.key ? *mine++ : Bin{other.key, {}};
+    while (mine != bins_.cend() && mine->key < other.key) keep(*mine++);
+    Bin sum{other.key, {}};
+    if (mine != bins_.cend() && mine->key == other.key)
+    {
+      if (hasGaussian(*mine)) ++my_cell;
+      sum = *mine++;
+    }
+    const std::int64_t before = sum.moments.n;
     apply(sum.moments, other.moments);
     if (sum.moments.n < 0) throw std::invalid_argument("NdtMap::remove: these points were never added");
-    if (sum.moments.n > 0) combined.push_back(sum);
+    points_ = static_cast<std::size_t>(static_cast<std::int64_t>(points_) + sum.moments.n - before);
+    if (sum.moments.n == 0) continue;
+    bins.push_back(sum);
+    if (!hasGaussian(sum)) continue;
+    changed.push_back({bins.size() - 1, cells.size()});
+    cells.emplace_back();
   }
-  combined.insert(combined.end(), mine, bins_.cend());
-  bins_ = std::move(combined);
-  computeGaussians();
+  while (mine != bins_.cend()) keep(*mine++);
+  constexpr std::size_t kGrain = 128;  // Gaussians: some 20 us
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, changed.size(), kGrain),
+                    [&](const auto& range)
+                    {
+                      for (std::size_t i = range.begin(); i != range.end(); ++i)
+                        cells[changed[i].cell] = gaussianOfBin(bins[changed[i].bin]);
+                    });
+  bins_ = std::move(bins);
+  cells_ = std::move(cells);
+  indexBlocks();
 }
 
 void NdtMap::requireSameCells(const NdtMap& other) const
@@ -161,37 +169,88 @@ void NdtMap::requireSameCells(const NdtMap& other) const
                   other.options_.cell_size, options_.cell_size));
 }
 
-void NdtMap::computeGaussians()
+GaussianCell NdtMap::gaussianOfBin(const Bin& bin) const
 {
   const double edge = static_cast<double>(cell_quanta_) * Moments::kQuantum;
-  cells_.clear();
-  cell_of_key_.clear();
-  cells_.reserve(bins_.size());
-  cell_of_key_.reserve(bins_.size());
-  points_ = 0;
+  return gaussianOf(bin.moments, edge * CellKey::indexOf(bin.key).cast<double>(), edge, options_.min_deviation);
+}
+
+void NdtMap::indexBlocks()
+{
+  blocks_.clear();
+  std::uint32_t cell = 0;
+  Block block;
+  std::uint64_t key = 0;
+  const auto finish = [&]
+  {
+    if (block.cells != 0) blocks_.emplace(key, block);
+  };
   for (const Bin& bin : bins_)
   {
-    points_ += static_cast<std::size_t>(bin.moments.n);
-    if (bin.moments.n < options_.min_points) continue;
-    cell_of_key_.emplace(bin.key, static_cast<std::uint32_t>(cells_.size()));
-    cells_.push_back(gaussianOf(bin.moments, edge * indexOfKey(bin.key), options_.min_deviation));
+    if (!hasGaussian(bin)) continue;
+    if (block.cells == 0 || bin.key >> CellKey::kCellBits != key)
+    {
+      finish();
+      key = bin.key >> CellKey::kCellBits;
+      block = {0, cell};
+    }
+    block.cells |= std::uint64_t{1} << (bin.key & 63);
+    ++cell;
   }
+  finish();
 }
 
 const GaussianCell* NdtMap::cellAt(const Eigen::Vector3i& index) const
 {
-  if (!fits(index.x()) || !fits(index.y()) || !fits(index.z())) return nullptr;
-  const auto found = cell_of_key_.find(keyOf(index.x(), index.y(), index.z()));
-  return found == cell_of_key_.end() ? nullptr : &cells_[found->second];
+  std::uint32_t found;
+  return findAround(index, 1, &found) == 0 ? nullptr : &cells_[found];
+}
+
+std::size_t NdtMap::findAround(const Eigen::Vector3i& index, int neighbours, std::uint32_t* found) const
+{
+  // A cell at the very border has neighbours without an index; nothing that far is worth the code.
+  if (!CellKey::fits(index.minCoeff() - std::int64_t{1}) || !CellKey::fits(index.maxCoeff() + std::int64_t{1}))
+    return 0;
+  std::array<AxisInBlock, 2> along_x, along_y, along_z;
+  const int xs = splitAxis(
+      index.x(), [](std::uint64_t i) { return 0x1111111111111111U << i; }, along_x);
+  const int ys = splitAxis(
+      index.y(), [](std::uint64_t i) { return 0x000f000f000f000fU << (4 * i); }, along_y);
+  const int zs = splitAxis(
+      index.z(), [](std::uint64_t i) { return std::uint64_t{0xffff} << (16 * i); }, along_z);
+  std::uint32_t* end = found;
+  for (int k = 0; k < zs; ++k)
+    for (int j = 0; j < ys; ++j)
+      for (int i = 0; i < xs; ++i)
+      {
+        const AxisInBlock &x = along_x[static_cast<std::size_t>(i)], &y = along_y[static_cast<std::size_t>(j)],
+                          &z = along_z[static_cast<std::size_t>(k)];
+        const std::uint64_t wanted =
+            neighbours == 27 ? x.around & y.around & z.around
+            : neighbours == 7
+                ? (x.around & y.centre & z.centre) | (x.centre & y.around & z.centre) | (x.centre & y.centre & z.around)
+                : x.centre & y.centre & z.centre;
+        if (wanted == 0) continue;
+        const auto block = blocks_.find(CellKey::blockOf(x.block, y.block, z.block));
+        if (block == blocks_.end()) continue;
+        const std::uint64_t cells = block->second.cells;
+        for (std::uint64_t left = cells & wanted; left != 0; left &= left - 1)
+        {
+          const std::uint64_t before = (left & -left) - 1;
+          *end++ = block->second.first + static_cast<std::uint32_t>(__builtin_popcountll(cells & before));
+        }
+      }
+  return static_cast<std::size_t>(end - found);
 }
 
 Eigen::Vector3i NdtMap::indexOf(const Eigen::Vector3d& point) const
 {
-  const double reach = static_cast<double>((kIndexLimit - 1) * cell_quanta_) * Moments::kQuantum;
-  const auto index = [this, reach](double coordinate)
+  const double reach = static_cast<double>((CellKey::kLimit - 1) * cell_quanta_) * Moments::kQuantum;
+  const DividedBy cellOf(cell_quanta_);
+  const auto index = [&](double coordinate)
   {
-    if (!(std::abs(coordinate) < reach)) return static_cast<int>(kIndexLimit);  // a cell that no map has
-    return static_cast<int>(cellOf(quantaOf(coordinate), cell_quanta_));
+    if (!(std::abs(coordinate) < reach)) return static_cast<int>(CellKey::kLimit);  // a cell that no map has
+    return static_cast<int>(cellOf(quantaOf(coordinate)));
   };
   return {index(point.x()), index(point.y()), index(point.z())};
 }

@@ -2,11 +2,10 @@
 #pragma once
 #include "core/Field.h"
 #include "core/PointCloud.h"
-#include "ndt/GaussianCell.h"
+#include "ndt/CellBins.h"
 
 #include <tsl/robin_map.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -31,8 +30,9 @@ struct NdtOptions
 /**
  * Sums of points per cell, and the Gaussians of the cells that have enough of them.
  *
- * The same points give the same bits in any order, whether added at once or map by map (see Moments). Cells are listed
- * in the order of their index (z, y, x): no hash decides it. The edge of a cell is rounded to a multiple of 1/65536 m.
+ * The same points give the same bits in any order, whether added at once or map by map, on any number of threads (see
+ * Moments). Cells are listed in the order of their CellKey: no hash decides it. The edge of a cell is rounded to a
+ * multiple of 1/65536 m.
  */
 class NdtMap
 {
@@ -47,47 +47,56 @@ class NdtMap
   void add(const PointCloud& points_in_map);
   void add(const std::vector<Eigen::Vector3f>& points_in_map);
 
-  /** Adds or takes out the points of a map in the same frame; throws std::invalid_argument if the cell sizes differ. */
+  /**
+   * Adds or takes out the points of a map in the same frame: only the cells of `other` are computed anew. Throws
+   * std::invalid_argument if the cell sizes differ.
+   */
   void add(const NdtMap& other);
   void remove(const NdtMap& other);
 
-  /** Cells with enough points, sorted by index. */
+  /** The same points in cells of `factor` times the edge, from sums: no point is binned again. `factor` from 2. */
+  NdtMap coarser(int factor) const;
+
+  /** Cells with enough points, in the order of their keys. */
   const std::vector<GaussianCell>& cells() const { return cells_; }
 
   /** The Gaussian of a cell; nullptr where there is none. Valid until the map is changed. */
   const GaussianCell* cellAt(const Eigen::Vector3i& index) const;
   Eigen::Vector3i indexOf(const Eigen::Vector3d& point) const;
 
+  /**
+   * Writes the places in cells() of the Gaussians among the 1, 7 or 27 cells around `index`, itself included, and
+   * returns how many. Another number throws nothing and finds nothing.
+   */
+  std::size_t findAround(const Eigen::Vector3i& index, int neighbours, std::uint32_t* found) const;
+
   std::size_t points() const { return points_; }
   std::size_t pointsLeftOut() const { return points_left_out_; }
   const NdtOptions& options() const { return options_; }
 
  private:
-  struct Bin
+  /** Of 4 x 4 x 4 cells, those that have a Gaussian: a bit each, and where in cells_ they begin. */
+  struct Block
   {
-    std::uint64_t key;
-    Moments moments;
-  };
-  struct KeyHash
-  {
-    std::size_t operator()(std::uint64_t key) const
-    {
-      return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 24);
-    }
+    std::uint64_t cells = 0;
+    std::uint32_t first = 0;
   };
 
-  template <typename PositionOf>
-  void addPoints(std::size_t count, PositionOf&& positionOf);
+  NdtMap(const NdtOptions&, std::int64_t cell_quanta, const std::vector<Bin>&);
+
+  void add(const Coordinates&);
   template <typename Combine>
-  void combine(const std::vector<Bin>& sorted_bins, Combine&&);
+  void combine(const std::vector<Bin>& others, Combine&&);
   void requireSameCells(const NdtMap& other) const;
-  void computeGaussians();
+  bool hasGaussian(const Bin& bin) const { return bin.moments.n >= options_.min_points; }
+  GaussianCell gaussianOfBin(const Bin&) const;
+  void indexBlocks();
 
   NdtOptions options_;
   std::int64_t cell_quanta_;  // edge of a cell in Moments::kQuantum
   std::vector<Bin> bins_;     // sorted by key, also those with too few points
   std::vector<GaussianCell> cells_;
-  tsl::robin_map<std::uint64_t, std::uint32_t, KeyHash> cell_of_key_;  // only looked up, never iterated
+  tsl::robin_map<std::uint64_t, Block, KeyHash> blocks_;  // only looked up, never iterated
   std::size_t points_ = 0;
   std::size_t points_left_out_ = 0;
 };

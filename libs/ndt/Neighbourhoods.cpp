@@ -1,7 +1,9 @@
 #include "ndt/Neighbourhoods.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -9,54 +11,86 @@ namespace scanloom
 {
 namespace
 {
-std::vector<Eigen::Vector3i> offsetsOf(int neighbours)
+TurnedCell turned(const GaussianCell& cell, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation)
 {
-  int most_axes;  // along how many axes a neighbour may differ
-  switch (neighbours)
-  {
-    case 1:
-      most_axes = 0;
-      break;
-    case 7:
-      most_axes = 1;
-      break;
-    case 27:
-      most_axes = 3;
-      break;
-    default:
-      throw std::invalid_argument(fmt::format("RegistrationOptions: neighbours = {}: must be 1, 7 or 27", neighbours));
-  }
-  std::vector<Eigen::Vector3i> offsets;
-  for (int z = -1; z <= 1; ++z)
-    for (int y = -1; y <= 1; ++y)
-      for (int x = -1; x <= 1; ++x)
-        if (x * x + y * y + z * z <= most_axes) offsets.emplace_back(x, y, z);
-  return offsets;
+  const Eigen::Vector3d mean = rotation * cell.mean + translation;
+  const Eigen::Matrix3d half = rotation * cell.covariance;
+  const auto entry = [&](int i, int j) { return half.row(i).dot(rotation.row(j)); };
+  return {mean.x(), mean.y(), mean.z(), entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
+}
+
+void put(const GaussianCell& cell, TargetBlock& block, std::size_t lane)
+{
+  block.x[lane] = cell.mean.x(), block.y[lane] = cell.mean.y(), block.z[lane] = cell.mean.z();
+  const Eigen::Matrix3d& c = cell.covariance;
+  block.xx[lane] = c(0, 0), block.xy[lane] = c(0, 1), block.xz[lane] = c(0, 2);
+  block.yy[lane] = c(1, 1), block.yz[lane] = c(1, 2), block.zz[lane] = c(2, 2);
+}
+
+GaussianCell nowhere()
+{
+  constexpr double kFar = 1e9;  // m
+  return {Eigen::Vector3d::Constant(kFar), Eigen::Matrix3d::Identity()};
 }
 }  // namespace
 
 Neighbourhoods::Neighbourhoods(const NdtMap& target, const NdtMap& source, int neighbours)
-  : target_(target), source_(source), offsets_(offsetsOf(neighbours))
+  : target_(target), source_(source), neighbours_(neighbours)
 {
+  if (neighbours != 1 && neighbours != 7 && neighbours != 27)
+    throw std::invalid_argument(fmt::format("RegistrationOptions: neighbours = {}: must be 1, 7 or 27", neighbours));
   const std::size_t cells = source.cells().size();
-  centres_.assign(cells, Eigen::Vector3i::Constant(std::numeric_limits<int>::min()));
-  found_.resize(cells * offsets_.size());
-  counts_.assign(cells, 0);
+  for (std::size_t first = 0; first < cells; first += kChunk)
+  {
+    const std::size_t count = std::min(kChunk, cells - first);
+    Chunk chunk;
+    chunk.first = first;
+    chunk.cells.resize(count);
+    chunk.ranges.assign(count, {0, 0});
+    chunk.found.resize(count * static_cast<std::size_t>(neighbours));
+    chunk.counts.assign(count, 0);
+    chunk.centres.assign(count, Eigen::Vector3i::Constant(std::numeric_limits<int>::min()));
+    chunks_.push_back(std::move(chunk));
+  }
 }
 
 void Neighbourhoods::moveTo(const Rigid& target_T_source)
 {
+  tbb::parallel_for(std::size_t{0}, chunks_.size(), [&](std::size_t i) { moveTo(target_T_source, i); });
+}
+
+void Neighbourhoods::moveTo(const Rigid& target_T_source, std::size_t index)
+{
+  Chunk& chunk = chunks_[index];
   const Eigen::Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
-  const GaussianCell* const first = target_.cells().data();
-  for (std::size_t i = 0; i < centres_.size(); ++i)
+  for (std::size_t i = 0; i < chunk.cells.size(); ++i)
   {
-    const Eigen::Vector3i centre = target_.indexOf(rotation * source_.cells()[i].mean + target_T_source.translation);
-    if (centre == centres_[i]) continue;
-    centres_[i] = centre;
-    std::uint32_t* end = found_.data() + i * offsets_.size();
-    for (const Eigen::Vector3i& offset : offsets_)
-      if (const GaussianCell* cell = target_.cellAt(centre + offset)) *end++ = static_cast<std::uint32_t>(cell - first);
-    counts_[i] = static_cast<std::uint32_t>(end - (found_.data() + i * offsets_.size()));
+    TurnedCell& cell = chunk.cells[i];
+    cell = turned(source_.cells()[chunk.first + i], rotation, target_T_source.translation);
+    const Eigen::Vector3i centre = target_.indexOf({cell.x, cell.y, cell.z});
+    if (centre != chunk.centres[i]) lookUp(chunk, i, centre);
   }
+}
+
+/** Blocks that have become too few are left behind: in a registration that happens to few cells, and not often. */
+void Neighbourhoods::lookUp(Chunk& chunk, std::size_t i, const Eigen::Vector3i& centre)
+{
+  std::uint32_t* found = chunk.found.data() + i * static_cast<std::size_t>(neighbours_);
+  const std::size_t count = target_.findAround(centre, neighbours_, found);
+  chunk.centres[i] = centre;
+  chunk.counts[i] = static_cast<std::uint32_t>(count);
+
+  const auto blocks = static_cast<std::uint32_t>((count + TargetBlock::kLanes - 1) / TargetBlock::kLanes);
+  BlockRange& range = chunk.ranges[i];
+  if (blocks > range.count)
+  {
+    range.first = static_cast<std::uint32_t>(chunk.blocks.size());
+    chunk.blocks.resize(chunk.blocks.size() + blocks);
+  }
+  range.count = blocks;
+  static const GaussianCell kNowhere = nowhere();
+  for (std::size_t k = 0; k < blocks * TargetBlock::kLanes; ++k)
+    put(k < count ? target_.cells()[found[k]] : kNowhere, chunk.blocks[range.first + k / TargetBlock::kLanes],
+        k % TargetBlock::kLanes);
 }
 }  // namespace scanloom

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/Rigid.h"
 #include "ndt/NdtMap.h"
+#include "ndt/PairSums.h"
 
 #include <cstdint>
 #include <vector>
@@ -13,16 +14,37 @@ namespace scanloom
  * target edges inside the block, so that a source cell of up to 2.5 target edges meets what its own points can touch;
  * larger ratios still work, but see less and less of their own extent.
  *
- * Keeps references to both maps.
+ * Source cells come in chunks of a fixed size, so that sums over them do not depend on the number of threads; different
+ * chunks may be used by different threads at a time. Keeps references to both maps.
  */
 class Neighbourhoods
 {
  public:
+  static constexpr std::size_t kChunk = 256;  // source cells
+
   /** Throws std::invalid_argument unless `neighbours` is 1, 7 or 27. */
   Neighbourhoods(const NdtMap& target, const NdtMap& source, int neighbours);
 
-  /** Looks the neighbours up again where a mean has changed its cell. */
+  std::size_t chunks() const { return chunks_.size(); }
+
+  /** Of all chunks, in parallel. */
   void moveTo(const Rigid& target_T_source);
+
+  /** Looks the neighbours up again where a mean of the chunk has changed its cell. */
+  void moveTo(const Rigid& target_T_source, std::size_t chunk);
+
+  /** A chunk's source cells in the target's frame, and the target cells of each. */
+  struct Chunk
+  {
+    std::size_t first = 0;           // source cell
+    std::vector<TurnedCell> cells;   // where moveTo left them
+    std::vector<BlockRange> ranges;  // of each, into `blocks`
+    std::vector<TargetBlock> blocks;
+    std::vector<std::uint32_t> found;  // as many places per source cell as it may have neighbours
+    std::vector<std::uint32_t> counts;
+    std::vector<Eigen::Vector3i> centres;  // where the neighbours were last looked up
+  };
+  const Chunk& chunk(std::size_t i) const { return chunks_[i]; }
 
   struct Range
   {
@@ -34,8 +56,10 @@ class Neighbourhoods
   /** Indices into target(). */
   Range of(std::size_t source_cell) const
   {
-    const std::uint32_t* first = found_.data() + source_cell * offsets_.size();
-    return {first, first + counts_[source_cell]};
+    const Chunk& chunk = chunks_[source_cell / kChunk];
+    const std::size_t i = source_cell % kChunk;
+    const std::uint32_t* first = chunk.found.data() + i * static_cast<std::size_t>(neighbours_);
+    return {first, first + chunk.counts[i]};
   }
 
   const std::vector<GaussianCell>& target() const { return target_.cells(); }
@@ -44,11 +68,11 @@ class Neighbourhoods
   double sourceEdge() const { return source_.options().cell_size; }
 
  private:
+  void lookUp(Chunk&, std::size_t i, const Eigen::Vector3i& centre);
+
   const NdtMap& target_;
   const NdtMap& source_;
-  std::vector<Eigen::Vector3i> offsets_;
-  std::vector<Eigen::Vector3i> centres_;  // where the neighbours of each source cell were last looked up
-  std::vector<std::uint32_t> found_;      // offsets_.size() places per source cell
-  std::vector<std::uint32_t> counts_;
+  int neighbours_;
+  std::vector<Chunk> chunks_;
 };
 }  // namespace scanloom

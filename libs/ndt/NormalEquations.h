@@ -13,6 +13,6 @@ struct NormalEquations
   double met_points = 0;                  // in source cells with a target cell within the score's reach, m'Bm < 2 / d2
 };
 
-/** Neighbourhoods must have been moved to the pose. Sums run over fixed chunks of cells in a fixed order. */
-NormalEquations normalEquations(const Neighbourhoods&, const Rigid& target_T_source, double d2);
+/** Moves the neighbourhoods to the pose. Sums run over fixed chunks of cells in a fixed order, on all threads. */
+NormalEquations normalEquations(Neighbourhoods&, const Rigid& target_T_source, double d2);
 }  // namespace scanloom

@@ -39,7 +39,7 @@ TEST(GaussianCell, hasTheSampleMeanAndCovarianceFarFromTheOrigin)
   const Eigen::MatrixXd centred = matrix.colwise() - matrix.rowwise().mean();
 
   const Eigen::Vector3d corner(1000, -4, 7);
-  const GaussianCell cell = gaussianOf(momentsOf(points, corner), corner, 0.01);
+  const GaussianCell cell = gaussianOf(momentsOf(points, corner), corner, 1, 0.01);
 
   EXPECT_LT((cell.mean - matrix.rowwise().mean()).norm(), 1e-5);
   EXPECT_LT((cell.covariance - centred * centred.transpose() / 49).norm(), 1e-5);
@@ -49,7 +49,7 @@ TEST(GaussianCell, hasTheSampleMeanAndCovarianceFarFromTheOrigin)
 TEST(GaussianCell, raisesOnlyTheEigenvaluesBelowTheFloor)
 {
   const auto stem = randomPoints(200, {0.001, 0.2, 0.002});
-  const GaussianCell cell = gaussianOf(momentsOf(stem, {1000, -4, 7}), {1000, -4, 7}, 0.03);
+  const GaussianCell cell = gaussianOf(momentsOf(stem, {1000, -4, 7}), {1000, -4, 7}, 1, 0.03);
 
   const Eigen::Vector3d deviations =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cell.covariance).eigenvalues().cwiseSqrt();

@@ -5,8 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <tbb/global_control.h>
+
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <map>
+#include <set>
 #include <tuple>
 
 namespace scanloom
@@ -74,15 +79,58 @@ TEST(NdtMap, mergesAndForgetsKeyframesToTheBit)
   EXPECT_EQ(merged.points(), b.points());
 }
 
-TEST(NdtMap, listsCellsByIndexZThenYThenX)
+/** Every cell's Gaussian by its index, found by looking at all cells. */
+TEST(NdtMap, findsTheSevenOrTwentySevenAroundACell)
 {
   const NdtMap map(scanFrom(forest(1), Rigid::identity(), 2), {});
-  const auto before = [&map](const GaussianCell& a, const GaussianCell& b)
+  std::map<std::tuple<int, int, int>, std::uint32_t> place_of;
+  const auto tupleOf = [](const Eigen::Vector3i& i) { return std::make_tuple(i.x(), i.y(), i.z()); };
+  for (std::uint32_t i = 0; i < map.cells().size(); ++i) place_of[tupleOf(map.indexOf(map.cells()[i].mean))] = i;
+
+  for (const auto& [index, place] : place_of)
+    for (const int neighbours : {1, 7, 27})
+    {
+      // Beside the cell, too: where there may be no Gaussian.
+      const Eigen::Vector3i centre(std::get<0>(index) + 1, std::get<1>(index) - 1, std::get<2>(index) + 1);
+      std::set<std::uint32_t> expected;
+      for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+          for (int z = -1; z <= 1; ++z)
+          {
+            const int axes = std::abs(x) + std::abs(y) + std::abs(z);
+            if (axes > (neighbours == 1 ? 0 : neighbours == 7 ? 1 : 3)) continue;
+            const auto found = place_of.find(tupleOf(centre + Eigen::Vector3i(x, y, z)));
+            if (found != place_of.end()) expected.insert(found->second);
+          }
+      std::array<std::uint32_t, 27> found;
+      const std::size_t count = map.findAround(centre, neighbours, found.data());
+      ASSERT_EQ(std::set<std::uint32_t>(found.begin(), found.begin() + count), expected) << centre.transpose();
+      ASSERT_EQ(count, expected.size()) << "none twice";
+    }
+}
+
+TEST(NdtMap, ofCoarserCellsIsThatOfThePoints)
+{
+  const auto points = scanFrom(forest(1), Rigid::identity(), 2);
+  NdtOptions options;
+  options.cell_size = 0.5;
+  const NdtMap fine(points, options);
+  for (const int factor : {2, 4, 5})
   {
-    const Eigen::Vector3i i = map.indexOf(a.mean), j = map.indexOf(b.mean);
-    return std::make_tuple(i.z(), i.y(), i.x()) < std::make_tuple(j.z(), j.y(), j.x());
-  };
-  EXPECT_TRUE(std::is_sorted(map.cells().begin(), map.cells().end(), before));
+    options.cell_size = 0.5 * factor;
+    EXPECT_TRUE(sameBits(fine.coarser(factor), NdtMap(points, options))) << factor;
+  }
+  EXPECT_TRUE(sameBits(fine.coarser(2).coarser(2), fine.coarser(4)));
+}
+
+TEST(NdtMap, isTheSameOnAnyNumberOfThreads)
+{
+  std::vector<Eigen::Vector3f> points;
+  for (std::uint64_t seed = 1; points.size() < 200'000; ++seed)
+    for (const auto& p : scanFrom(forest(1), Rigid::identity(), seed)) points.push_back(p);
+  const NdtMap many(points, {});
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_TRUE(sameBits(many, NdtMap(points, {})));
 }
 
 TEST(NdtMap, leavesOutAndCountsWhatHasNoPlace)

@@ -1,4 +1,4 @@
-#include "lidar/Kernel.h"
+#include "core/Kernel.h"
 
 namespace scanloom
 {

@@ -1,0 +1,56 @@
+/** Cells of a grid as 64 bit keys, four by four by four of them next to each other: a block. */
+#pragma once
+#include <Eigen/Core>
+
+#include <cstdint>
+
+namespace scanloom
+{
+/**
+ * Keys sort by block (z, y, x) and within it by cell (z, y, x). The 27 cells around one lie in at most eight blocks, in
+ * three or four on average: so many look-ups, not 27.
+ */
+struct CellKey
+{
+  static constexpr int kBitsPerAxis = 21;
+  static constexpr std::int64_t kLimit = std::int64_t{1} << (kBitsPerAxis - 1);  // indices are in [-kLimit, kLimit)
+  static constexpr int kBlockEdge = 4;
+  static constexpr int kCellBits = 6;  // of a block's 64 cells
+
+  static bool fits(std::int64_t index) { return index >= -kLimit && index < kLimit; }
+
+  static std::uint64_t of(std::int64_t x, std::int64_t y, std::int64_t z)
+  {
+    const std::uint64_t bx = biased(x), by = biased(y), bz = biased(z);
+    return blockOf(bx >> 2, by >> 2, bz >> 2) << kCellBits | (bz & 3) << 4 | (by & 3) << 2 | (bx & 3);
+  }
+
+  static std::uint64_t blockOf(std::uint64_t x, std::uint64_t y, std::uint64_t z)
+  {
+    return z << (2 * kBlockBits) | y << kBlockBits | x;
+  }
+
+  static Eigen::Matrix<std::int64_t, 3, 1> indexOf(std::uint64_t key)
+  {
+    const std::uint64_t block = key >> kCellBits;
+    const auto axis = [](std::uint64_t of_block, std::uint64_t in_block)
+    { return static_cast<std::int64_t>((of_block & kBlockMask) << 2 | (in_block & 3)) - kLimit; };
+    return {axis(block, key), axis(block >> kBlockBits, key >> 2), axis(block >> (2 * kBlockBits), key >> 4)};
+  }
+
+  /** Never negative. */
+  static std::uint64_t biased(std::int64_t index) { return static_cast<std::uint64_t>(index + kLimit); }
+
+ private:
+  static constexpr int kBlockBits = kBitsPerAxis - 2;
+  static constexpr std::uint64_t kBlockMask = (std::uint64_t{1} << kBlockBits) - 1;
+};
+
+struct KeyHash
+{
+  std::size_t operator()(std::uint64_t key) const
+  {
+    return static_cast<std::size_t>((key * 0x9E3779B97F4A7C15u) >> 24);
+  }
+};
+}  // namespace scanloom

@@ -1,0 +1,43 @@
+/** The innermost sums of a registration: one source cell against its target cells, eight at a time. */
+#pragma once
+#include "core/Kernel.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace scanloom
+{
+/** Eight target cells side by side. A place without a cell holds one so far away that it never counts. */
+struct alignas(64) TargetBlock
+{
+  static constexpr std::size_t kLanes = 8;
+
+  double x[kLanes], y[kLanes], z[kLanes];                                         // m, means
+  double xx[kLanes], xy[kLanes], xz[kLanes], yy[kLanes], yz[kLanes], zz[kLanes];  // m^2, covariances
+};
+
+/** A source cell, turned and moved into the target's frame. */
+struct TurnedCell
+{
+  double x, y, z;
+  double xx, xy, xz, yy, yz, zz;
+};
+
+struct BlockRange
+{
+  std::uint32_t first, count;
+};
+
+/** With q = m'Bm of each pair, e = exp(-d2/2 q) and w = d2 e; all in the target's frame. */
+struct PairSums
+{
+  double score;                   // sum e
+  double best;                    // largest e
+  double fx, fy, fz;              // sum w B m
+  double xx, xy, xz, yy, yz, zz;  // sum w B
+};
+
+/** sums[i] of cells[i] and its blocks. Equal to the bit for every kernel. */
+void sumPairs(const TurnedCell* cells, const BlockRange* ranges, std::size_t count, const TargetBlock* blocks,
+              double d2, PairSums* sums, Kernel = widestKernel());
+}  // namespace scanloom
