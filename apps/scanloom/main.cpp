@@ -8,13 +8,14 @@ Verb doctorVerb();
 Verb evaluateVerb();
 Verb infoVerb();
 Verb recordVerb();
+Verb registerVerb();
 Verb simulateVerb();
 Verb slamVerb();
 
 const std::vector<Verb>& verbs()
 {
   static const std::vector<Verb> table{
-      recordVerb(), infoVerb(), doctorVerb(), configVerb(), slamVerb(), evaluateVerb(), simulateVerb(),
+      recordVerb(), infoVerb(), doctorVerb(), configVerb(), slamVerb(), evaluateVerb(), registerVerb(), simulateVerb(),
   };
   return table;
 }

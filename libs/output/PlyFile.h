@@ -1,5 +1,6 @@
 /** PLY: the one cloud format that every viewer opens. */
 #pragma once
+#include "core/Bytes.h"
 #include "core/PointCloud.h"
 #include "core/Rigid.h"
 #include "core/Time.h"
@@ -43,8 +44,11 @@ struct PlyContent
 };
 
 /**
- * Any PLY, binary little-endian or ascii, whose first element is `vertex` with scalar properties, x, y and z among
+ * Any PLY, binary of either endianness or ascii, whose first element is `vertex` with scalar properties, x, y and z among
  * them; foreign properties are skipped. Throws std::invalid_argument with the file and what is wrong.
  */
 PlyContent readPly(const std::filesystem::path&);
+
+/** The same for x, y and z alone of a file in memory; the message does not name the file. */
+std::vector<Eigen::Vector3f> plyPositions(Bytes file);
 }  // namespace scanloom

@@ -1,11 +1,12 @@
 #include "core/Bytes.h"
+#include "output/CloudText.h"
 #include "output/PlyFile.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -22,13 +23,24 @@ struct ScalarType
   const char* other_name;
   std::size_t size;
   double (*load)(Bytes, std::size_t offset);
+  double (*load_big_endian)(Bytes, std::size_t offset);
 };
+
+template <typename T>
+T loadBigEndian(Bytes bytes, std::size_t offset)
+{
+  const Bytes there = bytes.slice(offset, sizeof(T));
+  std::array<std::uint8_t, sizeof(T)> reversed;
+  std::reverse_copy(there.begin(), there.end(), reversed.begin());
+  return load<T>({reversed.data(), reversed.size()}, 0);
+}
 
 template <typename T>
 constexpr ScalarType scalar(const char* name, const char* other_name)
 {
   return {name, other_name, sizeof(T),
-          [](Bytes bytes, std::size_t at) { return static_cast<double>(load<T>(bytes, at)); }};
+          [](Bytes bytes, std::size_t at) { return static_cast<double>(load<T>(bytes, at)); },
+          [](Bytes bytes, std::size_t at) { return static_cast<double>(loadBigEndian<T>(bytes, at)); }};
 }
 
 constexpr std::array kScalarTypes{
@@ -44,9 +56,16 @@ struct Property
   ScalarType type;
 };
 
+enum class Encoding
+{
+  Ascii,
+  LittleEndian,
+  BigEndian,
+};
+
 struct Header
 {
-  bool ascii = false;
+  Encoding encoding = Encoding::LittleEndian;
   Timestamp time_origin;
   std::size_t vertices = 0;
   std::vector<Property> properties;  // of the vertices
@@ -67,24 +86,28 @@ ScalarType scalarType(const std::string& name)
   return *found;
 }
 
+Encoding encodingOf(const std::string& format)
+{
+  if (format == "ascii") return Encoding::Ascii;
+  if (format == "binary_little_endian") return Encoding::LittleEndian;
+  if (format == "binary_big_endian") return Encoding::BigEndian;
+  throw std::invalid_argument("format '" + format + "'");
+}
+
 /** Reads up to and including "end_header". Throws std::invalid_argument, without the file's name, on what it cannot
  * read. */
-Header readHeader(std::istream& file)
+Header readHeader(CloudText& file)
 {
   Header header;
-  std::string line, element;
-  if (!std::getline(file, line) || line.rfind("ply", 0) != 0)
-    throw std::invalid_argument("it does not start with 'ply'");
-  while (std::getline(file, line) && line.rfind("end_header", 0) != 0)
+  std::string element;
+  auto line = file.line();
+  if (!line || line->rfind("ply", 0) != 0) throw std::invalid_argument("it does not start with 'ply'");
+  for (line = file.line(); line && line->rfind("end_header", 0) != 0; line = file.line())
   {
-    std::istringstream words(line);
+    std::istringstream words(*line);
     std::string keyword, first, second;
     words >> keyword >> first >> second;
-    if (keyword == "format")
-    {
-      header.ascii = first == "ascii";
-      if (!header.ascii && first != "binary_little_endian") throw std::invalid_argument("format " + first);
-    }
+    if (keyword == "format") header.encoding = encodingOf(first);
     if (keyword == "comment" && first == "time_origin_ns") header.time_origin = fromNanoseconds(std::stoll(second));
     if (keyword == "element")
     {
@@ -94,76 +117,114 @@ Header readHeader(std::istream& file)
     }
     if (keyword == "property" && element == "vertex") header.properties.push_back({second, scalarType(first)});
   }
-  if (!file) throw std::invalid_argument("its header has no end");
+  if (!line) throw std::invalid_argument("its header has no end");
   return header;
 }
 
-/** All values of all vertices, in the file's order; throws std::invalid_argument if the file ends early. */
-std::vector<double> readValues(std::istream& file, const Header& header)
+/** A header may promise more than memory holds: what it promises must be there. */
+void requireRoomFor(const Header& header, std::size_t bytes)
 {
-  std::vector<double> values;
-  if (header.ascii)
-  {
-    std::copy_n(std::istream_iterator<double>(file), header.vertices * header.properties.size(),
-                std::back_inserter(values));
-    if (!file) throw std::invalid_argument("it ends before its last vertex");
-    return values;
-  }
-  const std::vector<char> text{std::istreambuf_iterator<char>(file), {}};
-  const std::vector<std::uint8_t> bytes(text.begin(), text.end());
-  if (header.vertexSize() > 0 && bytes.size() / header.vertexSize() < header.vertices)
+  const bool ascii = header.encoding == Encoding::Ascii;  // a digit and a blank at least
+  const std::size_t size_of_vertex = ascii ? 2 * header.properties.size() : header.vertexSize();
+  if (header.vertices > 0 && size_of_vertex == 0) throw std::invalid_argument("its vertices have no properties");
+  if (header.vertices > 0 && (bytes + ascii) / size_of_vertex < header.vertices)
     throw std::invalid_argument("it ends before its last vertex");
+}
+
+/** All values of all vertices, in the file's order; throws std::invalid_argument if the file ends early. */
+std::vector<double> readValues(CloudText& file, const Header& header)
+{
+  requireRoomFor(header, file.rest().size());
+  std::vector<double> values;
+  values.reserve(header.vertices * header.properties.size());
   std::size_t offset = 0;
   for (std::size_t i = 0; i < header.vertices; ++i)
-    for (const Property& property : header.properties)
+    for (const auto& [name, type] : header.properties)
     {
-      values.push_back(property.type.load(bytes, offset));
-      offset += property.type.size;
+      if (header.encoding == Encoding::Ascii)
+        values.push_back(file.number());
+      else
+        values.push_back(
+            (header.encoding == Encoding::BigEndian ? type.load_big_endian : type.load)(file.rest(), offset));
+      offset += type.size;
     }
   return values;
 }
 
 std::uint8_t toByte(double value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0))); }
 
+/** Calls assign(vertex, value) for all vertices if they have the property. @return whether they have it. */
+template <typename Assign>
+bool copyProperty(const Header& header, const std::vector<double>& values, const char* name, Assign&& assign)
+{
+  const auto named = [&](const Property& property) { return property.name == name; };
+  const auto found = std::find_if(header.properties.begin(), header.properties.end(), named);
+  if (found == header.properties.end()) return false;
+  const auto first = static_cast<std::size_t>(found - header.properties.begin());
+  for (std::size_t i = 0; i < header.vertices; ++i) assign(i, values[i * header.properties.size() + first]);
+  return true;
+}
+
+template <typename Assign>
+void copyPositions(const Header& header, const std::vector<double>& values, Assign&& assign)
+{
+  int axis = 0;
+  for (const char* name : {"x", "y", "z"})
+  {
+    if (!copyProperty(header, values, name, [&](std::size_t i, double v) { assign(i, axis, static_cast<float>(v)); }))
+      throw std::invalid_argument("its vertices lack x, y or z");
+    ++axis;
+  }
+}
+
 PlyContent contentOf(const Header& header, const std::vector<double>& values)
 {
   PlyContent content;
-  content.points.resize(header.vertices);
-  const std::size_t stride = header.properties.size();
-  const auto copy = [&](const char* name, auto&& assign)
-  {
-    const auto named = [&](const Property& property) { return property.name == name; };
-    const auto found = std::find_if(header.properties.begin(), header.properties.end(), named);
-    if (found == header.properties.end()) return false;
-    const auto first = static_cast<std::size_t>(found - header.properties.begin());
-    for (std::size_t i = 0; i < header.vertices; ++i) assign(i, values[i * stride + first]);
-    return true;
-  };
-
   PointCloud& points = content.points;
-  const bool has_x = copy("x", [&](std::size_t i, double v) { points.x[i] = static_cast<float>(v); });
-  const bool has_y = copy("y", [&](std::size_t i, double v) { points.y[i] = static_cast<float>(v); });
-  const bool has_z = copy("z", [&](std::size_t i, double v) { points.z[i] = static_cast<float>(v); });
-  if (!has_x || !has_y || !has_z) throw std::invalid_argument("its vertices lack x, y or z");
+  points.resize(header.vertices);
+  copyPositions(header, values,
+                [&](std::size_t i, int axis, float v) {
+                  (axis == 0 ? points.x : axis == 1 ? points.y : points.z)[i] = v;
+                });
 
+  const auto copy = [&](const char* name, auto&& assign) { copyProperty(header, values, name, assign); };
   copy("intensity", [&](std::size_t i, double v) { points.intensity[i] = toByte(v); });
   copy("ring", [&](std::size_t i, double v) { points.ring[i] = toByte(v); });
-  copy("sensor_id", [&](std::size_t i, double v) { points.sensor_id[i] = static_cast<std::uint8_t>(v); });
+  copy("sensor_id", [&](std::size_t i, double v) { points.sensor_id[i] = toByte(v); });
   copy("time", [&](std::size_t, double v) { content.stamps.push_back(header.time_origin + fromSeconds(v)); });
   return content;
 }
 }  // namespace
 
+std::vector<Eigen::Vector3f> plyPositions(Bytes file)
+{
+  try
+  {
+    CloudText text(file);
+    const Header header = readHeader(text);
+    const std::vector<double> values = readValues(text, header);
+    std::vector<Eigen::Vector3f> positions(header.vertices);
+    copyPositions(header, values, [&](std::size_t i, int axis, float v) { positions[i][axis] = v; });
+    return positions;
+  }
+  catch (const std::logic_error& error)  // ours and those of stoull
+  {
+    throw std::invalid_argument(fmt::format("is no PLY that can be read here: {}", error.what()));
+  }
+}
+
 PlyContent readPly(const std::filesystem::path& path)
 {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(fmt::format("cannot read '{}'", path.string()));
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
   try
   {
-    const Header header = readHeader(file);
-    return contentOf(header, readValues(file, header));
+    CloudText text({reinterpret_cast<const std::uint8_t*>(content.data()), content.size()});
+    const Header header = readHeader(text);
+    return contentOf(header, readValues(text, header));
   }
-  catch (const std::logic_error& error)  // ours and those of stoull
+  catch (const std::logic_error& error)
   {
     throw std::invalid_argument(fmt::format("'{}' is no PLY that can be read here: {}", path.string(), error.what()));
   }

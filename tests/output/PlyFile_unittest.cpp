@@ -94,7 +94,11 @@ TEST(PlyFile, saysWhatItCannotRead)
   const std::string xyz = "\nproperty float x\nproperty float y\nproperty float z\n";
 
   refuses("", "does not start with 'ply'");
-  refuses("ply\nformat binary_big_endian 1.0\n", "binary_big_endian");
+  refuses("ply\nformat binary_middle_endian 1.0\n", "binary_middle_endian");
+  refuses("ply\nformat ascii 1.0\nelement vertex 99999999999999999" + xyz + "end_header\n1 2 3\n",
+          "ends before its last vertex");
+  refuses("ply\nformat ascii 1.0\nelement vertex 1" + xyz + "end_header\n1 2 left\n", "'left' is not a number");
+  refuses("ply\nformat ascii 1.0\nelement vertex 99999999999999999\nend_header\n", "no properties");
   refuses(start + "2" + xyz, "header has no end");
   refuses(start + "2" + xyz + "end_header\n012345678901", "ends before its last vertex");
   refuses(start + "99999999999999999" + xyz + "end_header\n", "ends before its last vertex");

@@ -1,0 +1,51 @@
+/** Files of points that begin with lines of text: PLY and PCD. */
+#pragma once
+#include "core/Bytes.h"
+
+#include <charconv>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace scanloom
+{
+/** Walks through a file in memory: lines of a header, then numbers, or whatever rest() is. */
+class CloudText
+{
+ public:
+  explicit CloudText(Bytes file) : rest_(reinterpret_cast<const char*>(file.data()), file.size()) {}
+
+  /** Without its line break; nothing at the end of the file. */
+  std::optional<std::string> line()
+  {
+    if (rest_.empty()) return std::nullopt;
+    const auto end = rest_.find('\n');
+    std::string line(rest_.substr(0, end));
+    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    return line;
+  }
+
+  /** The next word, which may be nan or inf; throws std::invalid_argument if it is no number or the file ends. */
+  double number()
+  {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
+    if (rest_.empty()) throw std::invalid_argument("it ends before its last point");
+    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
+    rest_.remove_prefix(word.size());
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error == std::errc::invalid_argument || end != word.data() + word.size())
+      throw std::invalid_argument("'" + std::string(word.substr(0, 20)) + "' is not a number");
+    return value;
+  }
+
+  Bytes rest() const { return {reinterpret_cast<const std::uint8_t*>(rest_.data()), rest_.size()}; }
+
+ private:
+  static constexpr std::string_view kBlanks = " \t\r\n";
+
+  std::string_view rest_;
+};
+}  // namespace scanloom
