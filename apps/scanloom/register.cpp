@@ -127,10 +127,10 @@ void addTrials(CLI::App& app, RegisterArguments& arguments, CLI::Option* truth, 
       ->needs(trials);
   CLI::Option* any_axis =
       app.add_option("--spread-deg", options.spread_deg, "how far it is turned, about a random axis")
-          ->check(CLI::Range(0, 180))
+          ->check(CLI::Range(0.0, 180.0))
           ->needs(trials);
   app.add_option("--spread-yaw-deg", arguments.spread_yaw_deg, "the same about z only, either way")
-      ->check(CLI::Range(0, 180))
+      ->check(CLI::Range(0.0, 180.0))
       ->needs(trials)
       ->excludes(any_axis);
   addSeed(app, options.seed)->needs(trials);
