@@ -26,6 +26,18 @@ std::string poseLine(const Rigid& pose)
                      angles[1], angles[2]);
 }
 
+/** libs/ndt gives zeros where it has no covariance: they must not read as certainty. */
+bool hasCovariance(const RegistrationResult& result) { return !result.covariance.isZero(0); }
+
+std::string deviationLine(const RegistrationResult& result)
+{
+  if (!hasCovariance(result)) return "unknown: the clouds do not meet";
+  const Vector6d deviation = result.covariance.diagonal().cwiseSqrt();
+  const Eigen::Vector3d angles = deviation.tail<3>() / kDegree;
+  return fmt::format("{:.4f} {:.4f} {:.4f} m, about x y z {:.4f} {:.4f} {:.4f} deg", deviation[0], deviation[1],
+                     deviation[2], angles[0], angles[1], angles[2]);
+}
+
 std::string outcomeLine(const RegistrationResult& result)
 {
   std::string line = toString(result.outcome);
@@ -106,11 +118,8 @@ std::string directionName(const Vector6d& direction)
 std::string toText(const RegistrationReport& report)
 {
   const RegistrationResult& result = report.registration.result;
-  const Vector6d deviation = result.covariance.diagonal().cwiseSqrt();
   std::string text = fmt::format("target_T_source      {}\n", poseLine(result.target_T_source));
-  text +=
-      fmt::format("standard deviations  {:.4f} {:.4f} {:.4f} m, about x y z {:.4f} {:.4f} {:.4f} deg\n", deviation[0],
-                  deviation[1], deviation[2], deviation[3] / kDegree, deviation[4] / kDegree, deviation[5] / kDegree);
+  text += fmt::format("standard deviations  {}\n", deviationLine(result));
   if (report.error)
     text += fmt::format("error                {:.4f} m, {:.4f} deg\n", report.error->metres, report.error->degrees);
   text += fmt::format("outcome              {}\n", outcomeLine(result));
@@ -129,7 +138,7 @@ std::string toJson(const RegistrationReport& report)
   const RegistrationResult& result = report.registration.result;
   const CloudCounts& points = report.points;
   nlohmann::json json{{"pose", poseJson(result.target_T_source)},
-                      {"covariance", rowsOf(result.covariance)},
+                      {"covariance", hasCovariance(result) ? rowsOf(result.covariance) : nlohmann::json()},
                       {"outcome", toString(result.outcome)},
                       {"degenerate_directions", directionsJson(result.degenerate_directions)},
                       {"overlap", result.overlap},

@@ -68,7 +68,8 @@ void readFieldLine(std::vector<PcdField>& fields, std::istringstream& words, Ass
   }
 }
 
-void readHeaderLine(PcdHeader& header, const std::string& line)
+/** @return its keyword. */
+std::string readHeaderLine(PcdHeader& header, const std::string& line)
 {
   std::istringstream words(line);
   std::string keyword;
@@ -87,17 +88,20 @@ void readHeaderLine(PcdHeader& header, const std::string& line)
   std::string value;
   if (keyword == "POINTS" && words >> value) header.points = parseCount(keyword, value, SIZE_MAX);
   if (keyword == "DATA") words >> header.data;
+  return keyword;
 }
 
 PcdHeader readHeader(CloudText& file)
 {
   PcdHeader header;
+  bool has_points = false;
   while (header.data.empty())
   {
     const auto line = file.line();
     if (!line) throw std::invalid_argument("its header has no DATA");
-    readHeaderLine(header, *line);
+    if (readHeaderLine(header, *line) == "POINTS") has_points = true;
   }
+  if (!has_points) throw std::invalid_argument("its header has no POINTS");
   return header;
 }
 

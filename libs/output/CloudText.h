@@ -2,6 +2,7 @@
 #pragma once
 #include "core/Bytes.h"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <stdexcept>
@@ -32,11 +33,12 @@ class CloudText
   {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlanks), rest_.size()));
     if (rest_.empty()) throw std::invalid_argument("it ends before its last point");
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
+    std::string_view word = rest_.substr(0, rest_.find_first_of(kBlanks));
     rest_.remove_prefix(word.size());
+    if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error == std::errc::invalid_argument || end != word.data() + word.size())
+    if (error != std::errc() || end != word.data() + word.size())
       throw std::invalid_argument("'" + std::string(word.substr(0, 20)) + "' is not a number");
     return value;
   }

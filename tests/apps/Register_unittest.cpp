@@ -124,6 +124,7 @@ TEST_F(Register, startsFromTheGuess)
   const std::string pair = pairOf(courtyard());
   EXPECT_EQ(registered(pair + "--guess '-300 0 0 0 0 0'").status, 3);
   EXPECT_THAT(registered(pair + "--guess '-300 0 0 0 0 0'").output, HasSubstr("low overlap"));
+  EXPECT_THAT(registered(pair + "--guess '-300 0 0 0 0 0'").output, HasSubstr("deviations  unknown"));
   EXPECT_EQ(registered(pair + "--guess '0.5 -0.5 0 10 0 0'").status, 0);
 }
 

@@ -180,6 +180,8 @@ TEST_F(CloudFiles, areRefusedWhenTheirContentContradictsTheirHeader)
   refuses("a.pcd", "FIELDS x y z\nSIZE 4 4 2\nTYPE F F F" + points, "neither float nor double");
   refuses("a.pcd", "FIELDS x y z\nSIZE 4 4" + points, "fewer sizes");
   refuses("a.pcd", "FIELDS x y z\nSIZE 4 4 -4" + points, "SIZE '-4'");
+  refuses("a.pcd", "FIELDS x y z\nSIZE 4 4 4\nDATA ascii\n1 2 3\n", "no POINTS");
+  refuses("a.pcd", "FIELDS x y z\nPOINTS 1\nDATA ascii\n1 2 1e999\n", "'1e999' is not a number");
   refuses("a.pcd", pcdHeader("1", "telepathy"), "'telepathy'");
   const auto compressed = [](const std::string& packed)
   {
