@@ -62,15 +62,11 @@ CloudPair::CloudPair(const Points& target, const Points& source, const std::vect
 {
 }
 
-CloudPair::Prepared CloudPair::prepare(const Points& points, const std::vector<double>& levels, NdtOptions options)
+CloudPair::Prepared CloudPair::prepare(const Points& points, const std::vector<double>& levels,
+                                       const NdtOptions& options)
 {
   const Stopwatch stopwatch;
-  std::vector<NdtMap> maps;
-  for (const double size : levels)
-  {
-    options.cell_size = size;
-    maps.emplace_back(points, options);
-  }
+  std::vector<NdtMap> maps = ndtLevels(points, levels, options);
   return {std::move(maps), stopwatch.milliseconds()};
 }
 

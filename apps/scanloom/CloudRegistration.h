@@ -63,7 +63,7 @@ class CloudPair
     std::vector<NdtMap> levels;
     double milliseconds;
   };
-  static Prepared prepare(const Points&, const std::vector<double>& levels, NdtOptions);
+  static Prepared prepare(const Points&, const std::vector<double>& levels, const NdtOptions&);
 
   Prepared target_, source_;
   RegistrationOptions options_;

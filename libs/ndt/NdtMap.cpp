@@ -254,4 +254,26 @@ Eigen::Vector3i NdtMap::indexOf(const Eigen::Vector3d& point) const
   };
   return {index(point.x()), index(point.y()), index(point.z())};
 }
+
+std::vector<NdtMap> ndtLevels(const std::vector<Eigen::Vector3f>& points, const std::vector<double>& cell_sizes,
+                              NdtOptions options)
+{
+  if (cell_sizes.empty()) throw std::invalid_argument("ndtLevels: at least one size of cells is needed");
+  options.cell_size = *std::min_element(cell_sizes.begin(), cell_sizes.end());
+  const NdtMap finest(points, options);
+  std::vector<NdtMap> levels;
+  for (const double size : cell_sizes)
+  {
+    const double times = size / options.cell_size;
+    NdtOptions own = options;
+    own.cell_size = size;
+    if (times == 1)
+      levels.push_back(finest);
+    else if (times == std::floor(times))
+      levels.push_back(finest.coarser(static_cast<int>(times)));
+    else
+      levels.emplace_back(points, own);
+  }
+  return levels;
+}
 }  // namespace scanloom

@@ -100,4 +100,11 @@ class NdtMap
   std::size_t points_ = 0;
   std::size_t points_left_out_ = 0;
 };
+
+/**
+ * The points in cells of each size, in the order given; their size in `options` does not count. Points are binned once
+ * into the smallest cells and once more for each size that is no multiple of it. Throws std::invalid_argument for no
+ * size and as NdtMap does.
+ */
+std::vector<NdtMap> ndtLevels(const std::vector<Eigen::Vector3f>&, const std::vector<double>& cell_sizes, NdtOptions);
 }  // namespace scanloom

@@ -123,6 +123,21 @@ TEST(NdtMap, ofCoarserCellsIsThatOfThePoints)
   EXPECT_TRUE(sameBits(fine.coarser(2).coarser(2), fine.coarser(4)));
 }
 
+TEST(NdtLevels, areThoseOfThePointsWhetherEdgesAreMultiplesOrNot)
+{
+  const auto points = scanFrom(forest(1), Rigid::identity(), 2);
+  const std::vector<double> sizes{4, 2.5, 2, 1};
+  const std::vector<NdtMap> levels = ndtLevels(points, sizes, {});
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+  {
+    NdtOptions options;
+    options.cell_size = sizes[i];
+    EXPECT_TRUE(sameBits(levels[i], NdtMap(points, options))) << sizes[i];
+    EXPECT_EQ(levels[i].options().cell_size, sizes[i]);
+  }
+  EXPECT_THROW(ndtLevels(points, {}, {}), std::invalid_argument);
+}
+
 TEST(NdtMap, isTheSameOnAnyNumberOfThreads)
 {
   std::vector<Eigen::Vector3f> points;
