@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <Eigen/LU>
 #include <limits>
@@ -55,6 +56,17 @@ TEST(Registration, givesTheSameBitsTwice)
   EXPECT_EQ(a.target_T_source.translation, b.target_T_source.translation);
   EXPECT_EQ(a.target_T_source.rotation.coeffs(), b.target_T_source.rotation.coeffs());
   EXPECT_EQ(a.information, b.information);
+}
+
+TEST(Registration, givesTheSameBitsOnAnyNumberOfThreads)
+{
+  const RegistrationResult many = alignForest(0.5, Rigid::identity());
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const RegistrationResult one = alignForest(0.5, Rigid::identity());
+
+  EXPECT_EQ(many.target_T_source.translation, one.target_T_source.translation);
+  EXPECT_EQ(many.target_T_source.rotation.coeffs(), one.target_T_source.rotation.coeffs());
+  EXPECT_EQ(many.covariance, one.covariance);
 }
 
 TEST(Registration, doesNotDependOnHowFarTheGuessWas)

@@ -1,0 +1,112 @@
+#include "ndt/PairSums.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+namespace scanloom
+{
+namespace
+{
+/** Source cells against none to four blocks of random targets, near and far. */
+struct Pairs
+{
+  std::vector<TurnedCell> cells;
+  std::vector<BlockRange> ranges;
+  std::vector<TargetBlock> blocks;
+};
+
+Eigen::Matrix3d matrixOf(double xx, double xy, double xz, double yy, double yz, double zz)
+{
+  return (Eigen::Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
+}
+
+Pairs randomPairs()
+{
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  const auto covariance = [&]
+  {
+    Eigen::Matrix3d root;
+    for (double& entry : root.reshaped()) entry = 0.3 * normal(random);
+    return Eigen::Matrix3d(root * root.transpose() + 1e-3 * Eigen::Matrix3d::Identity());
+  };
+  Pairs pairs;
+  for (std::uint32_t i = 0; i < 100; ++i)
+  {
+    const Eigen::Matrix3d c = covariance();
+    pairs.cells.push_back(
+        {normal(random), normal(random), normal(random), c(0, 0), c(0, 1), c(0, 2), c(1, 1), c(1, 2), c(2, 2)});
+    pairs.ranges.push_back({static_cast<std::uint32_t>(pairs.blocks.size()), i % 5});
+    for (std::uint32_t block = 0; block < i % 5; ++block)
+    {
+      TargetBlock b;
+      for (std::size_t lane = 0; lane < TargetBlock::kLanes; ++lane)
+      {
+        const double spread = lane == 7 ? 1e9 : std::pow(3.0, static_cast<double>(lane) - 4);
+        b.x[lane] = spread * normal(random), b.y[lane] = spread * normal(random), b.z[lane] = spread * normal(random);
+        const Eigen::Matrix3d t = covariance();
+        b.xx[lane] = t(0, 0), b.xy[lane] = t(0, 1), b.xz[lane] = t(0, 2);
+        b.yy[lane] = t(1, 1), b.yz[lane] = t(1, 2), b.zz[lane] = t(2, 2);
+      }
+      pairs.blocks.push_back(b);
+    }
+  }
+  return pairs;
+}
+
+std::vector<PairSums> sumsOf(const Pairs& pairs, Kernel kernel)
+{
+  std::vector<PairSums> sums(pairs.cells.size());
+  sumPairs(pairs.cells.data(), pairs.ranges.data(), pairs.cells.size(), pairs.blocks.data(), 0.05, sums.data(), kernel);
+  return sums;
+}
+}  // namespace
+
+TEST(PairSums, areTheSameBitsForEveryKernel)
+{
+  const Pairs pairs = randomPairs();
+  const auto portable = sumsOf(pairs, Kernel::Portable);
+  for (const Kernel kernel : runnableKernels())
+  {
+    const auto sums = sumsOf(pairs, kernel);
+    EXPECT_EQ(std::memcmp(sums.data(), portable.data(), sums.size() * sizeof(PairSums)), 0) << nameOf(kernel);
+  }
+}
+
+TEST(PairSums, areThoseOfTheFormulaPairByPair)
+{
+  const Pairs pairs = randomPairs();
+  const auto sums = sumsOf(pairs, widestKernel());
+  for (std::size_t i = 0; i < pairs.cells.size(); ++i)
+  {
+    const TurnedCell& s = pairs.cells[i];
+    double score = 0, best = 0;
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d weight = Eigen::Matrix3d::Zero();
+    for (std::uint32_t block = 0; block < pairs.ranges[i].count; ++block)
+      for (std::size_t k = 0; k < TargetBlock::kLanes; ++k)
+      {
+        const TargetBlock& t = pairs.blocks[pairs.ranges[i].first + block];
+        const Eigen::Vector3d m = Eigen::Vector3d(s.x, s.y, s.z) - Eigen::Vector3d(t.x[k], t.y[k], t.z[k]);
+        const Eigen::Matrix3d b = (matrixOf(s.xx, s.xy, s.xz, s.yy, s.yz, s.zz) +
+                                   matrixOf(t.xx[k], t.xy[k], t.xz[k], t.yy[k], t.yz[k], t.zz[k]))
+                                      .inverse();
+        const double e = std::exp(-0.025 * m.dot(b * m));
+        score += e;
+        best = std::max(best, e);
+        force += 0.05 * e * b * m;
+        weight += 0.05 * e * b;
+      }
+    EXPECT_NEAR(sums[i].score, score, 1e-13 * (1 + score));
+    EXPECT_NEAR(sums[i].best, best, 1e-13);
+    EXPECT_LT((Eigen::Vector3d(sums[i].fx, sums[i].fy, sums[i].fz) - force).norm(), 1e-10 * (1 + force.norm()));
+    EXPECT_LT((matrixOf(sums[i].xx, sums[i].xy, sums[i].xz, sums[i].yy, sums[i].yz, sums[i].zz) - weight).norm(),
+              1e-10 * (1 + weight.norm()));
+  }
+}
+}  // namespace scanloom
