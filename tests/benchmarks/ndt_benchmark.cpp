@@ -1,5 +1,5 @@
 /** Binning per point, and a whole registration of two scans the size of two OS0-128. */
-#include "ndt/RayWorld.h"
+#include "benchmarks/FullScan.h"
 #include "ndt/Registration.h"
 
 #include <benchmark/benchmark.h>
@@ -9,24 +9,6 @@ namespace scanloom
 {
 namespace
 {
-const Rigid kMotion = Rigid::fromXyzYawPitchRoll(0.2, 0.1, 0.02, 0.02, 0.005, -0.005);
-
-RayLidar twoOs0() { return {256, 1024, 0.78, 60, 0.01}; }
-
-/** Two thirds of the rays meet something: repeated with a new phase until the scan has its 262144 points. */
-std::vector<Eigen::Vector3f> fullScan(const Rigid& world_T_lidar, std::uint64_t seed)
-{
-  constexpr std::size_t kPoints = 262144;
-  std::vector<Eigen::Vector3f> points;
-  for (; points.size() < kPoints; ++seed)
-  {
-    const auto more = scanFrom(forest(3), world_T_lidar, seed, twoOs0());
-    points.insert(points.end(), more.begin(), more.end());
-  }
-  points.resize(kPoints);
-  return points;
-}
-
 const std::vector<Eigen::Vector3f>& targetPoints()
 {
   static const auto points = fullScan(Rigid::identity(), 1);
@@ -35,7 +17,7 @@ const std::vector<Eigen::Vector3f>& targetPoints()
 
 const std::vector<Eigen::Vector3f>& sourcePoints()
 {
-  static const auto points = fullScan(kMotion, 11);
+  static const auto points = fullScan(fullScanMotion(), 11);
   return points;
 }
 
