@@ -64,8 +64,6 @@ class Neighbourhoods
 
   const std::vector<GaussianCell>& target() const { return target_.cells(); }
   const std::vector<GaussianCell>& source() const { return source_.cells(); }
-  double targetEdge() const { return target_.options().cell_size; }
-  double sourceEdge() const { return source_.options().cell_size; }
 
  private:
   void lookUp(Chunk&, std::size_t i, const Eigen::Vector3i& centre);

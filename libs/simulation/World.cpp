@@ -7,19 +7,6 @@
 
 namespace scanloom
 {
-namespace
-{
-Random leavesOf(std::uint64_t draw) { return {draw, RandomStream::Leaves, 0}; }
-
-/** Leaves that face all directions alike are met in proportion to the area that they show: cosines of density 2c. */
-double cosineOfLeaf(std::uint64_t draw)
-{
-  Random random = leavesOf(draw);
-  random.exponential();  // that was the optical depth
-  return std::sqrt(random.uniform());
-}
-}  // namespace
-
 World::World(const Ground& ground, const ForestOptions& options, const std::vector<Eigen::Vector2d>& path,
              std::uint64_t seed)
   : World(ground, options, Lane(path), seed)
@@ -41,7 +28,9 @@ World::World(const Ground& ground, const ForestOptions& options, const Lane& lan
 std::vector<std::optional<Hit>> World::cast(const std::vector<RayQuery>& queries) const
 {
   std::vector<std::optional<Hit>> nearest(queries.size());
+  std::vector<Random> of_leaves;
   std::vector<FoliageQuery> through_foliage;
+  of_leaves.reserve(queries.size());
   through_foliage.reserve(queries.size());
   const auto reach = [&](std::size_t i) { return nearest[i] ? nearest[i]->range : queries[i].max_range; };
   for (std::size_t i = 0; i < queries.size(); ++i)
@@ -49,12 +38,14 @@ std::vector<std::optional<Hit>> World::cast(const std::vector<RayQuery>& queries
     const auto& [ray, max_range, draw] = queries[i];
     nearest[i] = castGround(ray, max_range);
     // An exponential depth has no memory: one for the whole ray is as good as a new one for every voxel.
-    through_foliage.push_back({ray, reach(i), leavesOf(draw).exponential()});
+    of_leaves.emplace_back(draw, RandomStream::Leaves, 0);
+    through_foliage.push_back({ray, reach(i), of_leaves.back().exponential()});
   }
   const std::vector<std::optional<Leaf>> leaves = foliage_.intersect(through_foliage);
   for (std::size_t i = 0; i < queries.size(); ++i)
   {
-    if (leaves[i]) nearest[i] = Hit{leaves[i]->range, cosineOfLeaf(queries[i].draw), leaves[i]->surface, 0};
+    // Leaves that face all directions alike are met in proportion to the area that they show: cosines of density 2c.
+    if (leaves[i]) nearest[i] = Hit{leaves[i]->range, std::sqrt(of_leaves[i].uniform()), leaves[i]->surface, 0};
     if (const auto wood = wood_.cast(queries[i].ray, reach(i))) nearest[i] = wood;
   }
   return nearest;

@@ -1,13 +1,12 @@
 /** `scanloom doctor` as a person meets it. */
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "support/TestData.h"
+#include "support/runProgram.h"
 
 namespace scanloom
 {
@@ -15,19 +14,9 @@ namespace
 {
 using testing::HasSubstr;
 
-struct Ended
-{
-  int status;
-  std::string output;
-};
-
 Ended doctor(const std::string& arguments, const std::string& redirection = "2>/dev/null")
 {
-  const std::string command = SCANLOOM_BIN_DIR "/scanloom doctor " + arguments + " " + redirection;
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  std::string output;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
-  return {WEXITSTATUS(::pclose(pipe)), output};
+  return runProgram(SCANLOOM_BIN_DIR "/scanloom doctor " + arguments + " " + redirection);
 }
 
 const std::string kReal = "ouster/ouster-lidar+ouster-sdk/tests/pcaps/OS-1-128_v2.3.0_1024x10";

@@ -5,6 +5,7 @@
 #include "support/RecordedLidars.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/runProgram.h"
 #include "support/stockTool.h"
 
 #include <gmock/gmock.h>
@@ -111,10 +112,7 @@ TEST(RecordLive, rawlogAndCaptureAreReadableUpToTheLastSecondAfterKill)
 
   SCANLOOM_NEEDS_TOOL("rawlog-edit");
   const std::string info = fmt::format("rawlog-edit -p {} --info -i {}", SCANLOOM_PLUGIN, recorder.part.string());
-  std::string stock;
-  FILE* pipe = popen((info + " 2>&1").c_str(), "r");
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) stock += static_cast<char>(c);
-  pclose(pipe);
+  const std::string stock = runProgram(info + " 2>&1").output;
   std::smatch found;
   ASSERT_TRUE(std::regex_search(stock, found, std::regex(": +lidar */ *([0-9]+) "))) << stock;
   EXPECT_GE(std::stoul(found[1]), scans.size() - 1) << "MRPT's own reader goes on from member to member";

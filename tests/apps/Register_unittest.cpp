@@ -1,15 +1,14 @@
 /** `scanloom register` as a person meets it. */
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/runProgram.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
 #include <fstream>
 #include <random>
 
@@ -19,19 +18,9 @@ namespace
 {
 using testing::HasSubstr;
 
-struct Ended
-{
-  int status;
-  std::string output;
-};
-
 Ended registered(const std::string& arguments, const std::string& redirection = "2>&1")
 {
-  const std::string command = SCANLOOM_BIN_DIR "/scanloom register " + arguments + " " + redirection;
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  std::string output;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
-  return {WEXITSTATUS(::pclose(pipe)), output};
+  return runProgram(SCANLOOM_BIN_DIR "/scanloom register " + arguments + " " + redirection);
 }
 
 /** Ground, two walls to the ends of it, and a third within. */

@@ -41,9 +41,9 @@ TEST(SimulateUdp, isRecordedByAddressesAlone)
       "[simulated_lidars]\nlidar1_name = left\nlidar1_model = OS0-16\nlidar1_port = {}\nlidar2_name = right\n"
       "lidar2_port = {}\n",
       left, right);
-  ChildProcess simulate(fmt::format("{}/scanloom simulate -c {} --udp --delay 4", SCANLOOM_BIN_DIR,
-                                    (folder / "scene.ini").string()),
-                        folder / "simulate.txt");
+  ChildProcess simulate(
+      fmt::format("{}/scanloom simulate -c {} --udp --delay 4", SCANLOOM_BIN_DIR, (folder / "scene.ini").string()),
+      folder / "simulate.txt");
   const std::string section = sectionPrintedBy(simulate);
   ASSERT_THAT(section, HasSubstr("lidar1_address = 127.0.0.2:"));
   std::ofstream(folder / "live.ini") << section << "deadline_ms = 200\n";

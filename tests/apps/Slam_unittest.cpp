@@ -1,33 +1,23 @@
 /** `scanloom slam` as a person meets it when something is wrong. */
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <string>
 
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/runProgram.h"
 
 using namespace scanloom;
 
 namespace
 {
-struct Ended
-{
-  int status;
-  std::string output;
-};
-
 Ended slam(const std::filesystem::path& recording, const std::string& arguments)
 {
   const std::string command = "SCANLOOM_RECORDING=" + recording.string() +
                               " " SCANLOOM_BIN_DIR "/scanloom slam -c " SCANLOOM_SOURCE_DIR
                               "/params/dual_os0_recording.ini " +
                               arguments + " 2>&1 </dev/null";
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  std::string output;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
-  return {WEXITSTATUS(::pclose(pipe)), output};
+  return runProgram(command);
 }
 }  // namespace
 

@@ -1,9 +1,9 @@
 /** The program as a person or a script meets it. */
+#include "support/runProgram.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -15,19 +15,9 @@ namespace
 using testing::HasSubstr;
 using testing::StartsWith;
 
-struct Ended
-{
-  int status;
-  std::string output;  // of the streams that the redirection leaves open
-};
-
 Ended scanloom(const std::string& arguments, const std::string& redirection = "2>&1")
 {
-  const std::string command = SCANLOOM_BIN_DIR "/scanloom " + arguments + " " + redirection;
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  std::string output;
-  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
-  return {WEXITSTATUS(::pclose(pipe)), output};
+  return runProgram(SCANLOOM_BIN_DIR "/scanloom " + arguments + " " + redirection);
 }
 
 TEST(Executable, tellsItsVersionAndItsVerbs)
