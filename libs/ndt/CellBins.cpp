@@ -1,83 +1,85 @@
 #include "ndt/CellBins.h"
 
+#include "ndt/KeyIndex.h"
+#include "ndt/PointCells.h"
+
 #include <tbb/parallel_for.h>
-#include <tsl/robin_map.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <utility>
 
 namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kPart = 65536;  // points: a multiple of what a thread should not be woken for
-
-bool byKey(const Bin& a, const Bin& b) { return a.key < b.key; }
-
-/** Finds the bin of a cell, new or not. */
-class BinTable
+/**
+ * The sums of Moments about the cell's centre, two at a time. Whole numbers without rounding: 65536 points at most,
+ * each within 2^18.4 quanta of the centre, keep the sums of their products below 2^53.
+ */
+struct CentredSums
 {
- public:
-  BinTable()
+  using Two = double __attribute__((vector_size(16)));
+  static constexpr std::size_t kMostPoints = 65536;
+
+  Two n_x{}, y_z{}, xx_xy{}, xz_yy{}, yz_zz{};
+
+  void add(double x, double y, double z)
   {
-    constexpr std::size_t kUsual = 4096;  // cells of a scan's part
-    bins_.reserve(kUsual);
-    bin_of_key_.reserve(kUsual);
+    const Two xy{x, y}, zy{z, y};
+    n_x += Two{1, x};
+    y_z += Two{y, z};
+    xx_xy += Two{x, x} * xy;
+    xz_yy += xy * zy;
+    yz_zz += Two{y, z} * Two{z, z};
   }
 
-  Moments& operator[](std::uint64_t key)
+  Moments moments() const
   {
-    const auto [found, is_new] = bin_of_key_.try_emplace(key, static_cast<std::uint32_t>(bins_.size()));
-    if (is_new) bins_.push_back({key, {}});
-    return bins_[found->second].moments;
+    const auto whole = [](double v) { return static_cast<std::int64_t>(v); };
+    return {whole(n_x[0]),   whole(n_x[1]),   whole(y_z[0]),   whole(y_z[1]),   whole(xx_xy[0]),
+            whole(xx_xy[1]), whole(xz_yy[0]), whole(xz_yy[1]), whole(yz_zz[0]), whole(yz_zz[1])};
   }
-
-  std::vector<Bin> sorted()
-  {
-    std::sort(bins_.begin(), bins_.end(), byKey);
-    return std::move(bins_);
-  }
-
- private:
-  std::vector<Bin> bins_;
-  tsl::robin_map<std::uint64_t, std::uint32_t, KeyHash> bin_of_key_;
 };
 
-CellBins countPart(const Coordinates& points, std::size_t begin, std::size_t end, std::int64_t cell_quanta)
+/** In the order of their keys. */
+template <typename MomentsOf>
+std::vector<Bin> sortedBins(const KeyIndex& cells, MomentsOf&& moments_of)
 {
-  const auto reach = static_cast<float>(static_cast<double>((CellKey::kLimit - 1) * cell_quanta) * Moments::kQuantum);
-  const auto edge = static_cast<std::uint64_t>(cell_quanta);
-  const DividedBy cellOf(cell_quanta);
-  BinTable table;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+  order.reserve(cells.keys().size());
+  for (const std::uint64_t key : cells.keys()) order.emplace_back(key, static_cast<std::uint32_t>(order.size()));
+  std::sort(order.begin(), order.end());
+  std::vector<Bin> bins;
+  bins.reserve(order.size());
+  for (const auto& [key, place] : order) bins.push_back({key, moments_of(place)});
+  return bins;
+}
+
+CellBins countPart(const Coordinates& points, std::int64_t cell_quanta)
+{
   CellBins result;
-  Moments run;            // of neighbours in a column, which mostly share a cell
-  std::uint64_t key = 0;  // of that cell
-  constexpr std::int64_t kNowhere = std::numeric_limits<std::int64_t>::max() / 2;
-  std::int64_t corner_x = kNowhere, corner_y = kNowhere, corner_z = kNowhere;  // of that cell
-  for (std::size_t i = begin; i < end; ++i)
+  KeyIndex cells;
+  std::vector<CentredSums> sums;
+  PointCells located;
+  for (std::size_t begin = 0; begin < points.count; begin += PointCells::kPoints)
   {
-    const float fx = points.x[i * points.stride], fy = points.y[i * points.stride], fz = points.z[i * points.stride];
-    if (!(std::abs(fx) < reach && std::abs(fy) < reach && std::abs(fz) < reach))  // also what is not finite
+    const Coordinates batch = points.part(begin, PointCells::kPoints);
+    locate(batch, cell_quanta, located);
+    for (std::size_t i = 0; i < batch.count; ++i)
     {
-      ++result.left_out;
-      continue;
+      if (located.key[i] == PointCells::kNowhere)
+      {
+        ++result.left_out;
+        continue;
+      }
+      const std::uint32_t cell = cells.placeOf(located.key[i]);
+      if (cell == sums.size()) sums.emplace_back();
+      sums[cell].add(located.x[i], located.y[i], located.z[i]);
     }
-    const std::int64_t x = quantaOf(fx), y = quantaOf(fy), z = quantaOf(fz);
-    const auto isIn = [edge](std::int64_t q, std::int64_t corner)
-    { return static_cast<std::uint64_t>(q - corner) < edge; };
-    if (!(isIn(x, corner_x) && isIn(y, corner_y) && isIn(z, corner_z)))
-    {
-      if (run.n > 0) table[key] += run;
-      run = {};
-      const std::int64_t cell_x = cellOf(x), cell_y = cellOf(y), cell_z = cellOf(z);
-      corner_x = cell_x * cell_quanta, corner_y = cell_y * cell_quanta, corner_z = cell_z * cell_quanta;
-      key = CellKey::of(cell_x, cell_y, cell_z);
-    }
-    run.add(x - corner_x, y - corner_y, z - corner_z);
   }
-  if (run.n > 0) table[key] += run;
-  result.bins = table.sorted();
+  const Eigen::Matrix<std::int64_t, 3, 1> centre =
+      Eigen::Matrix<std::int64_t, 3, 1>::Constant(PointCells::centreOf(cell_quanta));
+  result.bins = sortedBins(cells, [&](std::uint32_t i) { return sums[i].moments().about(centre); });
   return result;
 }
 
@@ -99,12 +101,11 @@ std::vector<Bin> sumOf(const std::vector<Bin>& a, const std::vector<Bin>& b)
 
 CellBins countInto(const Coordinates& points, std::int64_t cell_quanta)
 {
+  constexpr std::size_t kPart = CentredSums::kMostPoints;
   const std::size_t parts = (points.count + kPart - 1) / kPart;
   std::vector<CellBins> counted(parts);
   tbb::parallel_for(std::size_t{0}, parts,
-                    [&](std::size_t i) {
-                      counted[i] = countPart(points, i * kPart, std::min((i + 1) * kPart, points.count), cell_quanta);
-                    });
+                    [&](std::size_t i) { counted[i] = countPart(points.part(i * kPart, kPart), cell_quanta); });
   CellBins all;
   for (CellBins& part : counted)
   {
@@ -117,14 +118,16 @@ CellBins countInto(const Coordinates& points, std::int64_t cell_quanta)
 std::vector<Bin> coarserBins(const std::vector<Bin>& fine, std::int64_t cell_quanta, int factor)
 {
   const DividedBy parentOf(factor);
-  BinTable table;
+  KeyIndex parents;
+  std::vector<Moments> sums;
   for (const Bin& bin : fine)
   {
     const auto child = CellKey::indexOf(bin.key);
     const Eigen::Matrix<std::int64_t, 3, 1> parent(parentOf(child.x()), parentOf(child.y()), parentOf(child.z()));
-    table[CellKey::of(parent.x(), parent.y(), parent.z())] +=
-        bin.moments.about(cell_quanta * (child - factor * parent));
+    const std::uint32_t place = parents.placeOf(CellKey::of(parent.x(), parent.y(), parent.z()));
+    if (place == sums.size()) sums.emplace_back();
+    sums[place] += bin.moments.about(cell_quanta * (child - factor * parent));
   }
-  return table.sorted();
+  return sortedBins(parents, [&](std::uint32_t i) { return sums[i]; });
 }
 }  // namespace scanloom

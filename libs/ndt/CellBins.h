@@ -26,6 +26,13 @@ struct Coordinates
   const float *x, *y, *z;
   std::size_t stride;  // floats from one point to the next
   std::size_t count;
+
+  /** At most `most` of the points from `begin` on, which must not be behind the last. */
+  Coordinates part(std::size_t begin, std::size_t most) const
+  {
+    const std::size_t skip = begin * stride;
+    return {x + skip, y + skip, z + skip, stride, count - begin < most ? count - begin : most};
+  }
 };
 
 /** Parts of the points are counted in parallel; sums of integers are the same for any parts. */

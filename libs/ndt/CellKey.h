@@ -20,8 +20,17 @@ struct CellKey
 
   static std::uint64_t of(std::int64_t x, std::int64_t y, std::int64_t z)
   {
-    const std::uint64_t bx = biased(x), by = biased(y), bz = biased(z);
-    return blockOf(bx >> 2, by >> 2, bz >> 2) << kCellBits | (bz & 3) << 4 | (by & 3) << 2 | (bx & 3);
+    std::uint64_t key;
+    compose(biased(x), biased(y), biased(z), key);
+    return key;
+  }
+
+  /** From biased indices, of one cell or of a vector of them. */
+  template <typename Bits>
+  static void compose(const Bits& x, const Bits& y, const Bits& z, Bits& key)
+  {
+    key = ((z >> 2) << (2 * kBlockBits) | (y >> 2) << kBlockBits | x >> 2) << kCellBits |  //
+          (z & 3) << 4 | (y & 3) << 2 | (x & 3);
   }
 
   static std::uint64_t blockOf(std::uint64_t x, std::uint64_t y, std::uint64_t z)

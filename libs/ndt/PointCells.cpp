@@ -1,0 +1,112 @@
+#include "ndt/PointCells.h"
+
+#include <cstring>
+#include <limits>
+
+#define INLINE [[gnu::always_inline]] inline
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kLanes = 8;
+// No comparisons: GCC takes those of vectors apart before it knows the registers of a function's target.
+using Lanes = double __attribute__((vector_size(8 * kLanes)));
+using Bits = std::uint64_t __attribute__((vector_size(8 * kLanes)));
+
+constexpr double kRound = 0x1.8p52;  // added and taken away again, it leaves the nearest whole number
+constexpr std::uint64_t kBitsOfRound = 0x4338000000000000;
+
+struct Axis
+{
+  Bits biased;  // index of the cell, see CellKey
+  Bits fits;    // in its highest bit
+};
+
+struct Cells
+{
+  double edge, inverse_edge, centre;
+  std::uint64_t bits_of_reach;
+};
+
+INLINE void along(double* place, const Cells& cells, Axis& axis)
+{
+  Lanes v;
+  std::memcpy(&v, place, sizeof v);
+  const Lanes quanta = (v * (1 / Moments::kQuantum) + kRound) - kRound;
+
+  // Half a quantum in, no quotient is nearer to a whole number than its rounding error: 2^-31 beside 2^-21.
+  const Lanes shifted = ((quanta + 0.5) * cells.inverse_edge - 0.5) + kRound;
+  const Lanes from_centre = quanta - (shifted - kRound) * cells.edge - cells.centre;
+  std::memcpy(place, &from_centre, sizeof from_centre);
+  std::memcpy(&axis.biased, &shifted, sizeof shifted);
+  axis.biased += static_cast<std::uint64_t>(CellKey::kLimit) - kBitsOfRound;
+
+  // Bits of positive numbers are in the numbers' order, those of what is not finite above them.
+  Bits magnitude;
+  std::memcpy(&magnitude, &v, sizeof v);
+  axis.fits = (magnitude << 1 >> 1) - cells.bits_of_reach;
+}
+
+INLINE void locateAll(std::size_t count, const Cells& cells, PointCells& located)
+{
+  for (std::size_t i = 0; i < count; i += kLanes)
+  {
+    Axis x, y, z;
+    along(located.x + i, cells, x);
+    along(located.y + i, cells, y);
+    along(located.z + i, cells, z);
+    Bits key;
+    CellKey::compose(x.biased, y.biased, z.biased, key);
+    key |= ((x.fits & y.fits & z.fits) >> 63) - 1;
+    std::memcpy(located.key + i, &key, sizeof key);
+  }
+}
+
+/** Apart from the arithmetic: what has just been stored by halves can't be loaded whole without a wait. */
+void widen(const Coordinates& points, PointCells& located)
+{
+  std::size_t i = 0;
+  for (; i < points.count; ++i)
+  {
+    located.x[i] = static_cast<double>(points.x[i * points.stride]);
+    located.y[i] = static_cast<double>(points.y[i * points.stride]);
+    located.z[i] = static_cast<double>(points.z[i * points.stride]);
+  }
+  for (; i % kLanes != 0; ++i) located.x[i] = located.y[i] = located.z[i] = 0;
+}
+
+void locatePortable(std::size_t count, const Cells& cells, PointCells& located)
+{
+  locateAll(count, cells, located);
+}
+
+[[gnu::target("avx2")]] void locateAvx2(std::size_t count, const Cells& cells, PointCells& located)
+{
+  locateAll(count, cells, located);
+}
+
+[[gnu::target("avx512f,avx512dq")]] void locateAvx512(std::size_t count, const Cells& cells, PointCells& located)
+{
+  locateAll(count, cells, located);
+}
+}  // namespace
+
+void locate(const Coordinates& points, std::int64_t cell_quanta, PointCells& located, Kernel kernel)
+{
+  const auto edge = static_cast<double>(cell_quanta);
+  const double reach = static_cast<double>(CellKey::kLimit - 1) * edge * Moments::kQuantum;
+  Cells cells{edge, 1 / edge, static_cast<double>(PointCells::centreOf(cell_quanta)), 0};
+  std::memcpy(&cells.bits_of_reach, &reach, sizeof reach);
+  widen(points, located);
+  switch (kernel)
+  {
+    case Kernel::Portable:
+      return locatePortable(points.count, cells, located);
+    case Kernel::Avx2:
+      return locateAvx2(points.count, cells, located);
+    case Kernel::Avx512:
+      return locateAvx512(points.count, cells, located);
+  }
+}
+}  // namespace scanloom
