@@ -1,10 +1,14 @@
 #include "ndt/LidarInformation.h"
 
+#include "ndt/PairEvidence.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace scanloom
@@ -13,7 +17,6 @@ namespace
 {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
 // Points of one cell share beams, edges and the surface's own unevenness: past this number they teach nothing new.
 constexpr double kMostIndependentPoints = 10;
@@ -25,81 +28,120 @@ constexpr double kUnknownDeviation = 10;                     // m: "not measured
 // Below this share of structure, the resistance against a step is that of the grid, not of the world.
 constexpr double kLeastStructure = 0.25;
 
-Matrix3d covarianceOfMean(const GaussianCell& cell)
-{
-  return cell.covariance / std::min<double>(cell.points, kMostIndependentPoints);
-}
-
-/** What is gathered per target cell, of which most are met by several source cells, many by none: d force / d mean. */
-struct TargetRole
-{
-  bool met = false;
-  Matrix3d force = Matrix3d::Zero(), torque = Matrix3d::Zero();
-};
-
 /** Sums over all pairs; steps in the target's frame, in m and rad, about the source's origin. */
 struct Evidence
 {
-  Matrix6d resistance = Matrix6d::Zero();  // sum J' wB J
-  Matrix6d structure = Matrix6d::Zero();   // the same of thin directions only
-  Matrix6d curvature = Matrix6d::Zero();   // of the score with B held
-  Matrix6d noise = Matrix6d::Zero();       // covariance of the gradient
+  Matrix6d resistance;  // sum J' wB J
+  Matrix6d structure;   // the same of thin directions only
+  Matrix6d curvature;   // of the score with B held
+  Matrix6d noise;       // covariance of the gradient
 };
 
-/** J' A J of J = [I, -skew(v)]. */
-void addTo(Matrix6d& sum, const Matrix3d& a, const Matrix3d& cross)
+double independentPoints(std::uint32_t points) { return std::min<double>(points, kMostIndependentPoints); }
+
+/** How a mean's uncertainty shakes what it pulls at. */
+Symmetric3 shaking(const Symmetric3& pull, const Symmetric3& covariance, std::uint32_t points)
 {
-  const Matrix3d a_cross = a * cross;
-  sum.topLeftCorner<3, 3>() += a;
-  sum.topRightCorner<3, 3>() -= a_cross;
-  sum.bottomLeftCorner<3, 3>() += cross * a;
-  sum.bottomRightCorner<3, 3>() -= cross * a_cross;
+  Symmetric3 shaken;
+  sandwich(pull, covariance, shaken);
+  return scaled(shaken, 1 / independentPoints(points));
+}
+
+/** What is known of one chunk of source cells, and of each of its pairs. */
+struct ChunkEvidence
+{
+  PoseSum resistance, structure, curvature, noise;
+  std::vector<StructureBlock> pulls;
+};
+
+std::vector<StructureBlock> structuresOf(const Neighbourhoods& all, const Neighbourhoods::Chunk& chunk)
+{
+  std::vector<StructureBlock> structures(chunk.blocks.size());
+  for (std::size_t i = 0; i < chunk.cells.size(); ++i)
+  {
+    StructureBlock* block = structures.data() + chunk.ranges[i].first;
+    std::size_t lane = 0;
+    for (const std::uint32_t j : all.of(chunk.first + i))
+    {
+      const Matrix3d& s = all.target()[j].structure;
+      block->xx[lane] = s(0, 0), block->xy[lane] = s(0, 1), block->xz[lane] = s(0, 2);
+      block->yy[lane] = s(1, 1), block->yz[lane] = s(1, 2), block->zz[lane] = s(2, 2);
+      if (++lane == TargetBlock::kLanes) ++block, lane = 0;
+    }
+  }
+  return structures;
+}
+
+ChunkEvidence evidenceOf(const Neighbourhoods& all, std::size_t index, const Rigid& target_T_source, double d2)
+{
+  const Neighbourhoods::Chunk& chunk = all.chunk(index);
+  const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
+  const Vector3d& origin = target_T_source.translation;
+  std::array<PairEvidence, Neighbourhoods::kChunk> cells;
+  ChunkEvidence evidence;
+  evidence.pulls.resize(chunk.blocks.size());
+  gatherEvidence(chunk.pairs(), structuresOf(all, chunk).data(), d2, cells.data(), evidence.pulls.data());
+  for (std::size_t i = 0; i < chunk.cells.size(); ++i)
+  {
+    if (chunk.ranges[i].count == 0) continue;
+    const GaussianCell& source = all.source()[chunk.first + i];
+    const TurnedCell& c = chunk.cells[i];
+    const double x = c.x - origin.x(), y = c.y - origin.y(), z = c.z - origin.z();
+    Symmetric3 structured;
+    sandwich(turned(source.structure, rotation), cells[i].structured, structured);
+    evidence.resistance.add(cells[i].weight, x, y, z);
+    evidence.structure.add(structured, x, y, z);
+    evidence.curvature.add(cells[i].pull, x, y, z);
+    evidence.noise.add(shaking(cells[i].pull, {c.xx, c.xy, c.xz, c.yy, c.yz, c.zz}, source.points), x, y, z);
+  }
+  return evidence;
+}
+
+/** Of what the target's means are uncertain by: one of them may be met by several source cells, many by none. */
+Matrix6d noiseOfTarget(const Neighbourhoods& all, const std::vector<ChunkEvidence>& chunks, const Vector3d& translation)
+{
+  std::vector<Symmetric3> forces(all.target().size(), Symmetric3{});
+  for (std::size_t c = 0; c < chunks.size(); ++c)  // in a fixed order
+  {
+    const Neighbourhoods::Chunk& chunk = all.chunk(c);
+    for (std::size_t i = 0; i < chunk.cells.size(); ++i)
+    {
+      const StructureBlock* block = chunks[c].pulls.data() + chunk.ranges[i].first;
+      std::size_t lane = 0;
+      for (const std::uint32_t j : all.of(chunk.first + i))
+      {
+        Symmetric3& force = forces[j];
+        force.xx += block->xx[lane], force.xy += block->xy[lane], force.xz += block->xz[lane];
+        force.yy += block->yy[lane], force.yz += block->yz[lane], force.zz += block->zz[lane];
+        if (++lane == TargetBlock::kLanes) ++block, lane = 0;
+      }
+    }
+  }
+  PoseSum noise;
+  for (std::size_t j = 0; j < forces.size(); ++j)
+  {
+    if (forces[j].xx == 0) continue;
+    const GaussianCell& target = all.target()[j];
+    // At its own mean: that of a source cell that counts is no further than the score reaches.
+    const Vector3d v = target.mean - translation;
+    noise.add(shaking(forces[j], symmetric(target.covariance), target.points), v.x(), v.y(), v.z());
+  }
+  return noise.matrix();
 }
 
 Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
-  const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
-  std::vector<TargetRole> roles(all.target().size());
-  Evidence evidence;
-  for (std::size_t i = 0; i < all.source().size(); ++i)
+  std::vector<ChunkEvidence> chunks(all.chunks());
+  tbb::parallel_for(std::size_t{0}, chunks.size(),
+                    [&](std::size_t i) { chunks[i] = evidenceOf(all, i, target_T_source, d2); });
+  Evidence evidence{Matrix6d::Zero(), Matrix6d::Zero(), Matrix6d::Zero(),
+                    noiseOfTarget(all, chunks, target_T_source.translation)};
+  for (const ChunkEvidence& chunk : chunks)  // in a fixed order
   {
-    const auto targets = all.of(i);
-    if (targets.begin() == targets.end()) continue;
-    const GaussianCell& source = all.source()[i];
-    const Vector3d v = rotation * source.mean, mean = v + target_T_source.translation;
-    const Matrix3d covariance = rotation * source.covariance * rotation.transpose();
-    const Matrix3d thin_source = rotation * source.structure * rotation.transpose();
-    const Matrix3d cross = skew(v);
-
-    Matrix3d weights = Matrix3d::Zero(), structures = Matrix3d::Zero(), pulls = Matrix3d::Zero();
-    for (const std::uint32_t j : targets)
-    {
-      const GaussianCell& target = all.target()[j];
-      const Matrix3d b = (covariance + target.covariance).inverse();
-      const Vector3d m = mean - target.mean;
-      const Vector3d u = b * m;
-      const double w = d2 * std::exp(-d2 / 2 * m.dot(u));
-      const Matrix3d pull = w * (b - d2 * u * u.transpose());
-      const Matrix3d thin = thin_source * target.structure;
-      weights += w * b;
-      structures += w * thin * b * thin.transpose();
-      pulls += pull;
-      TargetRole& role = roles[j];
-      role.met = true;
-      role.force += pull;
-      role.torque += cross * pull;
-    }
-    addTo(evidence.resistance, weights, cross);
-    addTo(evidence.structure, structures, cross);
-    addTo(evidence.curvature, pulls, cross);
-    addTo(evidence.noise, pulls * rotation * covarianceOfMean(source) * rotation.transpose() * pulls, cross);
-  }
-  for (std::size_t j = 0; j < roles.size(); ++j)
-  {
-    if (!roles[j].met) continue;
-    Matrix63 pull;
-    pull << roles[j].force, roles[j].torque;
-    evidence.noise += pull * covarianceOfMean(all.target()[j]) * pull.transpose();
+    evidence.resistance += chunk.resistance.matrix();
+    evidence.structure += chunk.structure.matrix();
+    evidence.curvature += chunk.curvature.matrix();
+    evidence.noise += chunk.noise.matrix();
   }
   return evidence;
 }

@@ -43,6 +43,18 @@ Vector6d dampedStep(const NormalEquations& equations, double damping, const Matr
   return -free * damped.ldlt().solve(free * scale.cwiseProduct(equations.gradient));
 }
 
+/**
+ * With the turning of B and the bend of the score left out, the curvature is taken too large, and each step is about
+ * the same fraction of the last: two of them tell what all the others add up to. 0 where they do not line up.
+ */
+double shrinkingOf(const Vector6d& step, const Vector6d& before)
+{
+  constexpr double kLinedUp = 0.8, kMost = 0.5;
+  const double along = step.dot(before);
+  if (!(along > kLinedUp * step.norm() * before.norm())) return 0;
+  return std::min(kMost, along / before.squaredNorm());
+}
+
 Minimum minimise(const Pairs& pairs, const Rigid& guess, const RegistrationOptions& options,
                  const std::vector<Vector6d>& locked)
 {
@@ -51,14 +63,23 @@ Minimum minimise(const Pairs& pairs, const Rigid& guess, const RegistrationOptio
 
   Minimum here{guess, at(guess, pairs, options.d2), 0, false};
   double damping = 0;
+  Vector6d before = Vector6d::Zero();  // the last step, if the next can be compared with it
   while (!here.converged && here.equations.met_points > 0 && here.iterations < options.max_iterations)
   {
     ++here.iterations;
-    const Vector6d step = dampedStep(here.equations, damping, free);
-    const Rigid candidate = boxPlus(here.target_T_source, stepOfMetres().cwiseProduct(step));
-    const NormalEquations there = at(candidate, pairs, options.d2);
+    const Vector6d plain = dampedStep(here.equations, damping, free);
+    const double shrinking = shrinkingOf(plain, before);
+    const Vector6d step = plain / (1 - shrinking);
+    before = shrinking == 0 ? plain : Vector6d::Zero();
 
+    const Rigid candidate = boxPlus(here.target_T_source, stepOfMetres().cwiseProduct(step));
     here.converged = step.norm() < options.tolerance;
+    if (here.converged)  // nothing that is worth another look at every cell
+    {
+      here.target_T_source = candidate;
+      break;
+    }
+    const NormalEquations there = at(candidate, pairs, options.d2);
     if (there.value <= here.equations.value + kSlack * std::abs(here.equations.value))
     {
       here.target_T_source = candidate;

@@ -10,7 +10,7 @@ namespace scanloom
 struct Minimum
 {
   Rigid target_T_source;
-  NormalEquations equations;  // there
+  NormalEquations equations;  // there, or a step below the tolerance before
   int iterations = 0;
   bool converged = false;
 };

@@ -43,6 +43,8 @@ class Neighbourhoods
     std::vector<std::uint32_t> found;  // as many places per source cell as it may have neighbours
     std::vector<std::uint32_t> counts;
     std::vector<Eigen::Vector3i> centres;  // where the neighbours were last looked up
+
+    PairBatch pairs() const { return {cells.data(), ranges.data(), cells.size(), blocks.data()}; }
   };
   const Chunk& chunk(std::size_t i) const { return chunks_[i]; }
 

@@ -37,7 +37,15 @@ struct PairSums
   double xx, xy, xz, yy, yz, zz;  // sum w B
 };
 
-/** sums[i] of cells[i] and its blocks. Equal to the bit for every kernel. */
-void sumPairs(const TurnedCell* cells, const BlockRange* ranges, std::size_t count, const TargetBlock* blocks,
-              double d2, PairSums* sums, Kernel = widestKernel());
+/** Source cells and the target cells of each. */
+struct PairBatch
+{
+  const TurnedCell* cells;
+  const BlockRange* ranges;  // of each, into blocks
+  std::size_t count;
+  const TargetBlock* blocks;
+};
+
+/** One per cell. Equal to the bit for every kernel. */
+void sumPairs(const PairBatch&, double d2, PairSums* sums, Kernel = widestKernel());
 }  // namespace scanloom

@@ -72,6 +72,7 @@ RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& level
   if (levels.empty()) throw std::invalid_argument("alignCoarseToFine: at least one level is needed");
   RegistrationOptions coarse = last;
   coarse.neighbours = std::min(last.neighbours, 7);
+  coarse.tolerance = 10 * last.tolerance;
   Rigid pose = guess;
   int iterations = 0;
   for (auto level = levels.begin(); level != levels.end() - 1; ++level)

@@ -16,7 +16,7 @@ struct RegistrationOptions
 {
   double d2 = 0.05;  // Stoyanov 2012
   int max_iterations = 30;
-  double tolerance = 1e-4;
+  double tolerance = 1e-3;
   int neighbours = 27;
   double min_overlap = 0.3;
 

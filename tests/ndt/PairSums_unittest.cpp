@@ -62,7 +62,7 @@ Pairs randomPairs()
 std::vector<PairSums> sumsOf(const Pairs& pairs, Kernel kernel)
 {
   std::vector<PairSums> sums(pairs.cells.size());
-  sumPairs(pairs.cells.data(), pairs.ranges.data(), pairs.cells.size(), pairs.blocks.data(), 0.05, sums.data(), kernel);
+  sumPairs({pairs.cells.data(), pairs.ranges.data(), pairs.cells.size(), pairs.blocks.data()}, 0.05, sums.data(), kernel);
   return sums;
 }
 }  // namespace

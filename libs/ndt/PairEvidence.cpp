@@ -1,0 +1,101 @@
+#include "ndt/PairEvidence.h"
+
+#include "ndt/PairLanes.h"
+
+namespace scanloom
+{
+namespace
+{
+SCANLOOM_INLINE void loadAll(const StructureBlock& from, SymmetricLanes& lanes)
+{
+  load(from.xx, lanes.xx), load(from.xy, lanes.xy), load(from.xz, lanes.xz);
+  load(from.yy, lanes.yy), load(from.yz, lanes.yz), load(from.zz, lanes.zz);
+}
+
+SCANLOOM_INLINE void storeAll(const SymmetricLanes& lanes, StructureBlock& to)
+{
+  store(lanes.xx, to.xx), store(lanes.xy, to.xy), store(lanes.xz, to.xz);
+  store(lanes.yy, to.yy), store(lanes.yz, to.yz), store(lanes.zz, to.zz);
+}
+
+SCANLOOM_INLINE void addTimes(const Lanes& w, const SymmetricLanes& m, SymmetricLanes& sum)
+{
+  sum.xx += w * m.xx, sum.xy += w * m.xy, sum.xz += w * m.xz;
+  sum.yy += w * m.yy, sum.yz += w * m.yz, sum.zz += w * m.zz;
+}
+
+SCANLOOM_INLINE void totals(const SymmetricLanes& sum, Symmetric3& result)
+{
+  result = {total(sum.xx), total(sum.xy), total(sum.xz), total(sum.yy), total(sum.yz), total(sum.zz)};
+}
+
+SCANLOOM_INLINE void gatherOf(const TurnedCell& cell, const BlockRange& range, const TargetBlock* blocks,
+                              const StructureBlock* structures, double d2, PairEvidence& evidence,
+                              StructureBlock* pulls)
+{
+  SymmetricLanes weight{}, structured{}, pull{};
+  for (std::uint32_t i = range.first; i != range.first + range.count; ++i)
+  {
+    PairTerms t;
+    termsOf(cell, blocks[i], d2, t);
+    const Lanes w = d2 * t.e;
+    addTimes(w, t.b, weight);
+
+    SymmetricLanes thin, resisting;
+    loadAll(structures[i], thin);
+    sandwich(thin, t.b, resisting);
+    addTimes(w, resisting, structured);
+
+    const Lanes x = d2 * t.ux, y = d2 * t.uy, z = d2 * t.uz;
+    const SymmetricLanes bent{t.b.xx - x * t.ux, t.b.xy - x * t.uy, t.b.xz - x * t.uz,
+                              t.b.yy - y * t.uy, t.b.yz - y * t.uz, t.b.zz - z * t.uz};
+    SymmetricLanes own{};
+    addTimes(w, bent, own);
+    storeAll(own, pulls[i]);
+    addTimes(Lanes{} + 1, own, pull);
+  }
+  totals(weight, evidence.weight);
+  totals(structured, evidence.structured);
+  totals(pull, evidence.pull);
+}
+
+SCANLOOM_INLINE void gatherAll(const PairBatch& batch, const StructureBlock* structures, double d2,
+                               PairEvidence* evidence, StructureBlock* pulls)
+{
+  for (std::size_t i = 0; i < batch.count; ++i)
+    gatherOf(batch.cells[i], batch.ranges[i], batch.blocks, structures, d2, evidence[i], pulls);
+}
+
+void gatherPortable(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence,
+                    StructureBlock* pulls)
+{
+  gatherAll(batch, structures, d2, evidence, pulls);
+}
+
+[[gnu::target("avx2")]] void gatherAvx2(const PairBatch& batch, const StructureBlock* structures, double d2,
+                                        PairEvidence* evidence, StructureBlock* pulls)
+{
+  gatherAll(batch, structures, d2, evidence, pulls);
+}
+
+[[gnu::target("avx512f,avx512dq")]] void gatherAvx512(const PairBatch& batch, const StructureBlock* structures,
+                                                      double d2, PairEvidence* evidence, StructureBlock* pulls)
+{
+  gatherAll(batch, structures, d2, evidence, pulls);
+}
+}  // namespace
+
+void gatherEvidence(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence,
+                    StructureBlock* pulls, Kernel kernel)
+{
+  switch (kernel)
+  {
+    case Kernel::Portable:
+      return gatherPortable(batch, structures, d2, evidence, pulls);
+    case Kernel::Avx2:
+      return gatherAvx2(batch, structures, d2, evidence, pulls);
+    case Kernel::Avx512:
+      return gatherAvx512(batch, structures, d2, evidence, pulls);
+  }
+}
+}  // namespace scanloom

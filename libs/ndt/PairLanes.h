@@ -1,0 +1,79 @@
+/** One source cell against eight target cells: what every kernel over pairs of cells begins with. */
+#pragma once
+#include "ndt/PairSums.h"
+#include "ndt/Symmetric3.h"
+
+#include <cstdint>
+#include <cstring>
+
+#define SCANLOOM_INLINE [[gnu::always_inline]] inline
+
+namespace scanloom
+{
+// Vectors of the compiler's: the same operations in the same order whatever registers a machine has for them.
+using Lanes = double __attribute__((vector_size(8 * TargetBlock::kLanes)));
+
+SCANLOOM_INLINE void load(const double* from, Lanes& lanes) { std::memcpy(&lanes, from, sizeof lanes); }
+SCANLOOM_INLINE void store(const Lanes& lanes, double* to) { std::memcpy(to, &lanes, sizeof lanes); }
+
+using SymmetricLanes = SymmetricOf<Lanes>;
+
+/** exp(-h) for h from 0 to 690, to 1e-15: 2^-n exp(r) with |r| <= ln 2 / 2, by Taylor's series. */
+SCANLOOM_INLINE void expOfMinus(const Lanes& h, Lanes& result)
+{
+  using Whole = std::int64_t __attribute__((vector_size(8 * TargetBlock::kLanes)));
+  constexpr double kRound = 0x1.8p52;  // added and taken away again, it leaves a whole number
+  constexpr double kLog2E = 1.4426950408889634, kLn2High = 0x1.62e42fefa3800p-1, kLn2Low = 0x1.ef35793c76730p-45;
+  const Lanes shifted = h * kLog2E + kRound;
+  const Lanes n = shifted - kRound;
+  const Lanes r = (n * kLn2High - h) + n * kLn2Low;
+  Lanes sum = 1 + r * (1.0 / 13);
+  for (int k = 12; k >= 1; --k) sum = 1 + r * (1.0 / k) * sum;
+
+  Whole bits;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  constexpr std::int64_t kBitsOfRound = 0x4338000000000000, kExponentBias = 1023;
+  bits = (kExponentBias - (bits - kBitsOfRound)) << 52;
+  Lanes power;
+  std::memcpy(&power, &bits, sizeof power);
+  result = sum * power;
+}
+
+/** In a fixed tree. */
+SCANLOOM_INLINE double total(const Lanes& v)
+{
+  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+/** See PairSums: e, B and u = Bm. */
+struct PairTerms
+{
+  Lanes e, ux, uy, uz;
+  SymmetricLanes b;
+};
+
+SCANLOOM_INLINE void termsOf(const TurnedCell& s, const TargetBlock& block, double d2, PairTerms& terms)
+{
+  Lanes x, y, z, xx, xy, xz, yy, yz, zz;
+  load(block.x, x), load(block.y, y), load(block.z, z);
+  load(block.xx, xx), load(block.xy, xy), load(block.xz, xz);
+  load(block.yy, yy), load(block.yz, yz), load(block.zz, zz);
+  x = s.x - x, y = s.y - y, z = s.z - z;
+  xx = s.xx + xx, xy = s.xy + xy, xz = s.xz + xz, yy = s.yy + yy, yz = s.yz + yz, zz = s.zz + zz;
+
+  // The inverse of a symmetric 3x3 by its cofactors.
+  SymmetricLanes& b = terms.b;
+  const Lanes cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
+  const Lanes inverse = 1 / (xx * cxx + xy * cxy + xz * cxz);
+  b.xx = inverse * cxx, b.xy = inverse * cxy, b.xz = inverse * cxz;
+  b.yy = inverse * (xx * zz - xz * xz), b.yz = inverse * (xy * xz - xx * yz), b.zz = inverse * (xx * yy - xy * xy);
+  terms.ux = b.xx * x + b.xy * y + b.xz * z;
+  terms.uy = b.xy * x + b.yy * y + b.yz * z;
+  terms.uz = b.xz * x + b.yz * y + b.zz * z;
+
+  constexpr double kNothing = 690;  // exp(-690) is still normal
+  Lanes h = (d2 / 2) * (x * terms.ux + y * terms.uy + z * terms.uz);
+  h = h < kNothing ? h : Lanes{} + kNothing;
+  expOfMinus(h, terms.e);
+}
+}  // namespace scanloom

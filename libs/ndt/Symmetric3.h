@@ -1,0 +1,90 @@
+/** Symmetric 3x3 matrices as their six numbers, and the sums of 6x6 ones that they make: half of Eigen's work. */
+#pragma once
+#include "core/Rigid.h"
+
+#include <Eigen/Core>
+
+namespace scanloom
+{
+/** Of numbers, or of vectors of them. */
+template <typename T>
+struct SymmetricOf
+{
+  T xx, xy, xz, yy, yz, zz;
+};
+using Symmetric3 = SymmetricOf<double>;
+
+/** A B A. */
+template <typename T>
+[[gnu::always_inline]] inline void sandwich(const SymmetricOf<T>& a, const SymmetricOf<T>& b, SymmetricOf<T>& result)
+{
+  const T xx = a.xx * b.xx + a.xy * b.xy + a.xz * b.xz, xy = a.xx * b.xy + a.xy * b.yy + a.xz * b.yz,
+          xz = a.xx * b.xz + a.xy * b.yz + a.xz * b.zz;
+  const T yx = a.xy * b.xx + a.yy * b.xy + a.yz * b.xz, yy = a.xy * b.xy + a.yy * b.yy + a.yz * b.yz,
+          yz = a.xy * b.xz + a.yy * b.yz + a.yz * b.zz;
+  const T zx = a.xz * b.xx + a.yz * b.xy + a.zz * b.xz, zy = a.xz * b.xy + a.yz * b.yy + a.zz * b.yz,
+          zz = a.xz * b.xz + a.yz * b.yz + a.zz * b.zz;
+  result.xx = xx * a.xx + xy * a.xy + xz * a.xz;
+  result.xy = xx * a.xy + xy * a.yy + xz * a.yz;
+  result.xz = xx * a.xz + xy * a.yz + xz * a.zz;
+  result.yy = yx * a.xy + yy * a.yy + yz * a.yz;
+  result.yz = yx * a.xz + yy * a.yz + yz * a.zz;
+  result.zz = zx * a.xz + zy * a.yz + zz * a.zz;
+}
+
+inline Symmetric3 symmetric(const Eigen::Matrix3d& m) { return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}; }
+
+/** R m R'. */
+inline Symmetric3 turned(const Eigen::Matrix3d& m, const Eigen::Matrix3d& r)
+{
+  const Eigen::Matrix3d half = r * m;
+  const auto entry = [&](int i, int j)
+  { return half(i, 0) * r(j, 0) + half(i, 1) * r(j, 1) + half(i, 2) * r(j, 2); };
+  return {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
+}
+
+inline Symmetric3 scaled(const Symmetric3& m, double by)
+{
+  return {by * m.xx, by * m.xy, by * m.xz, by * m.yy, by * m.yz, by * m.zz};
+}
+
+/** Sum of J' A J, J = [I, -skew(v)]: what resists, pulls or shakes at v, as seen by steps of a pose. */
+class PoseSum
+{
+ public:
+  void add(const Symmetric3& a, double x, double y, double z)
+  {
+    // A skew(v), row by row.
+    const double xx = a.xy * z - a.xz * y, xy = a.xz * x - a.xx * z, xz = a.xx * y - a.xy * x;
+    const double yx = a.yy * z - a.yz * y, yy = a.yz * x - a.xy * z, yz = a.xy * y - a.yy * x;
+    const double zx = a.yz * z - a.zz * y, zy = a.zz * x - a.xz * z, zz = a.xz * y - a.yz * x;
+    moved_.xx += a.xx, moved_.xy += a.xy, moved_.xz += a.xz;
+    moved_.yy += a.yy, moved_.yz += a.yz, moved_.zz += a.zz;
+    mixed_[0] += xx, mixed_[1] += xy, mixed_[2] += xz;
+    mixed_[3] += yx, mixed_[4] += yy, mixed_[5] += yz;
+    mixed_[6] += zx, mixed_[7] += zy, mixed_[8] += zz;
+    turned_.xx += z * yx - y * zx;
+    turned_.xy += z * yy - y * zy;
+    turned_.xz += z * yz - y * zz;
+    turned_.yy += x * zy - z * xy;
+    turned_.yz += x * zz - z * xz;
+    turned_.zz += y * xz - x * yz;
+  }
+
+  Matrix6d matrix() const
+  {
+    Eigen::Matrix3d moved, mixed, turned;
+    moved << moved_.xx, moved_.xy, moved_.xz, moved_.xy, moved_.yy, moved_.yz, moved_.xz, moved_.yz, moved_.zz;
+    mixed << mixed_[0], mixed_[1], mixed_[2], mixed_[3], mixed_[4], mixed_[5], mixed_[6], mixed_[7], mixed_[8];
+    turned << turned_.xx, turned_.xy, turned_.xz, turned_.xy, turned_.yy, turned_.yz, turned_.xz, turned_.yz,
+        turned_.zz;
+    Matrix6d m;
+    m << moved, -mixed, -mixed.transpose(), turned;
+    return m;
+  }
+
+ private:
+  Symmetric3 moved_{}, turned_{};
+  double mixed_[9] = {};
+};
+}  // namespace scanloom
