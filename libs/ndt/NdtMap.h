@@ -15,7 +15,7 @@ namespace scanloom
 struct NdtOptions
 {
   double cell_size = 1.0;
-  int min_points = 6;
+  int min_points = 4;
   double min_deviation = 0.03;
 
   template <typename Self, typename Visitor>

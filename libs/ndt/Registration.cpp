@@ -20,9 +20,8 @@ struct Aligned
   LidarInformation lidar;
 };
 
-Aligned alignLevel(const NdtMap& target, const NdtMap& source, const Rigid& guess, const RegistrationOptions& options)
+Aligned alignLevel(Neighbourhoods& neighbourhoods, const Rigid& guess, const RegistrationOptions& options)
 {
-  Neighbourhoods neighbourhoods(target, source, options.neighbours);
   Minimum minimum = minimise(neighbourhoods, guess, options, {});
   LidarInformation lidar = lidarInformation(neighbourhoods, minimum.target_T_source, options.d2);
   if (lidar.degenerate.empty()) return {minimum, lidar};
@@ -47,12 +46,19 @@ Outcome outcomeOf(const Minimum& minimum, double overlap, bool degenerate, const
   if (degenerate) return Outcome::Degenerate;
   return minimum.converged ? Outcome::Converged : Outcome::IterationLimit;
 }
-}  // namespace
 
-RegistrationResult align(const NdtMap& target, const NdtMap& source, const Rigid& guess,
-                         const RegistrationOptions& options)
+/** Of coarse levels and first steps: what follows is more exact. */
+RegistrationOptions first(const RegistrationOptions& last)
 {
-  const auto [minimum, lidar] = alignLevel(target, source, guess, options);
+  RegistrationOptions options = last;
+  options.d2 = std::min(last.first_d2, last.d2);
+  options.tolerance = 10 * last.tolerance;
+  return options;
+}
+
+RegistrationResult resultOf(const Aligned& aligned, const NdtMap& source, const RegistrationOptions& options)
+{
+  const auto& [minimum, lidar] = aligned;
   RegistrationResult result;
   result.target_T_source = minimum.target_T_source;
   result.iterations = minimum.iterations;
@@ -65,23 +71,39 @@ RegistrationResult align(const NdtMap& target, const NdtMap& source, const Rigid
   result.information = lidar.covariance.inverse();
   return result;
 }
+}  // namespace
+
+RegistrationResult align(const NdtMap& target, const NdtMap& source, const Rigid& guess,
+                         const RegistrationOptions& options)
+{
+  Neighbourhoods neighbourhoods(target, source, options.neighbours);
+  const Minimum wide =
+      options.first_d2 < options.d2 ? minimise(neighbourhoods, guess, first(options), {}) : Minimum{guess, {}, 0, false};
+  RegistrationResult result =
+      resultOf(alignLevel(neighbourhoods, wide.target_T_source, options), source, options);
+  result.iterations += wide.iterations;
+  return result;
+}
 
 RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& levels, const Rigid& guess,
                                      const RegistrationOptions& last)
 {
   if (levels.empty()) throw std::invalid_argument("alignCoarseToFine: at least one level is needed");
-  RegistrationOptions coarse = last;
+  if (levels.size() == 1) return align(levels.front().target, levels.front().source, guess, last);
+  RegistrationOptions coarse = first(last);
   coarse.neighbours = std::min(last.neighbours, 7);
-  coarse.tolerance = 10 * last.tolerance;
   Rigid pose = guess;
   int iterations = 0;
   for (auto level = levels.begin(); level != levels.end() - 1; ++level)
   {
-    const Minimum minimum = alignLevel(level->target, level->source, pose, coarse).minimum;
+    Neighbourhoods neighbourhoods(level->target, level->source, coarse.neighbours);
+    const Minimum minimum = alignLevel(neighbourhoods, pose, coarse).minimum;
     iterations += minimum.iterations;
     if (overlapOf(minimum, level->source) >= coarse.min_overlap) pose = minimum.target_T_source;
   }
-  RegistrationResult result = align(levels.back().target, levels.back().source, pose, last);
+  const NdtMap &target = levels.back().target, &source = levels.back().source;
+  Neighbourhoods neighbourhoods(target, source, last.neighbours);
+  RegistrationResult result = resultOf(alignLevel(neighbourhoods, pose, last), source, last);
   result.iterations += iterations;
   return result;
 }

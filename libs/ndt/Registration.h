@@ -14,7 +14,8 @@ namespace scanloom
 {
 struct RegistrationOptions
 {
-  double d2 = 0.05;  // Stoyanov 2012
+  double first_d2 = 0.05;  // Stoyanov 2012
+  double d2 = 0.5;
   int max_iterations = 30;
   double tolerance = 1e-3;
   int neighbours = 27;
@@ -23,6 +24,7 @@ struct RegistrationOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
+    visit(o.first_d2, Field{"first_d2", "", "d2 of coarse levels and of a single level's first steps: wider", above(0)});
     visit(o.d2, Field{"d2", "", "width of the score's Gaussian: exp(-d2/2 m'Bm)", above(0)});
     visit(o.max_iterations, Field{"max_iterations", "", "steps at most", between(1, 1000)});
     visit(o.tolerance,
@@ -60,7 +62,10 @@ struct RegistrationResult
   std::string brief() const;  // one line for a person
 };
 
-/** Finds target_T_source from a guess. Values in, values out: the same input gives the same bits. */
+/**
+ * Finds target_T_source from a guess: by a wide score first, from there by the narrow one, whose minimum is sharper.
+ * Values in, values out: the same input gives the same bits.
+ */
 RegistrationResult align(const NdtMap& target, const NdtMap& source, const Rigid& guess, const RegistrationOptions&);
 
 struct RegistrationLevel

@@ -77,7 +77,7 @@ struct SlamSettings
   static RegistrationOptions reach(double d2)
   {
     RegistrationOptions options;
-    options.d2 = d2;
+    options.first_d2 = options.d2 = d2;
     options.min_overlap = 0.1;
     return options;
   }
