@@ -190,6 +190,15 @@ Vector6d stepOfMetres()
   return scale;
 }
 
+double largestDeviation(const Matrix6d& covariance)
+{
+  const Matrix6d metres = stepOfMetres().cwiseInverse().asDiagonal() * covariance *
+                          stepOfMetres().cwiseInverse().asDiagonal();
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix6d>(metres).eigenvalues()[5]);
+}
+
+double scorePerInformation(double d2) { return d2 / kMostIndependentPoints; }
+
 LidarInformation lidarInformation(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
   const Evidence evidence = inSource(evidenceOf(all, target_T_source, d2), target_T_source);

@@ -12,6 +12,15 @@ constexpr double kArm = 5.0;  // m
 /** diag(1, 1, 1, 1/kArm, ...): takes a step in metres to the tangent of boxPlus. */
 Vector6d stepOfMetres();
 
+/** Square root of a covariance's largest eigenvalue, in metres (see stepOfMetres). */
+double largestDeviation(const Matrix6d& covariance);
+
+/**
+ * What the score's curvature is to the information that it stands for, while each cell meets one that agrees: takes
+ * other information to the score's units.
+ */
+double scorePerInformation(double d2);
+
 struct LidarInformation
 {
   Matrix6d covariance = Matrix6d::Zero();  // sandwich with floor; kUnknownDeviation along the degenerate directions

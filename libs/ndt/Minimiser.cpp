@@ -3,6 +3,7 @@
 #include "ndt/LidarInformation.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,7 @@ constexpr double kSlack = 0.02;
 /** The pairs of maps that are aligned by one pose. */
 using Pairs = std::vector<Neighbourhoods*>;
 
-NormalEquations at(const Rigid& pose, const Pairs& pairs, double d2)
+NormalEquations at(const Rigid& pose, const Pairs& pairs, const Expectation& expectation, double d2)
 {
   NormalEquations sum;
   for (Neighbourhoods* neighbourhoods : pairs)
@@ -29,6 +30,7 @@ NormalEquations at(const Rigid& pose, const Pairs& pairs, double d2)
     sum.curvature += one.curvature;
     sum.met_points += one.met_points;
   }
+  expectation.addTo(sum, pose, d2);
   return sum;
 }
 
@@ -55,13 +57,13 @@ double shrinkingOf(const Vector6d& step, const Vector6d& before)
   return std::min(kMost, along / before.squaredNorm());
 }
 
-Minimum minimise(const Pairs& pairs, const Rigid& guess, const RegistrationOptions& options,
-                 const std::vector<Vector6d>& locked)
+Minimum minimise(const Pairs& pairs, const Rigid& start, const Expectation& expectation,
+                 const RegistrationOptions& options, const std::vector<Vector6d>& locked)
 {
   Matrix6d free = Matrix6d::Identity();
   for (const Vector6d& direction : locked) free -= direction * direction.transpose();
 
-  Minimum here{guess, at(guess, pairs, options.d2), 0, false};
+  Minimum here{start, at(start, pairs, expectation, options.d2), 0, false};
   double damping = 0;
   Vector6d before = Vector6d::Zero();  // the last step, if the next can be compared with it
   while (!here.converged && here.equations.met_points > 0 && here.iterations < options.max_iterations)
@@ -79,7 +81,7 @@ Minimum minimise(const Pairs& pairs, const Rigid& guess, const RegistrationOptio
       here.target_T_source = candidate;
       break;
     }
-    const NormalEquations there = at(candidate, pairs, options.d2);
+    const NormalEquations there = at(candidate, pairs, expectation, options.d2);
     if (there.value <= here.equations.value + kSlack * std::abs(here.equations.value))
     {
       here.target_T_source = candidate;
@@ -96,17 +98,32 @@ Minimum minimise(const Pairs& pairs, const Rigid& guess, const RegistrationOptio
 }
 }  // namespace
 
-Minimum minimise(Neighbourhoods& neighbourhoods, const Rigid& guess, const RegistrationOptions& options,
-                 const std::vector<Vector6d>& locked)
+Expectation::Expectation(const PoseGuess& guess) : pose_(guess.target_T_source)
 {
-  return minimise(Pairs{&neighbourhoods}, guess, options, locked);
+  if (guess.covariance) information_ = guess.covariance->inverse();
 }
 
-Minimum minimise(std::vector<Neighbourhoods>& all, const Rigid& guess, const RegistrationOptions& options,
-                 const std::vector<Vector6d>& locked)
+void Expectation::addTo(NormalEquations& equations, const Rigid& target_T_source, double d2) const
+{
+  if (information_.isZero(0)) return;
+  // With the Jacobian of boxMinus taken as the identity: what it lacks is a twentieth at 6 degrees.
+  const Vector6d off = boxMinus(target_T_source, pose_);
+  const Matrix6d weight = scorePerInformation(d2) * information_;
+  equations.value += 0.5 * off.dot(weight * off);
+  equations.gradient += weight * off;
+  equations.curvature += weight;
+}
+
+Minimum minimise(Neighbourhoods& neighbourhoods, const Rigid& start, const Expectation& expectation,
+                 const RegistrationOptions& options, const std::vector<Vector6d>& locked)
+{
+  return minimise(Pairs{&neighbourhoods}, start, expectation, options, locked);
+}
+
+Minimum minimise(std::vector<Neighbourhoods>& all, const Rigid& start, const RegistrationOptions& options)
 {
   Pairs pairs;
   for (Neighbourhoods& neighbourhoods : all) pairs.push_back(&neighbourhoods);
-  return minimise(pairs, guess, options, locked);
+  return minimise(pairs, start, {}, options, {});
 }
 }  // namespace scanloom

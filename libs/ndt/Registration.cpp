@@ -4,6 +4,7 @@
 #include "ndt/Minimiser.h"
 
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -14,21 +15,42 @@ namespace scanloom
 {
 namespace
 {
+constexpr double kLoose = 10;  // times the tolerance, where more exact steps follow
+
+// Times a level's cells: from further away the level before it is needed.
+constexpr double kReachOfCells = 0.3;
+
 struct Aligned
 {
   Minimum minimum;
   LidarInformation lidar;
 };
 
-Aligned alignLevel(Neighbourhoods& neighbourhoods, const Rigid& guess, const RegistrationOptions& options)
+/** By the wide score first, if the guess may be far off; `locked`: see minimise. */
+Minimum search(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, const Expectation& expectation,
+               const RegistrationOptions& options, const std::vector<Vector6d>& locked)
 {
-  Minimum minimum = minimise(neighbourhoods, guess, options, {});
+  if (!widely || options.first_d2 >= options.d2) return minimise(neighbourhoods, start, expectation, options, locked);
+  RegistrationOptions wide = options;
+  wide.d2 = options.first_d2;
+  wide.tolerance = kLoose * options.tolerance;
+  const Minimum first = minimise(neighbourhoods, start, expectation, wide, locked);
+  Minimum minimum = minimise(neighbourhoods, first.target_T_source, expectation, options, locked);
+  minimum.iterations += first.iterations;
+  return minimum;
+}
+
+Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool widely, const Expectation& expectation,
+                   const RegistrationOptions& options)
+{
+  Neighbourhoods neighbourhoods(level.target, level.source, options.neighbours);
+  Minimum minimum = search(neighbourhoods, start, widely, expectation, options, {});
   LidarInformation lidar = lidarInformation(neighbourhoods, minimum.target_T_source, options.d2);
   if (lidar.degenerate.empty()) return {minimum, lidar};
 
-  // What slid along a direction that nothing measures was noise: from the guess again, without it.
+  // What slid along a direction that nothing measures was noise: from the start again, without it.
   const int iterations = minimum.iterations;
-  minimum = minimise(neighbourhoods, guess, options, lidar.degenerate);
+  minimum = search(neighbourhoods, start, widely, expectation, options, lidar.degenerate);
   minimum.iterations += iterations;
   return {minimum, lidar};
 }
@@ -47,15 +69,6 @@ Outcome outcomeOf(const Minimum& minimum, double overlap, bool degenerate, const
   return minimum.converged ? Outcome::Converged : Outcome::IterationLimit;
 }
 
-/** Of coarse levels and first steps: what follows is more exact. */
-RegistrationOptions first(const RegistrationOptions& last)
-{
-  RegistrationOptions options = last;
-  options.d2 = std::min(last.first_d2, last.d2);
-  options.tolerance = 10 * last.tolerance;
-  return options;
-}
-
 RegistrationResult resultOf(const Aligned& aligned, const NdtMap& source, const RegistrationOptions& options)
 {
   const auto& [minimum, lidar] = aligned;
@@ -71,41 +84,50 @@ RegistrationResult resultOf(const Aligned& aligned, const NdtMap& source, const 
   result.information = lidar.covariance.inverse();
   return result;
 }
+
+/** The finest level of those whose cells are not smaller than what the guess may be off by asks for. */
+std::size_t firstLevel(const std::vector<RegistrationLevel>& levels, const PoseGuess& guess)
+{
+  if (!guess.covariance) return 0;
+  const double reach = 3 * largestDeviation(*guess.covariance);
+  std::size_t level = levels.size() - 1;
+  while (level > 0 && reach > kReachOfCells * levels[level].source.options().cell_size) --level;
+  return level;
+}
 }  // namespace
 
-RegistrationResult align(const NdtMap& target, const NdtMap& source, const Rigid& guess,
+RegistrationResult align(const NdtMap& target, const NdtMap& source, const PoseGuess& guess,
                          const RegistrationOptions& options)
 {
-  Neighbourhoods neighbourhoods(target, source, options.neighbours);
-  const Minimum wide =
-      options.first_d2 < options.d2 ? minimise(neighbourhoods, guess, first(options), {}) : Minimum{guess, {}, 0, false};
-  RegistrationResult result =
-      resultOf(alignLevel(neighbourhoods, wide.target_T_source, options), source, options);
-  result.iterations += wide.iterations;
+  return alignCoarseToFine({{target, source}}, guess, options);
+}
+
+RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& levels, const PoseGuess& guess,
+                                     const RegistrationOptions& options)
+{
+  if (levels.empty()) throw std::invalid_argument("alignCoarseToFine: at least one level is needed");
+  const Expectation expectation(guess);
+  RegistrationOptions coarse = options;
+  coarse.tolerance = kLoose * options.tolerance;
+  Rigid pose = guess.target_T_source;
+  int iterations = 0;
+  const std::size_t first = firstLevel(levels, guess), last = levels.size() - 1;
+  for (std::size_t i = first; i < last; ++i)
+  {
+    const Minimum minimum = alignLevel(levels[i], pose, i == first, expectation, coarse).minimum;
+    iterations += minimum.iterations;
+    if (overlapOf(minimum, levels[i].source) >= options.min_overlap) pose = minimum.target_T_source;
+  }
+  const Aligned aligned = alignLevel(levels[last], pose, first == last, expectation, options);
+  RegistrationResult result = resultOf(aligned, levels[last].source, options);
+  result.iterations += iterations;
   return result;
 }
 
-RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& levels, const Rigid& guess,
-                                     const RegistrationOptions& last)
+PoseGuess::PoseGuess(const Rigid& pose, const Matrix6d& its_covariance) : target_T_source(pose), covariance(its_covariance)
 {
-  if (levels.empty()) throw std::invalid_argument("alignCoarseToFine: at least one level is needed");
-  if (levels.size() == 1) return align(levels.front().target, levels.front().source, guess, last);
-  RegistrationOptions coarse = first(last);
-  coarse.neighbours = std::min(last.neighbours, 7);
-  Rigid pose = guess;
-  int iterations = 0;
-  for (auto level = levels.begin(); level != levels.end() - 1; ++level)
-  {
-    Neighbourhoods neighbourhoods(level->target, level->source, coarse.neighbours);
-    const Minimum minimum = alignLevel(neighbourhoods, pose, coarse).minimum;
-    iterations += minimum.iterations;
-    if (overlapOf(minimum, level->source) >= coarse.min_overlap) pose = minimum.target_T_source;
-  }
-  const NdtMap &target = levels.back().target, &source = levels.back().source;
-  Neighbourhoods neighbourhoods(target, source, last.neighbours);
-  RegistrationResult result = resultOf(alignLevel(neighbourhoods, pose, last), source, last);
-  result.iterations += iterations;
-  return result;
+  if (its_covariance.allFinite() && its_covariance.llt().info() == Eigen::Success) return;
+  throw std::invalid_argument("PoseGuess: the covariance is not positive definite");
 }
 
 std::string toString(Outcome outcome)

@@ -7,6 +7,7 @@
 #include "core/Rigid.h"
 #include "ndt/NdtMap.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct RegistrationOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.first_d2, Field{"first_d2", "", "d2 of coarse levels and of a single level's first steps: wider", above(0)});
+    visit(o.first_d2, Field{"first_d2", "", "d2 of the first steps, for guesses that are far off", above(0)});
     visit(o.d2, Field{"d2", "", "width of the score's Gaussian: exp(-d2/2 m'Bm)", above(0)});
     visit(o.max_iterations, Field{"max_iterations", "", "steps at most", between(1, 1000)});
     visit(o.tolerance,
@@ -62,11 +63,23 @@ struct RegistrationResult
   std::string brief() const;  // one line for a person
 };
 
+/** Where the source is thought to be before it is looked at: by an IMU, a map or a person. */
+struct PoseGuess
+{
+  PoseGuess(const Rigid& pose) : target_T_source(pose) {}  // nothing known about its errors
+  /** Covariance of boxMinus(truth, pose); throws std::invalid_argument unless it is positive definite. */
+  PoseGuess(const Rigid& pose, const Matrix6d& covariance);
+
+  Rigid target_T_source;
+  std::optional<Matrix6d> covariance;
+};
+
 /**
- * Finds target_T_source from a guess: by a wide score first, from there by the narrow one, whose minimum is sharper.
- * Values in, values out: the same input gives the same bits.
+ * Finds target_T_source from a guess: by a wide score first, from there by the narrow one, whose minimum is sharper. A
+ * guess with a covariance is part of what is minimised, so that it holds what the clouds leave open; the result's
+ * information is the clouds' alone all the same. Values in, values out: the same input gives the same bits.
  */
-RegistrationResult align(const NdtMap& target, const NdtMap& source, const Rigid& guess, const RegistrationOptions&);
+RegistrationResult align(const NdtMap& target, const NdtMap& source, const PoseGuess&, const RegistrationOptions&);
 
 struct RegistrationLevel
 {
@@ -75,10 +88,11 @@ struct RegistrationLevel
 };
 
 /**
- * One level after the other, coarse cells first (4, 2, 1 m): wider basin, and the accuracy of the last level. All
- * levels but the last look at 7 neighbours; one that ends in LowOverlap leaves the guess as it was. The result is the
- * last level's, its iterations are those of all. Throws std::invalid_argument without a level.
+ * One level after the other, coarse cells first: wider basin, and the accuracy of the last level. It begins at the level
+ * whose cells fit the guess's covariance, at the coarsest one without. A level that ends in LowOverlap leaves the pose
+ * as it was. The result is the last level's, its iterations are those of all. Throws std::invalid_argument without a
+ * level.
  */
-RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>&, const Rigid& guess,
-                                     const RegistrationOptions& last);
+RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>&, const PoseGuess&,
+                                     const RegistrationOptions&);
 }  // namespace scanloom
