@@ -1,5 +1,6 @@
 #include "ndt/LidarInformation.h"
 
+#include "ndt/KeyIndex.h"
 #include "ndt/PairEvidence.h"
 
 #include <Eigen/Cholesky>
@@ -21,8 +22,9 @@ using Eigen::Vector3d;
 // Points of one cell share beams, edges and the surface's own unevenness: past this number they teach nothing new.
 constexpr double kMostIndependentPoints = 10;
 
-constexpr double kTranslationFloor = 0.01;                   // m
-constexpr double kRotationFloor = 0.05 * M_PI / 180 * kArm;  // m, by the arm
+// Of what no scan shows: how well range and beam angles are known on the average.
+constexpr double kTranslationFloor = 0.0005;                   // m
+constexpr double kRotationFloor = 0.0025 * M_PI / 180 * kArm;  // m, by the arm
 constexpr double kUnknownDeviation = 10;                     // m: "not measured" that still has an inverse
 
 // Below this share of structure, the resistance against a step is that of the grid, not of the world.
@@ -37,21 +39,19 @@ struct Evidence
   Matrix6d noise;       // covariance of the gradient
 };
 
-double independentPoints(std::uint32_t points) { return std::min<double>(points, kMostIndependentPoints); }
-
-/** How a mean's uncertainty shakes what it pulls at. */
-Symmetric3 shaking(const Symmetric3& pull, const Symmetric3& covariance, std::uint32_t points)
+/** How the uncertain mean of a cell, and as uncertain a one of the target, shakes what it pulls at. */
+Symmetric3 shaking(const Symmetric3& pull, const TurnedCell& c, std::uint32_t points)
 {
   Symmetric3 shaken;
-  sandwich(pull, covariance, shaken);
-  return scaled(shaken, 1 / independentPoints(points));
+  sandwich(pull, {c.xx, c.xy, c.xz, c.yy, c.yz, c.zz}, shaken);
+  return scaled(shaken, 2 / std::min<double>(points, kMostIndependentPoints));
 }
 
-/** What is known of one chunk of source cells, and of each of its pairs. */
+/** What is known of one chunk of source cells, and the force and torque on each. */
 struct ChunkEvidence
 {
   PoseSum resistance, structure, curvature, noise;
-  std::vector<StructureBlock> pulls;
+  std::vector<Vector6d> forces;
 };
 
 std::vector<StructureBlock> structuresOf(const Neighbourhoods& all, const Neighbourhoods::Chunk& chunk)
@@ -76,57 +76,53 @@ ChunkEvidence evidenceOf(const Neighbourhoods& all, std::size_t index, const Rig
 {
   const Neighbourhoods::Chunk& chunk = all.chunk(index);
   const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
-  const Vector3d& origin = target_T_source.translation;
   std::array<PairEvidence, Neighbourhoods::kChunk> cells;
   ChunkEvidence evidence;
-  evidence.pulls.resize(chunk.blocks.size());
-  gatherEvidence(chunk.pairs(), structuresOf(all, chunk).data(), d2, cells.data(), evidence.pulls.data());
+  evidence.forces.assign(chunk.cells.size(), Vector6d::Zero());
+  gatherEvidence(chunk.pairs(), structuresOf(all, chunk).data(), d2, cells.data());
   for (std::size_t i = 0; i < chunk.cells.size(); ++i)
   {
     if (chunk.ranges[i].count == 0) continue;
     const GaussianCell& source = all.source()[chunk.first + i];
     const TurnedCell& c = chunk.cells[i];
-    const double x = c.x - origin.x(), y = c.y - origin.y(), z = c.z - origin.z();
+    const Vector3d v = Vector3d(c.x, c.y, c.z) - target_T_source.translation;
+    const Vector3d force(cells[i].fx, cells[i].fy, cells[i].fz);
     Symmetric3 structured;
     sandwich(turned(source.structure, rotation), cells[i].structured, structured);
-    evidence.resistance.add(cells[i].weight, x, y, z);
-    evidence.structure.add(structured, x, y, z);
-    evidence.curvature.add(cells[i].pull, x, y, z);
-    evidence.noise.add(shaking(cells[i].pull, {c.xx, c.xy, c.xz, c.yy, c.yz, c.zz}, source.points), x, y, z);
+    evidence.resistance.add(cells[i].weight, v.x(), v.y(), v.z());
+    evidence.structure.add(structured, v.x(), v.y(), v.z());
+    evidence.curvature.add(cells[i].pull, v.x(), v.y(), v.z());
+    evidence.noise.add(shaking(cells[i].pull, c, source.points), v.x(), v.y(), v.z());
+    evidence.forces[i] << force, v.cross(force);
   }
   return evidence;
 }
 
-/** Of what the target's means are uncertain by: one of them may be met by several source cells, many by none. */
-Matrix6d noiseOfTarget(const Neighbourhoods& all, const std::vector<ChunkEvidence>& chunks, const Vector3d& translation)
+/**
+ * What the forces differ by from place to place, where at a minimum without any error all would be zero: leaves seen
+ * from another side, moved branches, ground cut by another grid. Forces within a few metres err together and count as
+ * one (the cluster-robust sandwich; R. Rogers: Regression standard errors in clustered samples, Stata Technical Bulletin
+ * 13, 1993).
+ */
+Matrix6d disagreement(const Neighbourhoods& all, const std::vector<ChunkEvidence>& chunks)
 {
-  std::vector<Symmetric3> forces(all.target().size(), Symmetric3{});
+  constexpr double kTogether = 6;  // m
+  const auto along = [](double v) { return static_cast<std::int64_t>(std::floor(v / kTogether)); };
+  KeyIndex places;
+  std::vector<Vector6d> sums;
   for (std::size_t c = 0; c < chunks.size(); ++c)  // in a fixed order
-  {
-    const Neighbourhoods::Chunk& chunk = all.chunk(c);
-    for (std::size_t i = 0; i < chunk.cells.size(); ++i)
+    for (std::size_t i = 0; i < chunks[c].forces.size(); ++i)
     {
-      const StructureBlock* block = chunks[c].pulls.data() + chunk.ranges[i].first;
-      std::size_t lane = 0;
-      for (const std::uint32_t j : all.of(chunk.first + i))
-      {
-        Symmetric3& force = forces[j];
-        force.xx += block->xx[lane], force.xy += block->xy[lane], force.xz += block->xz[lane];
-        force.yy += block->yy[lane], force.yz += block->yz[lane], force.zz += block->zz[lane];
-        if (++lane == TargetBlock::kLanes) ++block, lane = 0;
-      }
+      if (all.chunk(c).ranges[i].count == 0) continue;
+      const Vector3d& mean = all.source()[all.chunk(c).first + i].mean;
+      const std::uint32_t place = places.placeOf(CellKey::of(along(mean.x()), along(mean.y()), along(mean.z())));
+      if (place == sums.size()) sums.push_back(Vector6d::Zero());
+      sums[place] += chunks[c].forces[i];
     }
-  }
-  PoseSum noise;
-  for (std::size_t j = 0; j < forces.size(); ++j)
-  {
-    if (forces[j].xx == 0) continue;
-    const GaussianCell& target = all.target()[j];
-    // At its own mean: that of a source cell that counts is no further than the score reaches.
-    const Vector3d v = target.mean - translation;
-    noise.add(shaking(forces[j], symmetric(target.covariance), target.points), v.x(), v.y(), v.z());
-  }
-  return noise.matrix();
+  Matrix6d squares = Matrix6d::Zero();
+  for (const Vector6d& sum : sums) squares += sum * sum.transpose();
+  const auto count = static_cast<double>(sums.size());
+  return squares * (count / std::max(1.0, count - 6));
 }
 
 Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
@@ -134,8 +130,7 @@ Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, dou
   std::vector<ChunkEvidence> chunks(all.chunks());
   tbb::parallel_for(std::size_t{0}, chunks.size(),
                     [&](std::size_t i) { chunks[i] = evidenceOf(all, i, target_T_source, d2); });
-  Evidence evidence{Matrix6d::Zero(), Matrix6d::Zero(), Matrix6d::Zero(),
-                    noiseOfTarget(all, chunks, target_T_source.translation)};
+  Evidence evidence{Matrix6d::Zero(), Matrix6d::Zero(), Matrix6d::Zero(), disagreement(all, chunks)};
   for (const ChunkEvidence& chunk : chunks)  // in a fixed order
   {
     evidence.resistance += chunk.resistance.matrix();

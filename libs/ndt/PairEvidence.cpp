@@ -12,12 +12,6 @@ SCANLOOM_INLINE void loadAll(const StructureBlock& from, SymmetricLanes& lanes)
   load(from.yy, lanes.yy), load(from.yz, lanes.yz), load(from.zz, lanes.zz);
 }
 
-SCANLOOM_INLINE void storeAll(const SymmetricLanes& lanes, StructureBlock& to)
-{
-  store(lanes.xx, to.xx), store(lanes.xy, to.xy), store(lanes.xz, to.xz);
-  store(lanes.yy, to.yy), store(lanes.yz, to.yz), store(lanes.zz, to.zz);
-}
-
 SCANLOOM_INLINE void addTimes(const Lanes& w, const SymmetricLanes& m, SymmetricLanes& sum)
 {
   sum.xx += w * m.xx, sum.xy += w * m.xy, sum.xz += w * m.xz;
@@ -30,15 +24,16 @@ SCANLOOM_INLINE void totals(const SymmetricLanes& sum, Symmetric3& result)
 }
 
 SCANLOOM_INLINE void gatherOf(const TurnedCell& cell, const BlockRange& range, const TargetBlock* blocks,
-                              const StructureBlock* structures, double d2, PairEvidence& evidence,
-                              StructureBlock* pulls)
+                              const StructureBlock* structures, double d2, PairEvidence& evidence)
 {
+  Lanes fx{}, fy{}, fz{};
   SymmetricLanes weight{}, structured{}, pull{};
   for (std::uint32_t i = range.first; i != range.first + range.count; ++i)
   {
     PairTerms t;
     termsOf(cell, blocks[i], d2, t);
     const Lanes w = d2 * t.e;
+    fx += w * t.ux, fy += w * t.uy, fz += w * t.uz;
     addTimes(w, t.b, weight);
 
     SymmetricLanes thin, resisting;
@@ -49,53 +44,47 @@ SCANLOOM_INLINE void gatherOf(const TurnedCell& cell, const BlockRange& range, c
     const Lanes x = d2 * t.ux, y = d2 * t.uy, z = d2 * t.uz;
     const SymmetricLanes bent{t.b.xx - x * t.ux, t.b.xy - x * t.uy, t.b.xz - x * t.uz,
                               t.b.yy - y * t.uy, t.b.yz - y * t.uz, t.b.zz - z * t.uz};
-    SymmetricLanes own{};
-    addTimes(w, bent, own);
-    storeAll(own, pulls[i]);
-    addTimes(Lanes{} + 1, own, pull);
+    addTimes(w, bent, pull);
   }
+  evidence.fx = total(fx), evidence.fy = total(fy), evidence.fz = total(fz);
   totals(weight, evidence.weight);
   totals(structured, evidence.structured);
   totals(pull, evidence.pull);
 }
 
-SCANLOOM_INLINE void gatherAll(const PairBatch& batch, const StructureBlock* structures, double d2,
-                               PairEvidence* evidence, StructureBlock* pulls)
+SCANLOOM_INLINE void gatherAll(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence)
 {
   for (std::size_t i = 0; i < batch.count; ++i)
-    gatherOf(batch.cells[i], batch.ranges[i], batch.blocks, structures, d2, evidence[i], pulls);
+    gatherOf(batch.cells[i], batch.ranges[i], batch.blocks, structures, d2, evidence[i]);
 }
 
-void gatherPortable(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence,
-                    StructureBlock* pulls)
+void gatherPortable(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence)
 {
-  gatherAll(batch, structures, d2, evidence, pulls);
+  gatherAll(batch, structures, d2, evidence);
 }
 
-[[gnu::target("avx2")]] void gatherAvx2(const PairBatch& batch, const StructureBlock* structures, double d2,
-                                        PairEvidence* evidence, StructureBlock* pulls)
+[[gnu::target("avx2")]] void gatherAvx2(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence)
 {
-  gatherAll(batch, structures, d2, evidence, pulls);
+  gatherAll(batch, structures, d2, evidence);
 }
 
 [[gnu::target("avx512f,avx512dq")]] void gatherAvx512(const PairBatch& batch, const StructureBlock* structures,
-                                                      double d2, PairEvidence* evidence, StructureBlock* pulls)
+                                                      double d2, PairEvidence* evidence)
 {
-  gatherAll(batch, structures, d2, evidence, pulls);
+  gatherAll(batch, structures, d2, evidence);
 }
 }  // namespace
 
-void gatherEvidence(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence,
-                    StructureBlock* pulls, Kernel kernel)
+void gatherEvidence(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence, Kernel kernel)
 {
   switch (kernel)
   {
     case Kernel::Portable:
-      return gatherPortable(batch, structures, d2, evidence, pulls);
+      return gatherPortable(batch, structures, d2, evidence);
     case Kernel::Avx2:
-      return gatherAvx2(batch, structures, d2, evidence, pulls);
+      return gatherAvx2(batch, structures, d2, evidence);
     case Kernel::Avx512:
-      return gatherAvx512(batch, structures, d2, evidence, pulls);
+      return gatherAvx512(batch, structures, d2, evidence);
   }
 }
 }  // namespace scanloom

@@ -15,15 +15,13 @@ struct alignas(64) StructureBlock
 /** With u = Bm and w as in PairSums; T is the target's structure. */
 struct PairEvidence
 {
+  double fx, fy, fz;      // sum w u
   Symmetric3 weight;      // sum w B
   Symmetric3 structured;  // sum w T B T
   Symmetric3 pull;        // sum w (B - d2 u u'): how the force grows with the distance
 };
 
-/**
- * One per cell of the batch; `structures` of its blocks, and `pulls` for what each pair of them adds to `pull`. Equal
- * to the bit for every kernel.
- */
+/** One per cell of the batch; `structures` of its blocks. Equal to the bit for every kernel. */
 void gatherEvidence(const PairBatch&, const StructureBlock* structures, double d2, PairEvidence* evidence,
-                    StructureBlock* pulls, Kernel = widestKernel());
+                    Kernel = widestKernel());
 }  // namespace scanloom
