@@ -30,34 +30,43 @@ Bounds boundsOfCellSize()
                      });
   return bounds;
 }
-}  // namespace
 
-std::vector<double> levelsOf(const RegisterSettings& settings, const Configuration& configuration)
+std::vector<double> sizesOf(const std::string& text, const std::string& key, const Configuration& configuration)
 {
   const Bounds bounds = boundsOfCellSize();
-  std::vector<double> levels;
-  std::istringstream words(settings.clouds.levels);
+  std::vector<double> sizes;
+  std::istringstream words(text);
   for (std::string word; words >> word;)
   {
     const auto size = parseNumber(word);
-    const bool finer = size && (levels.empty() || *size < levels.back());
+    const bool finer = size && (sizes.empty() || *size < sizes.back());
     if (!finer || *size < bounds.lowest || *size > bounds.highest)
     {
-      levels.clear();
+      sizes.clear();
       break;
     }
-    levels.push_back(*size);
+    sizes.push_back(*size);
   }
-  if (levels.empty())
+  if (sizes.empty())
     throw configuration.complaint(
-        "register", "levels", "must be lengths " + toString(bounds) + " m, separated by blanks, each below the last");
-  return levels;
+        "register", key, "must be lengths " + toString(bounds) + " m, separated by blanks, each below the last");
+  return sizes;
+}
+}  // namespace
+
+LevelSizes levelsOf(const RegisterSettings& settings, const Configuration& configuration)
+{
+  LevelSizes sizes{sizesOf(settings.clouds.levels, "levels", configuration),
+                   sizesOf(settings.clouds.source_levels, "source_levels", configuration)};
+  if (sizes.target.size() != sizes.source.size())
+    throw configuration.complaint("register", "source_levels", "must be as many as levels");
+  return sizes;
 }
 
-CloudPair::CloudPair(const Points& target, const Points& source, const std::vector<double>& levels,
+CloudPair::CloudPair(const Points& target, const Points& source, const LevelSizes& levels,
                      const RegisterSettings& settings)
-  : target_(prepare(target, levels, settings.clouds.cells)),
-    source_(prepare(source, levels, settings.clouds.cells)),
+  : target_(prepare(target, levels.target, settings.clouds.cells)),
+    source_(prepare(source, levels.source, settings.clouds.cells)),
     options_(settings.alignment)
 {
 }
@@ -70,7 +79,7 @@ CloudPair::Prepared CloudPair::prepare(const Points& points, const std::vector<d
   return {std::move(maps), stopwatch.milliseconds()};
 }
 
-TimedRegistration CloudPair::registered(const Rigid& guess) const
+TimedRegistration CloudPair::registered(const PoseGuess& guess) const
 {
   const Stopwatch stopwatch;
   std::vector<RegistrationLevel> levels;

@@ -13,13 +13,15 @@ namespace scanloom
 {
 struct RegisterOptions
 {
-  std::string levels = "4 2 1";
+  std::string levels = "8 4 2 0.5";
+  std::string source_levels = "8 4 2 1";  // like the paper's 2.5 m to 1 m: means of larger cells are less noisy
   NdtOptions cells;  // but for their size
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.levels, Field{"levels", "m", "edges of the NDT cells of both clouds, coarse ones first"});
+    visit(o.levels, Field{"levels", "m", "edges of the target's NDT cells, coarse ones first"});
+    visit(o.source_levels, Field{"source_levels", "m", "of the source's cells: as many"});
     NdtOptions::fields(o.cells,
                        [&](auto& member, const Field& field)
                        {
@@ -41,8 +43,13 @@ struct RegisterSettings
   }
 };
 
-/** Throws ConfigError if [register] levels is not what it must be. */
-std::vector<double> levelsOf(const RegisterSettings&, const Configuration&);
+struct LevelSizes
+{
+  std::vector<double> target, source;  // m, as many
+};
+
+/** Throws ConfigError if [register] levels or source_levels are not what they must be. */
+LevelSizes levelsOf(const RegisterSettings&, const Configuration&);
 
 /** The cells of both clouds, made once for any number of guesses. */
 class CloudPair
@@ -50,9 +57,9 @@ class CloudPair
  public:
   using Points = std::vector<Eigen::Vector3f>;
 
-  CloudPair(const Points& target, const Points& source, const std::vector<double>& levels, const RegisterSettings&);
+  CloudPair(const Points& target, const Points& source, const LevelSizes&, const RegisterSettings&);
 
-  TimedRegistration registered(const Rigid& guess) const;
+  TimedRegistration registered(const PoseGuess&) const;
 
   double targetMilliseconds() const { return target_.milliseconds; }  // of preparation
   double sourceMilliseconds() const { return source_.milliseconds; }

@@ -26,6 +26,7 @@ struct RegisterArguments
   std::string truth;  // empty: not known
   TrialOptions trials;
   std::optional<double> spread_yaw_deg;
+  std::optional<double> guess_sigma, guess_sigma_deg;
   bool json = false;
 };
 
@@ -79,10 +80,19 @@ TrialOptions trialsOf(const RegisterArguments& arguments)
   return trials;
 }
 
+PoseGuess guessOf(const Rigid& pose, const RegisterArguments& arguments)
+{
+  if (!arguments.guess_sigma) return pose;
+  const double metres = *arguments.guess_sigma, radians = *arguments.guess_sigma_deg * M_PI / 180;
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(metres * metres), Eigen::Vector3d::Constant(radians * radians);
+  return {pose, variances.asDiagonal()};
+}
+
 int reportTrials(const RegisterArguments& arguments, const CloudPair& clouds, const Rigid& truth)
 {
   const TrialsReport report =
-      tryRegistration(truth, trialsOf(arguments), [&](const Rigid& guess) { return clouds.registered(guess); });
+      tryRegistration(truth, trialsOf(arguments), [&](const Rigid& guess) { return clouds.registered(guessOf(guess, arguments)); });
   std::cout << (arguments.json ? toJson(report) : toText(report)) << '\n';
   return kDone;
 }
@@ -90,7 +100,7 @@ int reportTrials(const RegisterArguments& arguments, const CloudPair& clouds, co
 int run(const RegisterArguments& arguments)
 {
   const Loaded<RegisterSettings> loaded = load<RegisterSettings>(arguments.configuration);
-  const std::vector<double> levels = levelsOf(loaded.settings, loaded.configuration);
+  const LevelSizes levels = levelsOf(loaded.settings, loaded.configuration);
   const Rigid guess = poseOf("--guess", arguments.guess);
   const std::optional<Rigid> truth = truthOf(arguments.truth);
   if (arguments.configuration.dry_run)
@@ -107,7 +117,7 @@ int run(const RegisterArguments& arguments)
   report.points = {target.points.size(), target.dropped, source.points.size(), source.dropped};
   report.target_milliseconds = clouds.targetMilliseconds();
   report.source_milliseconds = clouds.sourceMilliseconds();
-  report.registration = clouds.registered(guess);
+  report.registration = clouds.registered(guessOf(guess, arguments));
   if (truth) report.error = poseError(report.registration.result.target_T_source, *truth);
   std::cout << (arguments.json ? toJson(report) : toText(report)) << '\n';
   return report.registration.result.trustworthy() ? kDone : kQualityGate;
@@ -149,6 +159,12 @@ std::function<int()> addOptions(CLI::App& app)
       app.add_option("--guess", arguments->guess, "target_T_source to start from: \"x y z yaw pitch roll\" in m, deg")
           ->type_name("POSE")
           ->capture_default_str();
+  CLI::Option* sigma = app.add_option("--guess-sigma-m", arguments->guess_sigma,
+                                      "its standard deviation: chooses the levels and holds what the clouds leave open")
+                           ->check(CLI::PositiveNumber);
+  sigma->needs(app.add_option("--guess-sigma-deg", arguments->guess_sigma_deg, "that of its angles")
+                   ->check(CLI::PositiveNumber)
+                   ->needs(sigma));
   CLI::Option* truth = app.add_option("--truth", arguments->truth,
                                       "the true target_T_source, or a file of its 4x4 matrix: reports errors")
                            ->type_name("POSE|FILE");

@@ -163,9 +163,9 @@ TEST(NdtMap, needsEnoughPointsForAGaussianButKeepsTheOthersForLater)
 {
   NdtMap map({});
   const Points block = blockAt({0, 0, 0});
-  map.add(Points(block.begin(), block.begin() + 4));
+  map.add(Points(block.begin(), block.begin() + 3));
   EXPECT_TRUE(map.cells().empty());
-  map.add(Points(block.begin() + 4, block.end()));
+  map.add(Points(block.begin() + 3, block.end()));
 
   ASSERT_EQ(map.cells().size(), 1u);
   EXPECT_EQ(map.cells()[0].points, 27u);
