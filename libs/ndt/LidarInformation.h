@@ -27,6 +27,6 @@ struct LidarInformation
   std::vector<Vector6d> degenerate;        // orthonormal, in metres (see stepOfMetres)
 };
 
-/** Neighbourhoods must have been moved to the pose. */
-LidarInformation lidarInformation(const Neighbourhoods&, const Rigid& target_T_source, double d2);
+/** Neighbourhoods must have been moved to the pose, and are left there. */
+LidarInformation lidarInformation(Neighbourhoods&, const Rigid& target_T_source, double d2);
 }  // namespace scanloom

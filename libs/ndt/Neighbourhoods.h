@@ -66,6 +66,7 @@ class Neighbourhoods
 
   const std::vector<GaussianCell>& target() const { return target_.cells(); }
   const std::vector<GaussianCell>& source() const { return source_.cells(); }
+  double sourceEdge() const { return source_.options().cell_size; }
 
  private:
   void lookUp(Chunk&, std::size_t i, const Eigen::Vector3i& centre);

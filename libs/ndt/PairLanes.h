@@ -18,17 +18,35 @@ SCANLOOM_INLINE void store(const Lanes& lanes, double* to) { std::memcpy(to, &la
 
 using SymmetricLanes = SymmetricOf<Lanes>;
 
-/** exp(-h) for h from 0 to 690, to 1e-15: 2^-n exp(r) with |r| <= ln 2 / 2, by Taylor's series. */
+/**
+ * The smaller one of numbers that are not negative, whose bits are in their order. Not by a comparison: GCC takes those
+ * of vectors apart before it knows the registers of a function's target.
+ */
+SCANLOOM_INLINE void keepBelow(double most, Lanes& v)
+{
+  using Bits = std::uint64_t __attribute__((vector_size(8 * TargetBlock::kLanes)));
+  Bits bits, most_bits;
+  const Lanes most_lanes = Lanes{} + most;
+  std::memcpy(&bits, &v, sizeof v);
+  std::memcpy(&most_bits, &most_lanes, sizeof v);
+  const Bits keep = -((bits - most_bits) >> 63);
+  bits = (bits & keep) | (most_bits & ~keep);
+  std::memcpy(&v, &bits, sizeof v);
+}
+
+/** exp(-h) for h from 0 to 690, to 1e-11: 2^-n exp(r) with |r| <= ln 2 / 2, by Taylor's series. */
 SCANLOOM_INLINE void expOfMinus(const Lanes& h, Lanes& result)
 {
   using Whole = std::int64_t __attribute__((vector_size(8 * TargetBlock::kLanes)));
   constexpr double kRound = 0x1.8p52;  // added and taken away again, it leaves a whole number
   constexpr double kLog2E = 1.4426950408889634, kLn2High = 0x1.62e42fefa3800p-1, kLn2Low = 0x1.ef35793c76730p-45;
+  constexpr double kOver[] = {1, 1, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320,
+                              1.0 / 362880};  // the factorials
   const Lanes shifted = h * kLog2E + kRound;
   const Lanes n = shifted - kRound;
   const Lanes r = (n * kLn2High - h) + n * kLn2Low;
-  Lanes sum = 1 + r * (1.0 / 13);
-  for (int k = 12; k >= 1; --k) sum = 1 + r * (1.0 / k) * sum;
+  Lanes sum = kOver[8] + r * kOver[9];
+  for (int k = 7; k >= 0; --k) sum = kOver[k] + r * sum;
 
   Whole bits;
   std::memcpy(&bits, &shifted, sizeof bits);
@@ -73,7 +91,7 @@ SCANLOOM_INLINE void termsOf(const TurnedCell& s, const TargetBlock& block, doub
 
   constexpr double kNothing = 690;  // exp(-690) is still normal
   Lanes h = (d2 / 2) * (x * terms.ux + y * terms.uy + z * terms.uz);
-  h = h < kNothing ? h : Lanes{} + kNothing;
+  keepBelow(kNothing, h);
   expOfMinus(h, terms.e);
 }
 }  // namespace scanloom

@@ -2,6 +2,7 @@
 
 #include "ndt/LidarInformation.h"
 #include "ndt/Minimiser.h"
+#include "ndt/Rivals.h"
 
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
@@ -15,7 +16,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kLoose = 10;  // times the tolerance, where more exact steps follow
+constexpr double kLoose = 30;  // times the tolerance, where more exact steps follow
 
 // Times a level's cells: from further away the level before it is needed.
 constexpr double kReachOfCells = 0.3;
@@ -85,6 +86,28 @@ RegistrationResult resultOf(const Aligned& aligned, const NdtMap& source, const 
   return result;
 }
 
+/** Moves to the pose that surprises the guess least, and says what speaks for the others. */
+void weighRivals(const RegistrationLevel& level, const PoseGuess& guess, const RegistrationOptions& options,
+                 RegistrationResult& result)
+{
+  if (result.outcome == Outcome::LowOverlap) return;
+  result.rivals = rivalsOf(level, result.target_T_source, guess, options, options.rival_share);
+  if (result.rivals.empty()) return;
+  for (Rigid& rival : result.rivals)
+    if (surprise(guess, rival) < surprise(guess, result.target_T_source)) std::swap(rival, result.target_T_source);
+  result.outcome = Outcome::Degenerate;
+  for (const Rigid& rival : result.rivals)
+  {
+    const Vector6d way = boxMinus(rival, result.target_T_source);
+    result.covariance += way * way.transpose();
+    Vector6d direction = stepOfMetres().cwiseInverse().cwiseProduct(way).normalized();
+    for (const Vector6d& before : result.degenerate_directions) direction -= before.dot(direction) * before;
+    constexpr double kNew = 0.3;
+    if (direction.norm() > kNew) result.degenerate_directions.push_back(direction.normalized());
+  }
+  result.information = result.covariance.inverse();
+}
+
 /** The finest level of those whose cells are not smaller than what the guess may be off by asks for. */
 std::size_t firstLevel(const std::vector<RegistrationLevel>& levels, const PoseGuess& guess)
 {
@@ -121,6 +144,7 @@ RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& level
   const Aligned aligned = alignLevel(levels[last], pose, first == last, expectation, options);
   RegistrationResult result = resultOf(aligned, levels[last].source, options);
   result.iterations += iterations;
+  weighRivals(levels[last], guess, options, result);
   return result;
 }
 

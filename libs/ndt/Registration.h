@@ -21,6 +21,7 @@ struct RegistrationOptions
   double tolerance = 3e-4;
   int neighbours = 27;
   double min_overlap = 0.3;
+  double rival_share = 0.8;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -33,6 +34,9 @@ struct RegistrationOptions
     visit(o.neighbours, Field{"neighbours", "", "target cells looked at per source cell: 1, 7 or 27", between(1, 27)});
     visit(o.min_overlap,
           Field{"min_overlap", "", "least share of the source's points that must meet the target", between(0, 1)});
+    visit(o.rival_share,
+          Field{"rival_share", "", "share of the best score that makes another pose a rival (guesses with a covariance)",
+                between(0, 1)});
   }
 };
 
@@ -58,6 +62,11 @@ struct RegistrationResult
   /** Orthonormal steps (m, m, m, and rad times the arm of 5 m) that no structure resists; 10 m uncertain in covariance.
    */
   std::vector<Vector6d> degenerate_directions;
+  /**
+   * Other poses within the guess's covariance where the clouds agree as well. target_T_source is the one of them all
+   * that surprises the guess least; the ways to the others are degenerate directions, as uncertain as they are long.
+   */
+  std::vector<Rigid> rivals;
 
   bool trustworthy() const { return outcome == Outcome::Converged || outcome == Outcome::IterationLimit; }
   std::string brief() const;  // one line for a person

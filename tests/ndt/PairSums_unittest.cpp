@@ -102,8 +102,8 @@ TEST(PairSums, areThoseOfTheFormulaPairByPair)
         force += 0.05 * e * b * m;
         weight += 0.05 * e * b;
       }
-    EXPECT_NEAR(sums[i].score, score, 1e-13 * (1 + score));
-    EXPECT_NEAR(sums[i].best, best, 1e-13);
+    EXPECT_NEAR(sums[i].score, score, 1e-10 * (1 + score));
+    EXPECT_NEAR(sums[i].best, best, 1e-10);
     EXPECT_LT((Eigen::Vector3d(sums[i].fx, sums[i].fy, sums[i].fz) - force).norm(), 1e-10 * (1 + force.norm()));
     EXPECT_LT((matrixOf(sums[i].xx, sums[i].xy, sums[i].xz, sums[i].yy, sums[i].yz, sums[i].zz) - weight).norm(),
               1e-10 * (1 + weight.norm()));

@@ -99,5 +99,16 @@ inline RayWorld corridor()
           {}};
 }
 
+inline RayWorld wall() { return {{{Eigen::Vector3d::UnitX(), 5.0}}, {}}; }
+
+/** Equal stems on flat ground, `spacing` m apart in both directions. */
+inline RayWorld plantation(double spacing)
+{
+  RayWorld world{{{Eigen::Vector3d::UnitZ(), -2.0}}, {}};
+  for (int i = -12; i <= 12; ++i)
+    for (int j = -12; j <= 12; ++j) world.stems.push_back({{spacing * (i + 0.5), spacing * (j + 0.5)}, 0.15});
+  return world;
+}
+
 inline RayWorld openField() { return {{{Eigen::Vector3d::UnitZ(), -2.0}}, {}}; }
 }  // namespace scanloom

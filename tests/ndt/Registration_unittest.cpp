@@ -145,19 +145,154 @@ TEST(Registration, saysItAllInOneLine)
               testing::MatchesRegex("converged: \\(.* overlap .* %, score .*, .* iterations"));
 }
 
-TEST(RegistrationInAnOpenField, namesSlidingAndTurningAndDoesNotMoveThere)
+/** Variance along a direction in metres, m^2. */
+double varianceAlong(const RegistrationResult& result, const Vector6d& direction)
+{
+  Vector6d metres_of_step;
+  metres_of_step << 1, 1, 1, 5, 5, 5;  // by the arm
+  const Vector6d scaled = metres_of_step.cwiseProduct(direction);
+  return scaled.dot(result.covariance * scaled);
+}
+
+struct Scene
+{
+  const char* name;
+  RayWorld world;
+  std::size_t free_directions;
+  Vector6d slides;  // one direction that nothing measures, in metres
+};
+
+void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
+
+Vector6d along(int axis) { return Vector6d::Unit(axis); }
+
+class RegistrationInABareScene : public testing::TestWithParam<Scene>
+{
+};
+
+TEST_P(RegistrationInABareScene, namesWhatNothingMeasuresDoesNotMoveThereAndHasNoInformationOfIt)
+{
+  const Scene& scene = GetParam();
+  const Rigid motion = Rigid::fromXyzYawPitchRoll(0.3, 0.1, 0.05, 2 * kDegree, 0.5 * kDegree, 0);
+  const auto target = scanFrom(scene.world, Rigid::identity(), 1), source = scanFrom(scene.world, motion, 2);
+
+  const RegistrationResult result = align(mapOf(target, 1.0), mapOf(source, 2.5), Rigid::identity(), {});
+
+  EXPECT_EQ(result.outcome, Outcome::Degenerate) << result.brief();
+  ASSERT_EQ(result.degenerate_directions.size(), scene.free_directions) << result.brief();
+  double named = 0;  // the share of the slide within the directions
+  for (const Vector6d& direction : result.degenerate_directions)
+  {
+    named += std::pow(direction.dot(scene.slides), 2);
+    EXPECT_GT(varianceAlong(result, direction), 99);
+  }
+  EXPECT_GT(named, 0.98);
+  const Vector6d moved = boxMinus(result.target_T_source, Rigid::identity());
+  EXPECT_LT(std::abs(moved.dot(scene.slides)), 0.02) << "slid along what nothing measures";
+}
+INSTANTIATE_TEST_SUITE_P(scenes, RegistrationInABareScene,
+                         testing::Values(Scene{"open_field", openField(), 3, along(0)},
+                                         Scene{"corridor", corridor(), 1, along(0)},
+                                         Scene{"single_wall", wall(), 3, along(1)}),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(RegistrationInAnOpenField, stillMeasuresTheHeight)
 {
   const Rigid motion = Rigid::fromXyzYawPitchRoll(0.3, 0.1, 0.05, 2 * kDegree, 0.5 * kDegree, 0);
   const auto target = scanFrom(openField(), Rigid::identity(), 1), source = scanFrom(openField(), motion, 2);
 
   const RegistrationResult result = align(mapOf(target, 1.0), mapOf(source, 2.5), Rigid::identity(), {});
 
-  EXPECT_EQ(result.outcome, Outcome::Degenerate) << result.brief();
-  EXPECT_EQ(result.degenerate_directions.size(), 3u);
   EXPECT_NEAR(result.target_T_source.translation.z(), 0.05, 0.02);
-  EXPECT_LT(result.target_T_source.translation.head<2>().norm(), 0.02) << "slid over bare ground";
-  EXPECT_LT(result.information(0, 0), 1.0);
   EXPECT_GT(result.information(2, 2), 1000.0);
+}
+
+Matrix6d uncertainBy(double metres_each, double degrees_each)
+{
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(metres_each * metres_each),
+      Eigen::Vector3d::Constant(std::pow(degrees_each * kDegree, 2));
+  return variances.asDiagonal();
+}
+
+class RegistrationInAPlantation : public testing::Test
+{
+ protected:
+  const Rigid motion_ = Rigid::fromXyzYawPitchRoll(0.2, 0.1, 0, 0, 0, 0);
+  const NdtMap target_ = mapOf(scanFrom(plantation(3), Rigid::identity(), 1), 1.0);
+  const NdtMap source_ = mapOf(scanFrom(plantation(3), motion_, 2), 1.0);
+};
+
+TEST_F(RegistrationInAPlantation, namesTheNextStemsWhereTheGuessDoesNotRuleThemOut)
+{
+  const RegistrationResult result = align(target_, source_, {Rigid::identity(), uncertainBy(1.2, 1)}, {});
+
+  EXPECT_EQ(result.outcome, Outcome::Degenerate) << result.brief();
+  EXPECT_LT(metres(result.target_T_source, motion_), 0.03) << "the nearest to the guess";
+  ASSERT_GE(result.rivals.size(), 2u);
+  for (const Rigid& rival : result.rivals)
+  {
+    const Eigen::Vector3d way = rival.translation - result.target_T_source.translation;
+    EXPECT_NEAR(way.x() / 3, std::round(way.x() / 3), 0.03);
+    EXPECT_NEAR(way.y() / 3, std::round(way.y() / 3), 0.03);
+  }
+  EXPECT_EQ(result.degenerate_directions.size(), 2u);
+  EXPECT_LT(result.information(0, 0), 0.2);
+  EXPECT_LT(result.information(1, 1), 0.2);
+  EXPECT_GT(result.information(2, 2), 1000.0);
+}
+
+TEST_F(RegistrationInAPlantation, isSureOfItselfWhereTheGuessIs)
+{
+  const RegistrationResult result = align(target_, source_, {Rigid::identity(), uncertainBy(0.2, 1)}, {});
+
+  EXPECT_EQ(result.outcome, Outcome::Converged) << result.brief();
+  EXPECT_TRUE(result.rivals.empty());
+  EXPECT_GT(result.information(0, 0), 1000.0);
+}
+
+TEST(Registration, hasNoRivalsAmongStemsAtRandomPlaces)
+{
+  const auto target = scanFrom(forest(3), Rigid::identity(), 1), source = scanFrom(forest(3), kMotion, 2);
+
+  const RegistrationResult result =
+      align(mapOf(target, 1.0), mapOf(source, 1.0), {kMotion, uncertainBy(1.2, 1)}, {});
+
+  EXPECT_EQ(result.outcome, Outcome::Converged) << result.brief();
+  EXPECT_TRUE(result.rivals.empty());
+}
+
+TEST(RegistrationWithAGuessOfKnownCovariance, isHeldByItWhereTheCloudsAreOpenAndKeepsTheInformationTheirs)
+{
+  const auto target = scanFrom(forest(3), Rigid::identity(), 1), source = scanFrom(forest(3), kMotion, 2);
+  const NdtMap t = mapOf(target, 1.0), s = mapOf(source, 1.0);
+  const Rigid off = kMotion * Rigid::fromXyzYawPitchRoll(0.1, 0, 0, 0, 0, 0);
+
+  const RegistrationResult alone = align(t, s, off, {});
+  const RegistrationResult loosely = align(t, s, {off, uncertainBy(0.1, 1)}, {});
+  const RegistrationResult firmly = align(t, s, {off, uncertainBy(1e-6, 1e-6)}, {});
+
+  EXPECT_LT(metres(loosely.target_T_source, alone.target_T_source), 0.002) << "10 cm beside millimetres";
+  EXPECT_TRUE(loosely.information.isApprox(alone.information, 0.1));
+  EXPECT_LT(metres(firmly.target_T_source, off), 1e-3);
+}
+
+TEST(RegistrationWithAGuessOfKnownCovariance, refusesOneThatIsNone)
+{
+  const Matrix6d nothing = Matrix6d::Zero();
+  EXPECT_THROW(PoseGuess(Rigid::identity(), nothing), std::invalid_argument);
+}
+
+TEST(RegistrationWithAGuessOfKnownCovariance, beginsAtTheLevelThatFitsIt)
+{
+  const auto target = scanFrom(forest(3), Rigid::identity(), 1), source = scanFrom(forest(3), kMotion, 2);
+  const NdtMap t4 = mapOf(target, 4), t1 = mapOf(target, 1), s4 = mapOf(source, 4), s1 = mapOf(source, 1);
+  const auto iterations = [&](const PoseGuess& guess)
+  { return alignCoarseToFine({{t4, s4}, {t1, s1}}, guess, {}).iterations; };
+  const Rigid near = kMotion * Rigid::fromXyzYawPitchRoll(0.01, 0, 0, 0, 0, 0);
+
+  EXPECT_EQ(iterations({near, uncertainBy(0.02, 0.2)}), align(t1, s1, {near, uncertainBy(0.02, 0.2)}, {}).iterations);
+  EXPECT_GT(iterations({near, uncertainBy(0.5, 5)}), iterations({near, uncertainBy(0.02, 0.2)}));
 }
 
 /** The ratio of what is reported to what is: over 1 is cautious, as it should be until it is calibrated. */

@@ -1,0 +1,113 @@
+#include "ndt/Rivals.h"
+
+#include "ndt/Minimiser.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kDeviations = 3;
+constexpr double kBroad = 0.05;      // d2: hills as wide as the grid's steps
+constexpr double kWorthALook = 0.5;  // share of the best score on the grid
+
+/** Shifts in the source's frame, m: whole steps within an ellipse of three deviations. */
+struct Shifts
+{
+  int most_along_first, most_along_second;
+  Eigen::Vector3d first, second;  // one step
+
+  Eigen::Vector3d at(int i, int j) const { return i * first + j * second; }
+  bool inside(int i, int j) const
+  {
+    const double a = i / (most_along_first + 0.5), b = j / (most_along_second + 0.5);
+    return a * a + b * b <= 1;
+  }
+};
+
+Shifts shiftsOf(const Eigen::Matrix3d& covariance, double step)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
+  const auto most = [&](int i)
+  { return static_cast<int>(kDeviations * std::sqrt(eigen.eigenvalues()[i]) / step); };
+  return {most(2), most(1), step * eigen.eigenvectors().col(2), step * eigen.eigenvectors().col(1)};
+}
+
+/** Of every shift of a rectangle; 0 outside the ellipse. */
+class Scores
+{
+ public:
+  Scores(Neighbourhoods& neighbourhoods, const Rigid& centre, const Shifts& shifts) : shifts_(shifts)
+  {
+    for (int i = -shifts.most_along_first; i <= shifts.most_along_first; ++i)
+      for (int j = -shifts.most_along_second; j <= shifts.most_along_second; ++j)
+        values_.push_back(shifts.inside(i, j)
+                              ? -normalEquations(neighbourhoods, moved(centre, shifts.at(i, j)), kBroad).value
+                              : 0);
+  }
+
+  static Rigid moved(const Rigid& pose, const Eigen::Vector3d& by)
+  {
+    return pose * Rigid{Eigen::Quaterniond::Identity(), by};
+  }
+
+  double at(int i, int j) const
+  {
+    if (std::abs(i) > shifts_.most_along_first || std::abs(j) > shifts_.most_along_second) return 0;
+    const int row = 2 * shifts_.most_along_second + 1;
+    return values_[static_cast<std::size_t>((i + shifts_.most_along_first) * row + j + shifts_.most_along_second)];
+  }
+
+  bool isHill(int i, int j) const
+  {
+    for (int k = -1; k <= 1; ++k)
+      for (int l = -1; l <= 1; ++l)
+        if ((k != 0 || l != 0) && at(i + k, j + l) > at(i, j)) return false;
+    return true;
+  }
+
+ private:
+  Shifts shifts_;
+  std::vector<double> values_;
+};
+}  // namespace
+
+double surprise(const PoseGuess& guess, const Rigid& pose)
+{
+  const Vector6d off = boxMinus(pose, guess.target_T_source);
+  return off.dot(guess.covariance->llt().solve(off));
+}
+
+std::vector<Rigid> rivalsOf(const RegistrationLevel& level, const Rigid& best, const PoseGuess& guess,
+                            const RegistrationOptions& options, double share)
+{
+  const double step = level.source.options().cell_size;
+  if (!guess.covariance) return {};
+  const Shifts shifts = shiftsOf(guess.covariance->topLeftCorner<3, 3>(), step);
+  if (shifts.most_along_first < 2) return {};
+
+  // Turned as the best one: rows of stems are parallel.
+  const Rigid centre{best.rotation, guess.target_T_source.translation};
+  Neighbourhoods neighbourhoods(level.target, level.source, options.neighbours);
+  const double broad = -normalEquations(neighbourhoods, best, kBroad).value;
+  const double narrow = -normalEquations(neighbourhoods, best, options.d2).value;
+  const Scores scores(neighbourhoods, centre, shifts);
+  std::vector<Rigid> rivals;
+  for (int i = -shifts.most_along_first; i <= shifts.most_along_first; ++i)
+    for (int j = -shifts.most_along_second; j <= shifts.most_along_second; ++j)
+    {
+      if (scores.at(i, j) < kWorthALook * broad || !scores.isHill(i, j)) continue;
+      RegistrationOptions wide = options;
+      wide.d2 = kBroad;
+      const Minimum near = minimise(neighbourhoods, Scores::moved(centre, shifts.at(i, j)), {}, wide, {});
+      const Minimum there = minimise(neighbourhoods, near.target_T_source, {}, options, {});
+      const double apart = boxMinus(there.target_T_source, best).head<3>().norm();
+      if (apart > step && -there.equations.value >= share * narrow) rivals.push_back(there.target_T_source);
+    }
+  return rivals;
+}
+}  // namespace scanloom
