@@ -91,7 +91,7 @@ void weighRivals(const RegistrationLevel& level, const PoseGuess& guess, const R
                  RegistrationResult& result)
 {
   if (result.outcome == Outcome::LowOverlap) return;
-  result.rivals = rivalsOf(level, result.target_T_source, guess, options, options.rival_share);
+  result.rivals = rivalsOf(level, result, guess, options);
   if (result.rivals.empty()) return;
   for (Rigid& rival : result.rivals)
     if (surprise(guess, rival) < surprise(guess, result.target_T_source)) std::swap(rival, result.target_T_source);

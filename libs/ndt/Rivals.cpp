@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scanloom
@@ -29,12 +30,14 @@ struct Shifts
   }
 };
 
-Shifts shiftsOf(const Eigen::Matrix3d& covariance, double step)
+/** As far as the guess allows, along the two directions that the clouds know least: not into the ground. */
+Shifts shiftsOf(const Eigen::Matrix3d& guess, const Eigen::Matrix3d& clouds, double step)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
-  const auto most = [&](int i)
-  { return static_cast<int>(kDeviations * std::sqrt(eigen.eigenvalues()[i]) / step); };
-  return {most(2), most(1), step * eigen.eigenvectors().col(2), step * eigen.eigenvectors().col(1)};
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(clouds);
+  const Eigen::Vector3d first = eigen.eigenvectors().col(2), second = eigen.eigenvectors().col(1);
+  const auto most = [&](const Eigen::Vector3d& along)
+  { return static_cast<int>(kDeviations * std::sqrt(along.dot(guess * along)) / step); };
+  return {most(first), most(second), step * first, step * second};
 }
 
 /** Of every shift of a rectangle; 0 outside the ellipse. */
@@ -82,14 +85,16 @@ double surprise(const PoseGuess& guess, const Rigid& pose)
   return off.dot(guess.covariance->llt().solve(off));
 }
 
-std::vector<Rigid> rivalsOf(const RegistrationLevel& level, const Rigid& best, const PoseGuess& guess,
-                            const RegistrationOptions& options, double share)
+std::vector<Rigid> rivalsOf(const RegistrationLevel& level, const RegistrationResult& result, const PoseGuess& guess,
+                            const RegistrationOptions& options)
 {
   const double step = level.source.options().cell_size;
   if (!guess.covariance) return {};
-  const Shifts shifts = shiftsOf(guess.covariance->topLeftCorner<3, 3>(), step);
-  if (shifts.most_along_first < 2) return {};
+  const Shifts shifts =
+      shiftsOf(guess.covariance->topLeftCorner<3, 3>(), result.covariance.topLeftCorner<3, 3>(), step);
+  if (std::max(shifts.most_along_first, shifts.most_along_second) < 2) return {};
 
+  const Rigid& best = result.target_T_source;
   // Turned as the best one: rows of stems are parallel.
   const Rigid centre{best.rotation, guess.target_T_source.translation};
   Neighbourhoods neighbourhoods(level.target, level.source, options.neighbours);
@@ -106,7 +111,7 @@ std::vector<Rigid> rivalsOf(const RegistrationLevel& level, const Rigid& best, c
       const Minimum near = minimise(neighbourhoods, Scores::moved(centre, shifts.at(i, j)), {}, wide, {});
       const Minimum there = minimise(neighbourhoods, near.target_T_source, {}, options, {});
       const double apart = boxMinus(there.target_T_source, best).head<3>().norm();
-      if (apart > step && -there.equations.value >= share * narrow) rivals.push_back(there.target_T_source);
+      if (apart > step && -there.equations.value >= options.rival_share * narrow) rivals.push_back(there.target_T_source);
     }
   return rivals;
 }

@@ -7,12 +7,12 @@
 namespace scanloom
 {
 /**
- * Poses within three deviations of the guess, more than a cell from `best`, where the score is at least `share` of that
- * at `best`: the best of each hill of the score on a grid of shifts along the guess's two most uncertain directions of
- * translation, aligned. None for a guess without a covariance, or with one within a cell.
+ * Poses within three deviations of the guess, more than a cell from the result, whose score is at least rival_share of
+ * the result's: the hills of the score on a grid of shifts, aligned. None for a guess without a covariance, or with one
+ * within two cells.
  */
-std::vector<Rigid> rivalsOf(const RegistrationLevel&, const Rigid& best, const PoseGuess&, const RegistrationOptions&,
-                            double share);
+std::vector<Rigid> rivalsOf(const RegistrationLevel&, const RegistrationResult&, const PoseGuess&,
+                            const RegistrationOptions&);
 
 /** Squared Mahalanobis distance from a guess that has a covariance. */
 double surprise(const PoseGuess&, const Rigid& pose);

@@ -1,3 +1,4 @@
+#include "ndt/PairEvidence.h"
 #include "ndt/PairSums.h"
 
 #include <gtest/gtest.h>
@@ -107,6 +108,74 @@ TEST(PairSums, areThoseOfTheFormulaPairByPair)
     EXPECT_LT((Eigen::Vector3d(sums[i].fx, sums[i].fy, sums[i].fz) - force).norm(), 1e-10 * (1 + force.norm()));
     EXPECT_LT((matrixOf(sums[i].xx, sums[i].xy, sums[i].xz, sums[i].yy, sums[i].yz, sums[i].zz) - weight).norm(),
               1e-10 * (1 + weight.norm()));
+  }
+}
+
+std::vector<StructureBlock> randomStructures(std::size_t count)
+{
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> entry(-0.5, 1);
+  std::vector<StructureBlock> blocks(count);
+  for (StructureBlock& b : blocks)
+    for (double* values : {b.xx, b.xy, b.xz, b.yy, b.yz, b.zz})
+      for (std::size_t lane = 0; lane < TargetBlock::kLanes; ++lane) values[lane] = entry(random);
+  return blocks;
+}
+
+std::vector<PairEvidence> evidenceOf(const Pairs& pairs, const std::vector<StructureBlock>& structures, Kernel kernel)
+{
+  std::vector<PairEvidence> evidence(pairs.cells.size());
+  gatherEvidence({pairs.cells.data(), pairs.ranges.data(), pairs.cells.size(), pairs.blocks.data()}, structures.data(),
+                 0.05, evidence.data(), kernel);
+  return evidence;
+}
+
+Eigen::Matrix3d matrixOf(const Symmetric3& s) { return matrixOf(s.xx, s.xy, s.xz, s.yy, s.yz, s.zz); }
+
+TEST(PairEvidence, isTheSameBitsForEveryKernel)
+{
+  const Pairs pairs = randomPairs();
+  const auto structures = randomStructures(pairs.blocks.size());
+  const auto portable = evidenceOf(pairs, structures, Kernel::Portable);
+  for (const Kernel kernel : runnableKernels())
+  {
+    const auto evidence = evidenceOf(pairs, structures, kernel);
+    EXPECT_EQ(std::memcmp(evidence.data(), portable.data(), evidence.size() * sizeof(PairEvidence)), 0)
+        << nameOf(kernel);
+  }
+}
+
+TEST(PairEvidence, isThatOfTheFormulaPairByPair)
+{
+  const Pairs pairs = randomPairs();
+  const auto structures = randomStructures(pairs.blocks.size());
+  const auto evidence = evidenceOf(pairs, structures, widestKernel());
+  for (std::size_t i = 0; i < pairs.cells.size(); ++i)
+  {
+    const TurnedCell& s = pairs.cells[i];
+    Eigen::Matrix3d weight = Eigen::Matrix3d::Zero(), structured = weight, pull = weight;
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    for (std::uint32_t block = 0; block < pairs.ranges[i].count; ++block)
+      for (std::size_t k = 0; k < TargetBlock::kLanes; ++k)
+      {
+        const TargetBlock& t = pairs.blocks[pairs.ranges[i].first + block];
+        const StructureBlock& x = structures[pairs.ranges[i].first + block];
+        const Eigen::Matrix3d thin = matrixOf(x.xx[k], x.xy[k], x.xz[k], x.yy[k], x.yz[k], x.zz[k]);
+        const Eigen::Vector3d m = Eigen::Vector3d(s.x, s.y, s.z) - Eigen::Vector3d(t.x[k], t.y[k], t.z[k]);
+        const Eigen::Matrix3d b = (matrixOf(s.xx, s.xy, s.xz, s.yy, s.yz, s.zz) +
+                                   matrixOf(t.xx[k], t.xy[k], t.xz[k], t.yy[k], t.yz[k], t.zz[k]))
+                                      .inverse();
+        const double w = 0.05 * std::exp(-0.025 * m.dot(b * m));
+        force += w * b * m;
+        weight += w * b;
+        structured += w * thin * b * thin;
+        pull += w * (b - 0.05 * b * m * m.transpose() * b);
+      }
+    const auto expectNear = [](const auto& a, const auto& b) { EXPECT_LT((a - b).norm(), 1e-9 * (1 + b.norm())); };
+    expectNear(Eigen::Vector3d(evidence[i].fx, evidence[i].fy, evidence[i].fz), force);
+    expectNear(matrixOf(evidence[i].weight), weight);
+    expectNear(matrixOf(evidence[i].structured), structured);
+    expectNear(matrixOf(evidence[i].pull), pull);
   }
 }
 }  // namespace scanloom
