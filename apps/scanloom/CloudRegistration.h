@@ -15,7 +15,7 @@ struct RegisterOptions
 {
   std::string levels = "8 4 2 0.5";
   std::string source_levels = "8 4 2 1";  // like the paper's 2.5 m to 1 m: means of larger cells are less noisy
-  NdtOptions cells;  // but for their size
+  NdtOptions cells;                       // but for their size
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)

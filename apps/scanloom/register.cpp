@@ -91,8 +91,8 @@ PoseGuess guessOf(const Rigid& pose, const RegisterArguments& arguments)
 
 int reportTrials(const RegisterArguments& arguments, const CloudPair& clouds, const Rigid& truth)
 {
-  const TrialsReport report =
-      tryRegistration(truth, trialsOf(arguments), [&](const Rigid& guess) { return clouds.registered(guessOf(guess, arguments)); });
+  const TrialsReport report = tryRegistration(
+      truth, trialsOf(arguments), [&](const Rigid& guess) { return clouds.registered(guessOf(guess, arguments)); });
   std::cout << (arguments.json ? toJson(report) : toText(report)) << '\n';
   return kDone;
 }

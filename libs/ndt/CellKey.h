@@ -14,7 +14,7 @@ struct CellKey
 {
   static constexpr int kBitsPerAxis = 21;
   static constexpr std::int64_t kLimit = std::int64_t{1} << (kBitsPerAxis - 1);  // indices are in [-kLimit, kLimit)
-  static constexpr int kCellBits = 6;  // of a block's 64 cells
+  static constexpr int kCellBits = 6;                                            // of a block's 64 cells
 
   static bool fits(std::int64_t index) { return index >= -kLimit && index < kLimit; }
 

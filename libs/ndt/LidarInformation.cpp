@@ -4,10 +4,10 @@
 #include "ndt/NormalEquations.h"
 #include "ndt/PairEvidence.h"
 
+#include <tbb/parallel_for.h>
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -26,7 +26,7 @@ constexpr double kMostIndependentPoints = 10;
 // Of what no scan shows: how well range and beam angles are known on the average.
 constexpr double kTranslationFloor = 0.0005;                   // m
 constexpr double kRotationFloor = 0.0025 * M_PI / 180 * kArm;  // m, by the arm
-constexpr double kUnknownDeviation = 10;                     // m: "not measured" that still has an inverse
+constexpr double kUnknownDeviation = 10;                       // m: "not measured" that still has an inverse
 
 // Below the first share of structure the resistance against a step is that of the grid, not of the world; below the
 // second it is, if a long step keeps so much of the score. Corridors keep 0.92, the densest stand 0.86 in cells of 8 m
@@ -108,8 +108,8 @@ ChunkEvidence evidenceOf(const Neighbourhoods& all, std::size_t index, const Rig
 /**
  * What the forces differ by from place to place, where at a minimum without any error all would be zero: leaves seen
  * from another side, moved branches, ground cut by another grid. Forces within a few metres err together and count as
- * one (the cluster-robust sandwich; R. Rogers: Regression standard errors in clustered samples, Stata Technical Bulletin
- * 13, 1993).
+ * one (the cluster-robust sandwich; R. Rogers: Regression standard errors in clustered samples, Stata Technical
+ * Bulletin 13, 1993).
  */
 Matrix6d disagreement(const Neighbourhoods& all, const std::vector<ChunkEvidence>& chunks)
 {
@@ -207,8 +207,8 @@ Vector6d stepOfMetres()
 
 double largestDeviation(const Matrix6d& covariance)
 {
-  const Matrix6d metres = stepOfMetres().cwiseInverse().asDiagonal() * covariance *
-                          stepOfMetres().cwiseInverse().asDiagonal();
+  const Matrix6d metres =
+      stepOfMetres().cwiseInverse().asDiagonal() * covariance * stepOfMetres().cwiseInverse().asDiagonal();
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix6d>(metres).eigenvalues()[5]);
 }
 

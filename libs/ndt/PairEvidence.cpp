@@ -52,7 +52,8 @@ SCANLOOM_INLINE void gatherOf(const TurnedCell& cell, const BlockRange& range, c
   totals(pull, evidence.pull);
 }
 
-SCANLOOM_INLINE void gatherAll(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence)
+SCANLOOM_INLINE void gatherAll(const PairBatch& batch, const StructureBlock* structures, double d2,
+                               PairEvidence* evidence)
 {
   for (std::size_t i = 0; i < batch.count; ++i)
     gatherOf(batch.cells[i], batch.ranges[i], batch.blocks, structures, d2, evidence[i]);
@@ -63,7 +64,8 @@ void gatherPortable(const PairBatch& batch, const StructureBlock* structures, do
   gatherAll(batch, structures, d2, evidence);
 }
 
-[[gnu::target("avx2")]] void gatherAvx2(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence)
+[[gnu::target("avx2")]] void gatherAvx2(const PairBatch& batch, const StructureBlock* structures, double d2,
+                                        PairEvidence* evidence)
 {
   gatherAll(batch, structures, d2, evidence);
 }
@@ -75,7 +77,8 @@ void gatherPortable(const PairBatch& batch, const StructureBlock* structures, do
 }
 }  // namespace
 
-void gatherEvidence(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence, Kernel kernel)
+void gatherEvidence(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence,
+                    Kernel kernel)
 {
   switch (kernel)
   {

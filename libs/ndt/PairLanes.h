@@ -40,8 +40,8 @@ SCANLOOM_INLINE void expOfMinus(const Lanes& h, Lanes& result)
   using Whole = std::int64_t __attribute__((vector_size(8 * TargetBlock::kLanes)));
   constexpr double kRound = 0x1.8p52;  // added and taken away again, it leaves a whole number
   constexpr double kLog2E = 1.4426950408889634, kLn2High = 0x1.62e42fefa3800p-1, kLn2Low = 0x1.ef35793c76730p-45;
-  constexpr double kOver[] = {1, 1, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320,
-                              1.0 / 362880};  // the factorials
+  constexpr double kOver[] = {1,         1,         1.0 / 2,    1.0 / 6,     1.0 / 24,
+                              1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880};  // the factorials
   const Lanes shifted = h * kLog2E + kRound;
   const Lanes n = shifted - kRound;
   const Lanes r = (n * kLn2High - h) + n * kLn2Low;

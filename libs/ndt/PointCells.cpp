@@ -76,10 +76,7 @@ void widen(const Coordinates& points, PointCells& located)
   for (; i % kLanes != 0; ++i) located.x[i] = located.y[i] = located.z[i] = 0;
 }
 
-void locatePortable(std::size_t count, const Cells& cells, PointCells& located)
-{
-  locateAll(count, cells, located);
-}
+void locatePortable(std::size_t count, const Cells& cells, PointCells& located) { locateAll(count, cells, located); }
 
 [[gnu::target("avx2")]] void locateAvx2(std::size_t count, const Cells& cells, PointCells& located)
 {

@@ -148,7 +148,8 @@ RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& level
   return result;
 }
 
-PoseGuess::PoseGuess(const Rigid& pose, const Matrix6d& its_covariance) : target_T_source(pose), covariance(its_covariance)
+PoseGuess::PoseGuess(const Rigid& pose, const Matrix6d& its_covariance)
+  : target_T_source(pose), covariance(its_covariance)
 {
   if (its_covariance.allFinite() && its_covariance.llt().info() == Eigen::Success) return;
   throw std::invalid_argument("PoseGuess: the covariance is not positive definite");

@@ -35,8 +35,8 @@ struct RegistrationOptions
     visit(o.min_overlap,
           Field{"min_overlap", "", "least share of the source's points that must meet the target", between(0, 1)});
     visit(o.rival_share,
-          Field{"rival_share", "", "share of the best score that makes another pose a rival (guesses with a covariance)",
-                between(0, 1)});
+          Field{"rival_share", "",
+                "share of the best score that makes another pose a rival (guesses with a covariance)", between(0, 1)});
   }
 };
 
@@ -97,10 +97,10 @@ struct RegistrationLevel
 };
 
 /**
- * One level after the other, coarse cells first: wider basin, and the accuracy of the last level. It begins at the level
- * whose cells fit the guess's covariance, at the coarsest one without. A level that ends in LowOverlap leaves the pose
- * as it was. The result is the last level's, its iterations are those of all. Throws std::invalid_argument without a
- * level.
+ * One level after the other, coarse cells first: wider basin, and the accuracy of the last level. It begins at the
+ * level whose cells fit the guess's covariance, at the coarsest one without. A level that ends in LowOverlap leaves the
+ * pose as it was. The result is the last level's, its iterations are those of all. Throws std::invalid_argument without
+ * a level.
  */
 RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>&, const PoseGuess&,
                                      const RegistrationOptions&);

@@ -48,9 +48,8 @@ class Scores
   {
     for (int i = -shifts.most_along_first; i <= shifts.most_along_first; ++i)
       for (int j = -shifts.most_along_second; j <= shifts.most_along_second; ++j)
-        values_.push_back(shifts.inside(i, j)
-                              ? -normalEquations(neighbourhoods, moved(centre, shifts.at(i, j)), kBroad).value
-                              : 0);
+        values_.push_back(
+            shifts.inside(i, j) ? -normalEquations(neighbourhoods, moved(centre, shifts.at(i, j)), kBroad).value : 0);
   }
 
   static Rigid moved(const Rigid& pose, const Eigen::Vector3d& by)
@@ -111,7 +110,8 @@ std::vector<Rigid> rivalsOf(const RegistrationLevel& level, const RegistrationRe
       const Minimum near = minimise(neighbourhoods, Scores::moved(centre, shifts.at(i, j)), {}, wide, {});
       const Minimum there = minimise(neighbourhoods, near.target_T_source, {}, options, {});
       const double apart = boxMinus(there.target_T_source, best).head<3>().norm();
-      if (apart > step && -there.equations.value >= options.rival_share * narrow) rivals.push_back(there.target_T_source);
+      if (apart > step && -there.equations.value >= options.rival_share * narrow)
+        rivals.push_back(there.target_T_source);
     }
   return rivals;
 }

@@ -38,8 +38,7 @@ inline Symmetric3 symmetric(const Eigen::Matrix3d& m) { return {m(0, 0), m(0, 1)
 inline Symmetric3 turned(const Eigen::Matrix3d& m, const Eigen::Matrix3d& r)
 {
   const Eigen::Matrix3d half = r * m;
-  const auto entry = [&](int i, int j)
-  { return half(i, 0) * r(j, 0) + half(i, 1) * r(j, 1) + half(i, 2) * r(j, 2); };
+  const auto entry = [&](int i, int j) { return half(i, 0) * r(j, 0) + half(i, 1) * r(j, 1) + half(i, 2) * r(j, 2); };
   return {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
 }
 

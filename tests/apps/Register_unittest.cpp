@@ -163,7 +163,8 @@ TEST_F(Register, refusesWhatItCannotDo)
 
 TEST_F(Register, printsWhatWouldRun)
 {
-  const Ended ended = registered(pairOf(plain()) + "--dry-run --set 'register.levels=3 1.5' --set 'register.source_levels=3 2'");
+  const Ended ended =
+      registered(pairOf(plain()) + "--dry-run --set 'register.levels=3 1.5' --set 'register.source_levels=3 2'");
 
   EXPECT_EQ(ended.status, 0);
   EXPECT_THAT(ended.output, HasSubstr("levels = 3 1.5\n"));
@@ -180,8 +181,8 @@ TEST_F(Register, refusesLevelsThatAreNotAsManyForBothClouds)
 
 TEST_F(Register, refusesADeviationOfTheGuessForMetresAlone)
 {
-  EXPECT_NE(registered(pairOf(plain()) + "--guess-sigma-m 0.1").status, 0);
-  EXPECT_EQ(registered(pairOf(plain()) + "--guess-sigma-m 0.1 --guess-sigma-deg 1").status, 0);
+  EXPECT_EQ(registered(pairOf(courtyard()) + "--guess-sigma-m 0.1").status, 2);
+  EXPECT_EQ(registered(pairOf(courtyard()) + "--guess-sigma-m 0.1 --guess-sigma-deg 1").status, 0);
 }
 
 TEST(RegisterRecorded, findsThePairOfSmallGicp)

@@ -7,8 +7,8 @@
 #include "evaluation/RegistrationTrials.h"
 #include "ndt/Registration.h"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -45,14 +45,13 @@ Pair pairAt(int index, const Arguments& arguments)
 {
   const auto number = static_cast<std::uint64_t>(index);
   Random random(number, RandomStream::Stand, 77);
-  const auto tilt = [&] {
-    return Eigen::Vector3d(random.uniform(-M_PI, M_PI), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
-  };
+  const auto tilt = [&]
+  { return Eigen::Vector3d(random.uniform(-M_PI, M_PI), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)); };
   const World world = standAround(arguments.stand, 12, 1 + number);
   const Eigen::Vector3d first = tilt(), turn(random.uniform(-0.2, 0.2), random.uniform(-0.05, 0.05), 0);
   const Rigid target = poseInStand(world, 5, first), source = poseInStand(world, 5 + arguments.baseline, first + turn);
-  return {forestScan(world, target, arguments.lidar, 2 * number), forestScan(world, source, arguments.lidar, 2 * number + 1),
-          target.inverse() * source};
+  return {forestScan(world, target, arguments.lidar, 2 * number),
+          forestScan(world, source, arguments.lidar, 2 * number + 1), target.inverse() * source};
 }
 
 struct Registered
@@ -107,10 +106,10 @@ void printHistogram(const std::vector<double>& nees)
     const double share =
         static_cast<double>(std::count_if(nees.begin(), nees.end(), in)) / static_cast<double>(nees.size());
     const double expected = chiSquaredBelow(kEdges[i + 1]) - chiSquaredBelow(kEdges[i]);
-    fmt::print("| {} | {:.0f} % | {:.0f} % | {} |\n",
-               kEdges[i + 1] < 1e9 ? fmt::format("{} to {}", kEdges[i], kEdges[i + 1])
-                                   : fmt::format("from {}", kEdges[i]),
-               100 * share, 100 * expected, std::string(static_cast<std::size_t>(100 * share / 2 + 0.5), '#'));
+    fmt::print(
+        "| {} | {:.0f} % | {:.0f} % | {} |\n",
+        kEdges[i + 1] < 1e9 ? fmt::format("{} to {}", kEdges[i], kEdges[i + 1]) : fmt::format("from {}", kEdges[i]),
+        100 * share, 100 * expected, std::string(static_cast<std::size_t>(100 * share / 2 + 0.5), '#'));
   }
 }
 
@@ -145,9 +144,11 @@ void run(const Arguments& arguments)
   }
   const auto n = static_cast<double>(nees.size());
   for (auto* values : {&metres, &degrees}) std::sort(values->begin(), values->end());
-  fmt::print("{} pairs, {:.1f} m apart, {}: {:.0f} % found, {} not trusted; median {:.1f} mm {:.3f} deg, worst {:.1f} mm {:.3f} deg\n",
-             arguments.pairs, arguments.baseline, arguments.stand, 100 * n / arguments.pairs, untrusted,
-             1000 * quantileOfSorted(metres, 0.5), quantileOfSorted(degrees, 0.5), 1000 * metres.back(), degrees.back());
+  fmt::print(
+      "{} pairs, {:.1f} m apart, {}: {:.0f} % found, {} not trusted; median {:.1f} mm {:.3f} deg, worst {:.1f} mm "
+      "{:.3f} deg\n",
+      arguments.pairs, arguments.baseline, arguments.stand, 100 * n / arguments.pairs, untrusted,
+      1000 * quantileOfSorted(metres, 0.5), quantileOfSorted(degrees, 0.5), 1000 * metres.back(), degrees.back());
   const Vector6d rms = (squares / n).cwiseSqrt(), bias = mean / n, ratio = (whitened / n);
   fmt::print("RMS x y z {:.1f} {:.1f} {:.1f} mm, about x y z {:.3f} {:.3f} {:.3f} deg; mean {:.1f} {:.1f} {:.1f} mm\n",
              1000 * rms[0], 1000 * rms[1], 1000 * rms[2], rms[3] / kDegree, rms[4] / kDegree, rms[5] / kDegree,

@@ -1,5 +1,5 @@
-#include "ndt/PairEvidence.h"
 #include "ndt/PairSums.h"
+#include "ndt/PairEvidence.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Dense>
@@ -63,7 +63,8 @@ Pairs randomPairs()
 std::vector<PairSums> sumsOf(const Pairs& pairs, Kernel kernel)
 {
   std::vector<PairSums> sums(pairs.cells.size());
-  sumPairs({pairs.cells.data(), pairs.ranges.data(), pairs.cells.size(), pairs.blocks.data()}, 0.05, sums.data(), kernel);
+  sumPairs({pairs.cells.data(), pairs.ranges.data(), pairs.cells.size(), pairs.blocks.data()}, 0.05, sums.data(),
+           kernel);
   return sums;
 }
 }  // namespace

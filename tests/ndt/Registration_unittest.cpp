@@ -255,8 +255,7 @@ TEST(Registration, hasNoRivalsAmongStemsAtRandomPlaces)
 {
   const auto target = scanFrom(forest(3), Rigid::identity(), 1), source = scanFrom(forest(3), kMotion, 2);
 
-  const RegistrationResult result =
-      align(mapOf(target, 1.0), mapOf(source, 1.0), {kMotion, uncertainBy(1.2, 1)}, {});
+  const RegistrationResult result = align(mapOf(target, 1.0), mapOf(source, 1.0), {kMotion, uncertainBy(1.2, 1)}, {});
 
   EXPECT_EQ(result.outcome, Outcome::Converged) << result.brief();
   EXPECT_TRUE(result.rivals.empty());
@@ -287,8 +286,9 @@ TEST(RegistrationWithAGuessOfKnownCovariance, beginsAtTheLevelThatFitsIt)
 {
   const auto target = scanFrom(forest(3), Rigid::identity(), 1), source = scanFrom(forest(3), kMotion, 2);
   const NdtMap t4 = mapOf(target, 4), t1 = mapOf(target, 1), s4 = mapOf(source, 4), s1 = mapOf(source, 1);
-  const auto iterations = [&](const PoseGuess& guess)
-  { return alignCoarseToFine({{t4, s4}, {t1, s1}}, guess, {}).iterations; };
+  const auto iterations = [&](const PoseGuess& guess) {
+    return alignCoarseToFine({{t4, s4}, {t1, s1}}, guess, {}).iterations;
+  };
   const Rigid near = kMotion * Rigid::fromXyzYawPitchRoll(0.01, 0, 0, 0, 0, 0);
 
   EXPECT_EQ(iterations({near, uncertainBy(0.02, 0.2)}), align(t1, s1, {near, uncertainBy(0.02, 0.2)}, {}).iterations);
