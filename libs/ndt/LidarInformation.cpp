@@ -24,8 +24,8 @@ using Eigen::Vector3d;
 constexpr double kMostIndependentPoints = 10;
 
 // Of what no scan shows: how well range and beam angles are known on the average.
-constexpr double kTranslationFloor = 0.0005;                   // m
-constexpr double kRotationFloor = 0.0025 * M_PI / 180 * kArm;  // m, by the arm
+constexpr double kTranslationFloor = 0.0008;                   // m
+constexpr double kRotationFloor = 0.004 * M_PI / 180 * kArm;  // m, by the arm
 constexpr double kUnknownDeviation = 10;                       // m: "not measured" that still has an inverse
 
 // Below the first share of structure the resistance against a step is that of the grid, not of the world; below the
