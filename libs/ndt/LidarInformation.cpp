@@ -24,9 +24,9 @@ using Eigen::Vector3d;
 constexpr double kMostIndependentPoints = 10;
 
 // Of what no scan shows: how well range and beam angles are known on the average.
-constexpr double kTranslationFloor = 0.0008;                   // m
+constexpr double kTranslationFloor = 0.0008;                  // m
 constexpr double kRotationFloor = 0.004 * M_PI / 180 * kArm;  // m, by the arm
-constexpr double kUnknownDeviation = 10;                       // m: "not measured" that still has an inverse
+constexpr double kUnknownDeviation = 10;                      // m: "not measured" that still has an inverse
 
 // Below the first share of structure the resistance against a step is that of the grid, not of the world; below the
 // second it is, if a long step keeps so much of the score. Corridors keep 0.92, the densest stand 0.86 in cells of 8 m

@@ -117,6 +117,38 @@ std::size_t firstLevel(const std::vector<RegistrationLevel>& levels, const PoseG
   while (level > 0 && reach > kReachOfCells * levels[level].source.options().cell_size) --level;
   return level;
 }
+/** The level whose score tells a turn best: stems still stand out of their cells, and a turn moves few of them away. */
+std::size_t levelForTurns(const std::vector<RegistrationLevel>& levels, std::size_t first)
+{
+  constexpr double kCells = 4;  // m
+  std::size_t level = first;
+  while (level < levels.size() && levels[level].source.options().cell_size > kCells) ++level;
+  return level;
+}
+
+/**
+ * The best of turns about the source's z axis. Ground holds the tilt from anywhere, but it has no heading, and stems
+ * that are turned further than their neighbourhood draw nowhere.
+ */
+Rigid turned(const RegistrationLevel& level, const Rigid& pose, const PoseGuess& guess)
+{
+  constexpr double kStep = 5 * M_PI / 180, kMost = 5;
+  constexpr double kBroad = 0.05;  // d2
+  constexpr int kNeighbours = 7;
+  const double reach = guess.covariance ? 3 * std::sqrt((*guess.covariance)(5, 5)) / kStep : kMost;
+  const int most = static_cast<int>(std::min(reach, kMost));
+  Neighbourhoods neighbourhoods(level.target, level.source, kNeighbours);
+  Rigid best = pose;
+  double lowest = normalEquations(neighbourhoods, pose, kBroad).value;
+  for (int i = 1; i <= most; ++i)
+    for (const int turn : {-i, i})
+    {
+      const Rigid there = pose * Rigid::fromXyzYawPitchRoll(0, 0, 0, turn * kStep, 0, 0);
+      const double value = normalEquations(neighbourhoods, there, kBroad).value;
+      if (value < lowest) lowest = value, best = there;
+    }
+  return best;
+}
 }  // namespace
 
 RegistrationResult align(const NdtMap& target, const NdtMap& source, const PoseGuess& guess,
@@ -135,8 +167,10 @@ RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& level
   Rigid pose = guess.target_T_source;
   int iterations = 0;
   const std::size_t first = firstLevel(levels, guess), last = levels.size() - 1;
+  const std::size_t turns = levelForTurns(levels, first);
   for (std::size_t i = first; i < last; ++i)
   {
+    if (i == turns) pose = turned(levels[i], pose, guess);
     const Minimum minimum = alignLevel(levels[i], pose, i == first, expectation, coarse).minimum;
     iterations += minimum.iterations;
     if (overlapOf(minimum, levels[i].source) >= options.min_overlap) pose = minimum.target_T_source;

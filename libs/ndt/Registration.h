@@ -98,9 +98,10 @@ struct RegistrationLevel
 
 /**
  * One level after the other, coarse cells first: wider basin, and the accuracy of the last level. It begins at the
- * level whose cells fit the guess's covariance, at the coarsest one without. A level that ends in LowOverlap leaves the
- * pose as it was. The result is the last level's, its iterations are those of all. Throws std::invalid_argument without
- * a level.
+ * level whose cells fit the guess's covariance, at the coarsest one without. Before the first level of 4 m or less, if
+ * it is not the last, headings up to 25 deg away are tried as far as the guess leaves them open. A level that ends in
+ * LowOverlap leaves the pose as it was. The result is the last level's, its iterations are those of all. Throws
+ * std::invalid_argument without a level.
  */
 RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>&, const PoseGuess&,
                                      const RegistrationOptions&);

@@ -139,6 +139,20 @@ TEST(Registration, comesFromFurtherAwayWithCoarseLevels)
   EXPECT_THROW(alignCoarseToFine({}, guess, {}), std::invalid_argument);
 }
 
+TEST(Registration, findsAHeadingThatIsFarOffWithCoarseLevels)
+{
+  const auto target = scanFrom(forest(3), Rigid::identity(), 1), source = scanFrom(forest(3), kMotion, 2);
+  const NdtMap t4 = mapOf(target, 4), t1 = mapOf(target, 1), s4 = mapOf(source, 4), s1 = mapOf(source, 1);
+  for (const double turn : {-24, -13, 13, 24})
+  {
+    const Rigid guess = kMotion * Rigid::fromXyzYawPitchRoll(0, 0, 0, turn * kDegree, 0, 0);
+
+    const RegistrationResult result = alignCoarseToFine({{t4, s4}, {t1, s1}}, guess, {});
+
+    EXPECT_LT(metres(result.target_T_source, kMotion), 0.03) << turn << " deg: " << result.brief();
+  }
+}
+
 TEST(Registration, saysItAllInOneLine)
 {
   EXPECT_THAT(alignForest(2.5, Rigid::identity()).brief(),
