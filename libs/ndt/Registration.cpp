@@ -117,6 +117,7 @@ std::size_t firstLevel(const std::vector<RegistrationLevel>& levels, const PoseG
   while (level > 0 && reach > kReachOfCells * levels[level].source.options().cell_size) --level;
   return level;
 }
+
 /** The level whose score tells a turn best: stems still stand out of their cells, and a turn moves few of them away. */
 std::size_t levelForTurns(const std::vector<RegistrationLevel>& levels, std::size_t first)
 {
@@ -133,21 +134,23 @@ std::size_t levelForTurns(const std::vector<RegistrationLevel>& levels, std::siz
 Rigid turned(const RegistrationLevel& level, const Rigid& pose, const PoseGuess& guess)
 {
   constexpr double kStep = 5 * M_PI / 180, kMost = 5;
-  constexpr double kBroad = 0.05;  // d2
+  constexpr double kBroad = 0.05;      // d2
+  constexpr double kStandsOut = 1.04;  // times the median score: bare ground's best has 1.03, a dense stand's 1.06
   constexpr int kNeighbours = 7;
   const double reach = guess.covariance ? 3 * std::sqrt((*guess.covariance)(5, 5)) / kStep : kMost;
   const int most = static_cast<int>(std::min(reach, kMost));
   Neighbourhoods neighbourhoods(level.target, level.source, kNeighbours);
   Rigid best = pose;
-  double lowest = normalEquations(neighbourhoods, pose, kBroad).value;
-  for (int i = 1; i <= most; ++i)
-    for (const int turn : {-i, i})
-    {
-      const Rigid there = pose * Rigid::fromXyzYawPitchRoll(0, 0, 0, turn * kStep, 0, 0);
-      const double value = normalEquations(neighbourhoods, there, kBroad).value;
-      if (value < lowest) lowest = value, best = there;
-    }
-  return best;
+  std::vector<double> scores;
+  double highest = 0;
+  for (int turn = -most; turn <= most; ++turn)
+  {
+    const Rigid there = pose * Rigid::fromXyzYawPitchRoll(0, 0, 0, turn * kStep, 0, 0);
+    scores.push_back(-normalEquations(neighbourhoods, there, kBroad).value);
+    if (scores.back() > highest) highest = scores.back(), best = there;
+  }
+  std::nth_element(scores.begin(), scores.begin() + most, scores.end());
+  return highest > kStandsOut * scores[static_cast<std::size_t>(most)] ? best : pose;
 }
 }  // namespace
 

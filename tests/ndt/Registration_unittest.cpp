@@ -210,6 +210,18 @@ INSTANTIATE_TEST_SUITE_P(scenes, RegistrationInABareScene,
                                          Scene{"single_wall", wall(), 3, along(1)}),
                          [](const auto& test) { return std::string(test.param.name); });
 
+TEST(RegistrationInAnOpenField, doesNotTurnByCoarseLevels)
+{
+  const Rigid motion = Rigid::fromXyzYawPitchRoll(0, 0, 0.05, 2 * kDegree, 0, 0);
+  const auto target = scanFrom(openField(), Rigid::identity(), 1), source = scanFrom(openField(), motion, 2);
+  const NdtMap t4 = mapOf(target, 4), t1 = mapOf(target, 1), s4 = mapOf(source, 4), s1 = mapOf(source, 1);
+
+  const RegistrationResult result = alignCoarseToFine({{t4, s4}, {t1, s1}}, Rigid::identity(), {});
+
+  EXPECT_EQ(result.outcome, Outcome::Degenerate) << result.brief();
+  EXPECT_LT(degrees(result.target_T_source, Rigid::identity()), 0.3) << result.brief();
+}
+
 TEST(RegistrationInAnOpenField, stillMeasuresTheHeight)
 {
   const Rigid motion = Rigid::fromXyzYawPitchRoll(0.3, 0.1, 0.05, 2 * kDegree, 0.5 * kDegree, 0);
