@@ -160,13 +160,13 @@ Evidence inSource(const Evidence& in_target, const Rigid& target_T_source)
           turned(in_target.noise)};
 }
 
-/** What is left of the score after a long step either way. */
+/** What is left of the score after a long step either way. Leaves the neighbourhoods where they were. */
 double keptBy(const Vector6d& direction, Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
   const Vector6d step = std::max(kLongStep, all.sourceEdge()) * stepOfMetres().cwiseProduct(direction);
-  const double here = normalEquations(all, target_T_source, d2).value;
   const double there = std::min(normalEquations(all, boxPlus(target_T_source, step), d2).value,
                                 normalEquations(all, boxPlus(target_T_source, -step), d2).value);
+  const double here = normalEquations(all, target_T_source, d2).value;
   return here < 0 ? there / here : 1;
 }
 
@@ -224,7 +224,6 @@ LidarInformation lidarInformation(Neighbourhoods& all, const Rigid& target_T_sou
 
   LidarInformation information;
   information.degenerate = degenerateDirections(evidence, all, target_T_source, d2);
-  all.moveTo(target_T_source);
   for (const Vector6d& direction : information.degenerate)
     metres += kUnknownDeviation * kUnknownDeviation * direction * direction.transpose();
   const Matrix6d symmetric = (metres + metres.transpose()) / 2;

@@ -66,7 +66,7 @@ Minimum minimise(const Pairs& pairs, const Rigid& start, const Expectation& expe
   Minimum here{start, at(start, pairs, expectation, options.d2), 0, false};
   double damping = 0;
   Vector6d before = Vector6d::Zero();  // the last step, if the next can be compared with it
-  while (!here.converged && here.equations.met_points > 0 && here.iterations < options.max_iterations)
+  while (here.equations.met_points > 0 && here.iterations < options.max_iterations)
   {
     ++here.iterations;
     const Vector6d plain = dampedStep(here.equations, damping, free);
@@ -75,10 +75,10 @@ Minimum minimise(const Pairs& pairs, const Rigid& start, const Expectation& expe
     before = shrinking == 0 ? plain : Vector6d::Zero();
 
     const Rigid candidate = boxPlus(here.target_T_source, stepOfMetres().cwiseProduct(step));
-    here.converged = step.norm() < options.tolerance;
-    if (here.converged)  // nothing that is worth another look at every cell
+    if (step.norm() < options.tolerance)  // nothing that is worth another look at every cell
     {
       here.target_T_source = candidate;
+      here.converged = true;
       break;
     }
     const NormalEquations there = at(candidate, pairs, expectation, options.d2);

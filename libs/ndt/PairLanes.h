@@ -14,7 +14,6 @@ namespace scanloom
 using Lanes = double __attribute__((vector_size(8 * TargetBlock::kLanes)));
 
 SCANLOOM_INLINE void load(const double* from, Lanes& lanes) { std::memcpy(&lanes, from, sizeof lanes); }
-SCANLOOM_INLINE void store(const Lanes& lanes, double* to) { std::memcpy(to, &lanes, sizeof lanes); }
 
 using SymmetricLanes = SymmetricOf<Lanes>;
 

@@ -100,13 +100,13 @@ std::vector<Rigid> rivalsOf(const RegistrationLevel& level, const RegistrationRe
   const double broad = -normalEquations(neighbourhoods, best, kBroad).value;
   const double narrow = -normalEquations(neighbourhoods, best, options.d2).value;
   const Scores scores(neighbourhoods, centre, shifts);
+  RegistrationOptions wide = options;
+  wide.d2 = kBroad;
   std::vector<Rigid> rivals;
   for (int i = -shifts.most_along_first; i <= shifts.most_along_first; ++i)
     for (int j = -shifts.most_along_second; j <= shifts.most_along_second; ++j)
     {
       if (scores.at(i, j) < kWorthALook * broad || !scores.isHill(i, j)) continue;
-      RegistrationOptions wide = options;
-      wide.d2 = kBroad;
       const Minimum near = minimise(neighbourhoods, Scores::moved(centre, shifts.at(i, j)), {}, wide, {});
       const Minimum there = minimise(neighbourhoods, near.target_T_source, {}, options, {});
       const double apart = boxMinus(there.target_T_source, best).head<3>().norm();

@@ -32,8 +32,6 @@ template <typename T>
   result.zz = zx * a.xz + zy * a.yz + zz * a.zz;
 }
 
-inline Symmetric3 symmetric(const Eigen::Matrix3d& m) { return {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)}; }
-
 /** R m R'. */
 inline Symmetric3 turned(const Eigen::Matrix3d& m, const Eigen::Matrix3d& r)
 {

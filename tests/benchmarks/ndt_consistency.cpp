@@ -118,7 +118,7 @@ void run(const Arguments& arguments)
   constexpr double kDegree = M_PI / 180;
   std::vector<double> metres, degrees, nees;
   Vector6d squares = Vector6d::Zero(), whitened = Vector6d::Zero(), mean = Vector6d::Zero();
-  int lost = 0, untrusted = 0;
+  int untrusted = 0;
   for (int i = 0; i < arguments.pairs; ++i)
   {
     const Pair pair = pairAt(i, arguments);
@@ -130,7 +130,6 @@ void run(const Arguments& arguments)
     if (!r.result.trustworthy()) ++untrusted;
     if (r.error.head<3>().norm() > 0.1 || r.error.tail<3>().norm() > kDegree)
     {
-      ++lost;
       fmt::print("pair {}: {:.3f} m {:.2f} deg off, {}\n", i, r.error.head<3>().norm(),
                  r.error.tail<3>().norm() / kDegree, r.result.brief());
       continue;
@@ -141,6 +140,11 @@ void run(const Arguments& arguments)
     squares += r.error.cwiseAbs2();
     mean += r.error;
     whitened += r.error.cwiseAbs2().cwiseQuotient(r.result.covariance.diagonal());
+  }
+  if (nees.empty())
+  {
+    fmt::print("none of {} pairs found\n", arguments.pairs);
+    return;
   }
   const auto n = static_cast<double>(nees.size());
   for (auto* values : {&metres, &degrees}) std::sort(values->begin(), values->end());
