@@ -4,7 +4,7 @@
 #include "RegistrationReport.h"
 #include "Settings.h"
 #include "Verb.h"
-#include "dataset/CloudFile.h"
+#include "cloud/CloudFile.h"
 #include "source/Extrinsics.h"
 
 #include <fmt/format.h>

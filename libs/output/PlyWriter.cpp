@@ -1,5 +1,5 @@
+#include "output/PlyWriter.h"
 #include "core/Bytes.h"
-#include "output/PlyFile.h"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

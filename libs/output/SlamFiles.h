@@ -4,7 +4,7 @@
 #include "output/MapPicture.h"
 #include "output/OctoMapExport.h"
 #include "output/OutputFile.h"
-#include "output/PlyFile.h"
+#include "output/PlyWriter.h"
 #include "output/RunSummary.h"
 #include "output/SimpleMapFile.h"
 #include "output/Trajectory.h"

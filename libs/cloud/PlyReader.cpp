@@ -1,6 +1,7 @@
+#include "cloud/PlyReader.h"
+
+#include "cloud/CloudText.h"
 #include "core/Bytes.h"
-#include "output/CloudText.h"
-#include "output/PlyFile.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,6 @@
-#include "output/PlyFile.h"
+#include "output/PlyWriter.h"
+
+#include "cloud/PlyReader.h"
 
 #include "support/TemporaryFolder.h"
 

@@ -1,7 +1,7 @@
-#include "dataset/PcdFile.h"
+#include "cloud/PcdFile.h"
 
-#include "dataset/Lzf.h"
-#include "output/CloudText.h"
+#include "cloud/CloudText.h"
+#include "cloud/Lzf.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "dataset/CloudFile.h"
+#include "cloud/CloudFile.h"
 
 #include "support/PointFile.h"
 #include "support/TemporaryFolder.h"

@@ -1,8 +1,8 @@
-#include "dataset/CloudFile.h"
+#include "cloud/CloudFile.h"
 
+#include "cloud/PcdFile.h"
+#include "cloud/PlyReader.h"
 #include "core/Bytes.h"
-#include "dataset/PcdFile.h"
-#include "output/PlyFile.h"
 
 #include <fmt/format.h>
 #include <zlib.h>

@@ -1,4 +1,4 @@
-#include "dataset/Lzf.h"
+#include "cloud/Lzf.h"
 
 #include <stdexcept>
 
