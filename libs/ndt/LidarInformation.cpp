@@ -23,6 +23,9 @@ using Eigen::Vector3d;
 // Points of one cell share beams, edges and the surface's own unevenness: past this number they teach nothing new.
 constexpr double kMostIndependentPoints = 10;
 
+// Variance by what the model leaves out, so that the mean NEES over pairs of two stands is that of chi squared.
+constexpr double kUnmodelled = 1.25;
+
 // Of what no scan shows: how well range and beam angles are known on the average.
 constexpr double kTranslationFloor = 0.0008;                  // m
 constexpr double kRotationFloor = 0.004 * M_PI / 180 * kArm;  // m, by the arm
@@ -38,10 +41,10 @@ constexpr double kUnchanged = 0.9;
 /** Sums over all pairs; steps in the target's frame, in m and rad, about the source's origin. */
 struct Evidence
 {
-  Matrix6d resistance;  // sum n J' wB J, n the source cell's points
-  Matrix6d structure;   // the same of thin directions only
-  Matrix6d curvature;   // of the score with B held
-  Matrix6d noise;       // covariance of the gradient
+  std::vector<PairEvidence> cells;           // one per source cell
+  Matrix6d resistance = Matrix6d::Zero();    // sum n J' wB J, n the source cell's points
+  Matrix6d structure = Matrix6d::Zero();     // the same of thin directions only
+  Matrix6d unsure_means = Matrix6d::Zero();  // covariance of the gradient by the noise of the cells' means
 };
 
 /** How the uncertain mean of a cell, and as uncertain a one of the target, shakes what it pulls at. */
@@ -52,11 +55,15 @@ Symmetric3 shaking(const Symmetric3& pull, const TurnedCell& c, std::uint32_t po
   return scaled(shaken, 2 / std::min<double>(points, kMostIndependentPoints));
 }
 
-/** What is known of one chunk of source cells, and the force and torque on each. */
-struct ChunkEvidence
+/** From the source's origin to the cell, as the target's axes have it. */
+Vector3d armOf(const TurnedCell& c, const Rigid& target_T_source)
 {
-  PoseSum resistance, structure, curvature, noise;
-  std::vector<Vector6d> forces;
+  return Vector3d(c.x, c.y, c.z) - target_T_source.translation;
+}
+
+struct ChunkSums
+{
+  PoseSum resistance, structure, unsure_means;
 };
 
 std::vector<StructureBlock> structuresOf(const Neighbourhoods& all, const Neighbourhoods::Chunk& chunk)
@@ -77,87 +84,121 @@ std::vector<StructureBlock> structuresOf(const Neighbourhoods& all, const Neighb
   return structures;
 }
 
-ChunkEvidence evidenceOf(const Neighbourhoods& all, std::size_t index, const Rigid& target_T_source, double d2)
+/** Fills `cells`, the chunk's part of Evidence::cells. */
+ChunkSums gather(const Neighbourhoods& all, std::size_t index, const Rigid& target_T_source, double d2,
+                 PairEvidence* cells)
 {
   const Neighbourhoods::Chunk& chunk = all.chunk(index);
   const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
-  std::array<PairEvidence, Neighbourhoods::kChunk> cells;
-  ChunkEvidence evidence;
-  evidence.forces.assign(chunk.cells.size(), Vector6d::Zero());
-  gatherEvidence(chunk.pairs(), structuresOf(all, chunk).data(), d2, cells.data());
+  gatherEvidence(chunk.pairs(), structuresOf(all, chunk).data(), d2, cells);
+  ChunkSums sums;
   for (std::size_t i = 0; i < chunk.cells.size(); ++i)
   {
     if (chunk.ranges[i].count == 0) continue;
     const GaussianCell& source = all.source()[chunk.first + i];
     const TurnedCell& c = chunk.cells[i];
-    const Vector3d v = Vector3d(c.x, c.y, c.z) - target_T_source.translation;
-    const Vector3d force(cells[i].fx, cells[i].fy, cells[i].fz);
+    const Vector3d v = armOf(c, target_T_source);
     Symmetric3 structured;
     sandwich(turned(source.structure, rotation), cells[i].structured, structured);
     // By points: far cells that one row of beams crosses look thin where nothing is.
     const double points = source.points;
-    evidence.resistance.add(scaled(cells[i].weight, points), v.x(), v.y(), v.z());
-    evidence.structure.add(scaled(structured, points), v.x(), v.y(), v.z());
-    evidence.curvature.add(cells[i].pull, v.x(), v.y(), v.z());
-    evidence.noise.add(shaking(cells[i].pull, c, source.points), v.x(), v.y(), v.z());
-    evidence.forces[i] << force, v.cross(force);
+    sums.resistance.add(scaled(cells[i].weight, points), v.x(), v.y(), v.z());
+    sums.structure.add(scaled(structured, points), v.x(), v.y(), v.z());
+    sums.unsure_means.add(shaking(cells[i].pull, c, source.points), v.x(), v.y(), v.z());
   }
-  return evidence;
-}
-
-/**
- * What the forces differ by from place to place, where at a minimum without any error all would be zero: leaves seen
- * from another side, moved branches, ground cut by another grid. Forces within a few metres err together and count as
- * one (the cluster-robust sandwich; R. Rogers: Regression standard errors in clustered samples, Stata Technical
- * Bulletin 13, 1993).
- */
-Matrix6d disagreement(const Neighbourhoods& all, const std::vector<ChunkEvidence>& chunks)
-{
-  constexpr double kTogether = 6;  // m
-  const auto along = [](double v) { return static_cast<std::int64_t>(std::floor(v / kTogether)); };
-  KeyIndex places;
-  std::vector<Vector6d> sums;
-  for (std::size_t c = 0; c < chunks.size(); ++c)  // in a fixed order
-    for (std::size_t i = 0; i < chunks[c].forces.size(); ++i)
-    {
-      if (all.chunk(c).ranges[i].count == 0) continue;
-      const Vector3d& mean = all.source()[all.chunk(c).first + i].mean;
-      const std::uint32_t place = places.placeOf(CellKey::of(along(mean.x()), along(mean.y()), along(mean.z())));
-      if (place == sums.size()) sums.push_back(Vector6d::Zero());
-      sums[place] += chunks[c].forces[i];
-    }
-  Matrix6d squares = Matrix6d::Zero();
-  for (const Vector6d& sum : sums) squares += sum * sum.transpose();
-  const auto count = static_cast<double>(sums.size());
-  return squares * (count / std::max(1.0, count - 6));
+  return sums;
 }
 
 Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
-  std::vector<ChunkEvidence> chunks(all.chunks());
+  Evidence evidence;
+  evidence.cells.resize(all.source().size());
+  std::vector<ChunkSums> chunks(all.chunks());
   tbb::parallel_for(std::size_t{0}, chunks.size(),
-                    [&](std::size_t i) { chunks[i] = evidenceOf(all, i, target_T_source, d2); });
-  Evidence evidence{Matrix6d::Zero(), Matrix6d::Zero(), Matrix6d::Zero(), disagreement(all, chunks)};
-  for (const ChunkEvidence& chunk : chunks)  // in a fixed order
+                    [&](std::size_t i)
+                    { chunks[i] = gather(all, i, target_T_source, d2, evidence.cells.data() + all.chunk(i).first); });
+  for (const ChunkSums& chunk : chunks)  // in a fixed order
   {
     evidence.resistance += chunk.resistance.matrix();
     evidence.structure += chunk.structure.matrix();
-    evidence.curvature += chunk.curvature.matrix();
-    evidence.noise += chunk.noise.matrix();
+    evidence.unsure_means += chunk.unsure_means.matrix();
   }
   return evidence;
 }
 
-/** Steps in the source's frame, in metres (see stepOfMetres). */
-Evidence inSource(const Evidence& in_target, const Rigid& target_T_source)
+/** What draws and holds within a few metres: leaves seen from another side, a branch, ground cut by another grid. */
+struct Place
+{
+  Vector6d force = Vector6d::Zero();
+  PoseSum curvature;  // of the score with B held
+};
+
+std::vector<Place> placesOf(const Neighbourhoods& all, const Evidence& evidence, const Rigid& target_T_source)
+{
+  constexpr double kTogether = 6;  // m
+  const auto along = [](double v) { return static_cast<std::int64_t>(std::floor(v / kTogether)); };
+  KeyIndex index;
+  std::vector<Place> places;
+  for (std::size_t c = 0; c < all.chunks(); ++c)
+    for (std::size_t i = 0; i < all.chunk(c).cells.size(); ++i)
+    {
+      if (all.chunk(c).ranges[i].count == 0) continue;
+      const std::size_t cell = all.chunk(c).first + i;
+      const Vector3d& mean = all.source()[cell].mean;
+      const std::uint32_t place = index.placeOf(CellKey::of(along(mean.x()), along(mean.y()), along(mean.z())));
+      if (place == places.size()) places.emplace_back();
+      const PairEvidence& pairs = evidence.cells[cell];
+      const Vector3d v = armOf(all.chunk(c).cells[i], target_T_source), force(pairs.fx, pairs.fy, pairs.fz);
+      places[place].force.head<3>() += force;
+      places[place].force.tail<3>() += v.cross(force);
+      places[place].curvature.add(pairs.pull, v.x(), v.y(), v.z());
+    }
+  return places;
+}
+
+/** Takes steps in the source's frame, in metres (see stepOfMetres), to those of Evidence. */
+Matrix6d targetOfStep(const Rigid& target_T_source)
 {
   const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
   Matrix6d target_of_step = Matrix6d::Zero();
   target_of_step.topLeftCorner<3, 3>() = target_of_step.bottomRightCorner<3, 3>() = rotation;
-  target_of_step = target_of_step * stepOfMetres().asDiagonal();
-  const auto turned = [&](const Matrix6d& m) -> Matrix6d { return target_of_step.transpose() * m * target_of_step; };
-  return {turned(in_target.resistance), turned(in_target.structure), turned(in_target.curvature),
-          turned(in_target.noise)};
+  return target_of_step * stepOfMetres().asDiagonal();
+}
+
+/** Of the curvature, which far from a minimum need not be positive: what is not counts as little. */
+Matrix6d safeInverse(const Matrix6d& symmetric)
+{
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(symmetric);
+  const double least = std::max(1e-12, 1e-6 * eigen.eigenvalues()[5]);
+  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *
+         eigen.eigenvectors().transpose();
+}
+
+/**
+ * In metres (see stepOfMetres): by the noise of the means (sandwich), and by how far the pose moves when the world is
+ * looked at without one place after the other (the jackknife by clusters: J. MacKinnon, M. Nielsen and M. Webb, Fast
+ * and reliable jackknife and bootstrap methods for cluster-robust inference, Journal of Applied Econometrics 38, 2023).
+ */
+Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& unsure_means, const Matrix6d& target_of_step)
+{
+  const auto inSteps = [&](const Matrix6d& m) -> Matrix6d { return target_of_step.transpose() * m * target_of_step; };
+  Matrix6d curvature = Matrix6d::Zero();
+  for (const Place& place : places) curvature += place.curvature.matrix();
+  const Matrix6d inverse = safeInverse(inSteps(curvature));
+  const Matrix6d step_of_target = target_of_step.inverse();
+
+  Matrix6d covariance = inverse * inSteps(unsure_means) * inverse;
+  const double share = 1 - 1 / std::max<double>(1, static_cast<double>(places.size()));
+  for (const Place& place : places)
+  {
+    const Matrix6d others = curvature - place.curvature.matrix();
+    const Eigen::LLT<Matrix6d> solver(others);
+    const Vector6d moved = solver.info() == Eigen::Success
+                               ? Vector6d(step_of_target * solver.solve(place.force))
+                               : Vector6d(safeInverse(inSteps(others)) * (target_of_step.transpose() * place.force));
+    covariance += share * moved * moved.transpose();
+  }
+  return covariance;
 }
 
 /** What is left of the score after a long step either way. Leaves the neighbourhoods where they were. */
@@ -170,12 +211,14 @@ double keptBy(const Vector6d& direction, Neighbourhoods& all, const Rigid& targe
   return here < 0 ? there / here : 1;
 }
 
-/** Orthonormal. */
-std::vector<Vector6d> degenerateDirections(const Evidence& evidence, Neighbourhoods& all, const Rigid& target_T_source,
-                                           double d2)
+std::vector<Vector6d> directionsWithoutStructure(const Evidence& evidence, Neighbourhoods& all,
+                                                 const Rigid& target_T_source, double d2)
 {
-  const Matrix6d some = 1e-9 * (1 + evidence.resistance.trace()) * Matrix6d::Identity();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> shares(evidence.structure, evidence.resistance + some);
+  const Matrix6d target_of_step = targetOfStep(target_T_source);
+  const Matrix6d structure = target_of_step.transpose() * evidence.structure * target_of_step;
+  Matrix6d resistance = target_of_step.transpose() * evidence.resistance * target_of_step;
+  resistance += 1e-9 * (1 + resistance.trace()) * Matrix6d::Identity();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> shares(structure, resistance);
   std::vector<Vector6d> directions;
   for (int i = 0; i < 6 && shares.eigenvalues()[i] < kSuspicious; ++i)
   {
@@ -186,15 +229,6 @@ std::vector<Vector6d> degenerateDirections(const Evidence& evidence, Neighbourho
       directions.push_back(direction);
   }
   return directions;
-}
-
-/** Of the curvature, which far from a minimum need not be positive: what is not counts as little. */
-Matrix6d safeInverse(const Matrix6d& symmetric)
-{
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(symmetric);
-  const double least = std::max(1e-12, 1e-6 * eigen.eigenvalues()[5]);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *
-         eigen.eigenvectors().transpose();
 }
 }  // namespace
 
@@ -214,16 +248,21 @@ double largestDeviation(const Matrix6d& covariance)
 
 double scorePerInformation(double d2) { return d2 / kMostIndependentPoints; }
 
+std::vector<Vector6d> degenerateDirections(Neighbourhoods& all, const Rigid& target_T_source, double d2)
+{
+  return directionsWithoutStructure(evidenceOf(all, target_T_source, d2), all, target_T_source, d2);
+}
+
 LidarInformation lidarInformation(Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
-  const Evidence evidence = inSource(evidenceOf(all, target_T_source, d2), target_T_source);
-  const Matrix6d inverse = safeInverse(evidence.curvature);
-  Matrix6d metres = inverse * evidence.noise * inverse;
+  const Evidence evidence = evidenceOf(all, target_T_source, d2);
+  Matrix6d metres = kUnmodelled * covarianceOf(placesOf(all, evidence, target_T_source), evidence.unsure_means,
+                                               targetOfStep(target_T_source));
   metres.diagonal().head<3>().array() += kTranslationFloor * kTranslationFloor;
   metres.diagonal().tail<3>().array() += kRotationFloor * kRotationFloor;
 
   LidarInformation information;
-  information.degenerate = degenerateDirections(evidence, all, target_T_source, d2);
+  information.degenerate = directionsWithoutStructure(evidence, all, target_T_source, d2);
   for (const Vector6d& direction : information.degenerate)
     metres += kUnknownDeviation * kUnknownDeviation * direction * direction.transpose();
   const Matrix6d symmetric = (metres + metres.transpose()) / 2;

@@ -24,8 +24,11 @@ double scorePerInformation(double d2);
 struct LidarInformation
 {
   Matrix6d covariance = Matrix6d::Zero();  // sandwich with floor; kUnknownDeviation along the degenerate directions
-  std::vector<Vector6d> degenerate;        // orthonormal, in metres (see stepOfMetres)
+  std::vector<Vector6d> degenerate;        // see degenerateDirections
 };
+
+/** The steps in metres that nothing resists, orthonormal. Neighbourhoods as for lidarInformation. */
+std::vector<Vector6d> degenerateDirections(Neighbourhoods&, const Rigid& target_T_source, double d2);
 
 /** Neighbourhoods must have been moved to the pose, and are left there. */
 LidarInformation lidarInformation(Neighbourhoods&, const Rigid& target_T_source, double d2);

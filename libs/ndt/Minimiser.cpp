@@ -51,7 +51,7 @@ Vector6d dampedStep(const NormalEquations& equations, double damping, const Matr
  */
 double shrinkingOf(const Vector6d& step, const Vector6d& before)
 {
-  constexpr double kLinedUp = 0.8, kMost = 0.5;
+  constexpr double kLinedUp = 0.8, kMost = 0.7;
   const double along = step.dot(before);
   if (!(along > kLinedUp * step.norm() * before.norm())) return 0;
   return std::min(kMost, along / before.squaredNorm());

@@ -41,6 +41,15 @@ Minimum search(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, 
   return minimum;
 }
 
+/** What slid along a direction that nothing measures was noise: from the start again, without it. */
+Minimum searchAgain(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, const Expectation& expectation,
+                    const RegistrationOptions& options, const std::vector<Vector6d>& degenerate, const Minimum& first)
+{
+  Minimum minimum = search(neighbourhoods, start, widely, expectation, options, degenerate);
+  minimum.iterations += first.iterations;
+  return minimum;
+}
+
 Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool widely, const Expectation& expectation,
                    const RegistrationOptions& options)
 {
@@ -48,12 +57,20 @@ Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool wide
   Minimum minimum = search(neighbourhoods, start, widely, expectation, options, {});
   LidarInformation lidar = lidarInformation(neighbourhoods, minimum.target_T_source, options.d2);
   if (lidar.degenerate.empty()) return {minimum, lidar};
+  return {searchAgain(neighbourhoods, start, widely, expectation, options, lidar.degenerate, minimum), lidar};
+}
 
-  // What slid along a direction that nothing measures was noise: from the start again, without it.
-  const int iterations = minimum.iterations;
-  minimum = search(neighbourhoods, start, widely, expectation, options, lidar.degenerate);
-  minimum.iterations += iterations;
-  return {minimum, lidar};
+/** For the next level to start from. `may_slide`: where a coarser level left a direction open. */
+Minimum approach(const RegistrationLevel& level, const Rigid& start, bool widely, const Expectation& expectation,
+                 const RegistrationOptions& options, bool& may_slide)
+{
+  Neighbourhoods neighbourhoods(level.target, level.source, options.neighbours);
+  const Minimum minimum = search(neighbourhoods, start, widely, expectation, options, {});
+  if (!may_slide) return minimum;
+  const auto degenerate = degenerateDirections(neighbourhoods, minimum.target_T_source, options.d2);
+  may_slide = !degenerate.empty();
+  if (!may_slide) return minimum;
+  return searchAgain(neighbourhoods, start, widely, expectation, options, degenerate, minimum);
 }
 
 double overlapOf(const Minimum& minimum, const NdtMap& source)
@@ -169,12 +186,13 @@ RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& level
   coarse.tolerance = kLoose * options.tolerance;
   Rigid pose = guess.target_T_source;
   int iterations = 0;
+  bool may_slide = true;  // what is open in coarse cells may be held by finer ones, not the other way round
   const std::size_t first = firstLevel(levels, guess), last = levels.size() - 1;
   const std::size_t turns = levelForTurns(levels, first);
   for (std::size_t i = first; i < last; ++i)
   {
     if (i == turns) pose = turned(levels[i], pose, guess);
-    const Minimum minimum = alignLevel(levels[i], pose, i == first, expectation, coarse).minimum;
+    const Minimum minimum = approach(levels[i], pose, i == first, expectation, coarse, may_slide);
     iterations += minimum.iterations;
     if (overlapOf(minimum, levels[i].source) >= options.min_overlap) pose = minimum.target_T_source;
   }
