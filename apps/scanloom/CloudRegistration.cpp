@@ -82,9 +82,7 @@ CloudPair::Prepared CloudPair::prepare(const Points& points, const std::vector<d
 TimedRegistration CloudPair::registered(const PoseGuess& guess) const
 {
   const Stopwatch stopwatch;
-  std::vector<RegistrationLevel> levels;
-  for (std::size_t i = 0; i < target_.levels.size(); ++i) levels.push_back({target_.levels[i], source_.levels[i]});
-  const RegistrationResult result = alignCoarseToFine(levels, guess, options_);
+  const RegistrationResult result = alignCoarseToFine(pairLevels(target_.levels, source_.levels), guess, options_);
   return {result, stopwatch.milliseconds()};
 }
 }  // namespace scanloom

@@ -177,6 +177,15 @@ RegistrationResult align(const NdtMap& target, const NdtMap& source, const PoseG
   return alignCoarseToFine({{target, source}}, guess, options);
 }
 
+std::vector<RegistrationLevel> pairLevels(const std::vector<NdtMap>& targets, const std::vector<NdtMap>& sources)
+{
+  if (targets.size() != sources.size())
+    throw std::invalid_argument("pairLevels: as many sources as targets are needed");
+  std::vector<RegistrationLevel> levels;
+  for (std::size_t i = 0; i < targets.size(); ++i) levels.push_back({targets[i], sources[i]});
+  return levels;
+}
+
 RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& levels, const PoseGuess& guess,
                                      const RegistrationOptions& options)
 {

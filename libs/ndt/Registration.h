@@ -96,6 +96,9 @@ struct RegistrationLevel
   const NdtMap& source;
 };
 
+/** Level by level, without copies. Throws std::invalid_argument unless there are as many of one as of the other. */
+std::vector<RegistrationLevel> pairLevels(const std::vector<NdtMap>& targets, const std::vector<NdtMap>& sources);
+
 /**
  * One level after the other, coarse cells first: wider basin, and the accuracy of the last level. It begins at the
  * level whose cells fit the guess's covariance, at the coarsest one without. Before the first level of 4 m or less, if

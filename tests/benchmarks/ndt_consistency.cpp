@@ -27,7 +27,7 @@ struct Arguments
   std::string stand = "sparse";
   int pairs = 40;
   double baseline = 1;  // m from scan to scan along the lane
-  std::vector<double> target_cells{4, 2, 1}, source_cells{4, 2, 1};
+  std::vector<double> target_cells{8, 4, 2, 0.5}, source_cells{8, 4, 2, 1};
   ForestLidar lidar;
   TrialOptions guess;
   NdtOptions cells;
@@ -65,10 +65,8 @@ Registered registered(const Pair& pair, const Rigid& guess, const Arguments& arg
 {
   const auto target = ndtLevels(pair.target, arguments.target_cells, arguments.cells);
   const auto source = ndtLevels(pair.source, arguments.source_cells, arguments.cells);
-  std::vector<RegistrationLevel> levels;
-  for (std::size_t i = 0; i < target.size(); ++i) levels.push_back({target[i], source[i]});
   Registered done;
-  done.result = alignCoarseToFine(levels, guess, arguments.alignment);
+  done.result = alignCoarseToFine(pairLevels(target, source), guess, arguments.alignment);
   done.error = boxMinus(pair.target_T_source, done.result.target_T_source);
   done.nees = done.error.dot(done.result.information * done.error);
   return done;

@@ -156,26 +156,17 @@ RegisterSource roughly(const Points& target)
   { return align(*map, mapOf(source, 2.5), guess, {}).target_T_source; };
 }
 
-std::vector<NdtMap> levelsOf(const Points& points)
-{
-  std::vector<NdtMap> maps;
-  for (const double cell_size : {4.0, 2.0, 1.0}) maps.push_back(mapOf(points, cell_size));
-  return maps;
-}
-
+/** As `scanloom register` does without a configuration. */
 RegisterSource coarseToFine(const Points& target)
 {
-  return [targets = std::make_shared<std::vector<NdtMap>>(levelsOf(target))](const Points& source, const Rigid& guess)
-  {
-    const auto sources = levelsOf(source);
-    std::vector<RegistrationLevel> levels;
-    for (std::size_t i = 0; i < sources.size(); ++i) levels.push_back({(*targets)[i], sources[i]});
-    return alignCoarseToFine(levels, guess, {}).target_T_source;
-  };
+  const std::vector<double> cells{8, 4, 2, 0.5}, source_cells{8, 4, 2, 1};
+  return [source_cells, targets = std::make_shared<std::vector<NdtMap>>(ndtLevels(target, cells, {}))](
+             const Points& source, const Rigid& guess)
+  { return alignCoarseToFine(pairLevels(*targets, ndtLevels(source, source_cells, {})), guess, {}).target_T_source; };
 }
 
 [[maybe_unused]] const bool kOursAreAdded =
-    addPeer("scanloom_rough", roughly) && addPeer("scanloom_4_2_1_m", coarseToFine);
+    addPeer("scanloom_rough", roughly) && addPeer("scanloom_register", coarseToFine);
 }  // namespace
 
 bool addPeer(const std::string& name, PrepareTarget prepare)
