@@ -109,7 +109,8 @@ void FixedLagSmoother::addState(Preintegration motion)
 
   states_.push_back(predicted);
   motions_.push_back(std::move(motion));
-  while (states_.size() > static_cast<std::size_t>(options_.window)) forgetOldest();
+  while (states_.size() > static_cast<std::size_t>(options_.window + hasAnchor()))
+    forget(states_.front().stamp == anchor_);
 }
 
 void FixedLagSmoother::addPosePrior(const Rigid& map_T_body, const Matrix6d& information)
@@ -135,7 +136,7 @@ void FixedLagSmoother::add(const LidarPose& lidar_pose)
 
 NavState FixedLagSmoother::optimise()
 {
-  for (std::size_t k = 0; k < motions_.size(); ++k) motions_[k] = corrected(motions_[k], states_[k].bias, noise_);
+  for (Preintegration& motion : motions_) motion = corrected(motion, states_[indexOf(motion.from)].bias, noise_);
 
   std::vector<StateBlocks> window = blocks();
   const ceres::Solver::Summary summary = solve(factors(), window, options_.max_iterations);
@@ -160,26 +161,50 @@ Matrix15d FixedLagSmoother::newestCovariance() const
   std::vector<StateBlocks> window = blocks();
   std::vector<LinearFactor> linear;
   for (const Factor& factor : factors()) linear.push_back(linearise(factor, window));
-  return marginalCovarianceOfLast(std::move(linear), states_.size());
+  return marginalCovariance(linear, {states_.size() - 1});
 }
 
-void FixedLagSmoother::forgetOldest()
+Matrix6d FixedLagSmoother::newestBodyCovariance() const
 {
-  const Timestamp leaving = states_.front().stamp;
   std::vector<StateBlocks> window = blocks();
-  std::vector<LinearFactor> touching;
-  for (const Factor& factor : factors())
-    if (std::count(factor.states.begin(), factor.states.end(), 0u)) touching.push_back(linearise(factor, window));
+  std::vector<LinearFactor> linear;
+  for (const Factor& factor : factors()) linear.push_back(linearise(factor, window));
+
+  // A measurement of unit information whose Jacobian is that of the pose asked for.
+  const std::size_t newest_index = states_.size() - 1, anchor_index = hasAnchor() ? indexOf(anchor_) : newest_index;
+  const Rigid map_T_body = newest().map_T_imu * body_T_imu_.inverse();
+  Factor pose{std::make_unique<PosePriorFactor>(map_T_body, Matrix6d::Identity(), body_T_imu_), {newest_index}};
+  if (anchor_index != newest_index)
+  {
+    const Rigid anchor_T_body = (anchor().map_T_imu * body_T_imu_.inverse()).inverse() * map_T_body;
+    pose = {std::make_unique<RelativePoseFactor>(anchor_T_body, Matrix6d::Identity(), body_T_imu_),
+            {anchor_index, newest_index}};
+  }
+  const LinearFactor seen = linearise(pose, window);
+  return seen.jacobian * marginalCovariance(linear, seen.states) * seen.jacobian.transpose();
+}
+
+void FixedLagSmoother::anchorNewest() { anchor_ = newest().stamp; }
+
+void FixedLagSmoother::forget(std::size_t index)
+{
+  const Timestamp leaving = states_[index].stamp;
+  std::vector<StateBlocks> window = blocks();
+  const std::vector<Factor> all = factors();
+  std::vector<LinearFactor> touching{linearise(all.front(), window)};  // the prior, so that one is left in the end
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (std::count(all[i].states.begin(), all[i].states.end(), index)) touching.push_back(linearise(all[i], window));
 
   // The motion to the next state is among them, so that the states left over are never none.
-  LinearFactor left = eliminate(touching, 0);
-  states_.pop_front();
-  motions_.pop_front();
-  const auto isOfLeaving = [&](const LidarPose& l) { return l.stamp == leaving || l.reference == leaving; };
-  lidar_poses_.erase(std::remove_if(lidar_poses_.begin(), lidar_poses_.end(), isOfLeaving), lidar_poses_.end());
-
+  LinearFactor left = eliminate(touching, index);
   prior_ = {{}, std::move(left.jacobian), std::move(left.residual)};
-  for (const std::size_t state : left.states) prior_.at.push_back(states_[state - 1]);
+  for (const std::size_t state : left.states) prior_.at.push_back(states_[state]);
+
+  const auto erase = [](auto& all_of_them, const auto& isGone)
+  { all_of_them.erase(std::remove_if(all_of_them.begin(), all_of_them.end(), isGone), all_of_them.end()); };
+  states_.erase(states_.begin() + static_cast<std::ptrdiff_t>(index));
+  erase(motions_, [&](const Preintegration& m) { return m.from == leaving || m.to == leaving; });
+  erase(lidar_poses_, [&](const LidarPose& l) { return l.stamp == leaving || l.reference == leaving; });
 }
 
 std::vector<Factor> FixedLagSmoother::factors() const
@@ -189,8 +214,8 @@ std::vector<Factor> FixedLagSmoother::factors() const
   for (const NavState& s : prior_.at) oldest.push_back(indexOf(s.stamp));
   all.push_back({std::make_unique<MarginalFactor>(prior_), oldest});
 
-  for (std::size_t k = 0; k < motions_.size(); ++k)
-    all.push_back({std::make_unique<ImuFactor>(motions_[k], noise_), {k, k + 1}});
+  for (const Preintegration& motion : motions_)
+    all.push_back({std::make_unique<ImuFactor>(motion, noise_), {indexOf(motion.from), indexOf(motion.to)}});
 
   for (const LidarPose& l : lidar_poses_)
   {

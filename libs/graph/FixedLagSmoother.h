@@ -41,7 +41,8 @@ struct SmootherReport
 
 /**
  * The last few states, estimated together from preintegrated IMU motions and lidar poses; what leaves the window stays
- * as a linear prior about the values it had then (doc/smoother.md). One thread, and the same input gives the same bits.
+ * as a linear prior about the values it had then (doc/smoother.md). One older state, the anchor, may stay with them for
+ * lidar poses to be relative to. One thread, and the same input gives the same bits.
  *
  * Covariances are of boxPlus(NavState): translation, rotation (both in the IMU's frame), velocity in the map, gyro
  * bias, accelerometer bias. Poses and information matrices handed in are the body's, in the tangent of boxPlus there.
@@ -66,10 +67,16 @@ class FixedLagSmoother
   void addPosePrior(const Rigid& map_T_body, const Matrix6d& information);
 
   /**
-   * The newest body as seen from the body at `reference`, a state in the window (else std::invalid_argument). For a
-   * keyframe that has left the window, addPosePrior(map_T_keyframe * keyframe_T_body, information) says the same.
+   * The newest body as seen from the body at `reference`, an older state that is still there (else
+   * std::invalid_argument).
    */
   void addRelativePose(Timestamp reference, const Rigid& reference_T_body, const Matrix6d& information);
+
+  /** Keeps the newest state beyond the window, in place of the anchor before it. */
+  void anchorNewest();
+
+  const NavState& anchor() const { return states_[indexOf(anchor_)]; }
+  bool hasAnchor() const { return anchor_ != Timestamp::min(); }
 
   /** The newest state after all states were adjusted. Never throws, never NaN: report() tells how it went. */
   NavState optimise();
@@ -79,6 +86,9 @@ class FixedLagSmoother
 
   /** Of the newest state given everything before it, at the present values. */
   Matrix15d newestCovariance() const;
+
+  /** Of the newest body as seen from the anchor's, or from the map without an anchor; tangent of boxPlus at it. */
+  Matrix6d newestBodyCovariance() const;
 
   const SmootherReport& report() const { return report_; }
 
@@ -91,7 +101,7 @@ class FixedLagSmoother
     Matrix6d information;
   };
 
-  void forgetOldest();
+  void forget(std::size_t index);
   void add(const LidarPose&);
   std::vector<Factor> factors() const;
   std::vector<StateBlocks> blocks() const;
@@ -100,10 +110,11 @@ class FixedLagSmoother
   Rigid body_T_imu_;
   ImuNoise noise_;
   SmootherOptions options_;
-  std::deque<NavState> states_;         // oldest first, never empty
-  std::deque<Preintegration> motions_;  // motions_[k] leads from states_[k] to states_[k + 1]
-  std::vector<LidarPose> lidar_poses_;  // of states in the window
-  MarginalPrior prior_;                 // of states in the window, the oldest among them
+  Timestamp anchor_ = Timestamp::min();  // of a state, or none
+  std::deque<NavState> states_;          // oldest first, never empty
+  std::deque<Preintegration> motions_;   // between neighbours, but for those that a forgotten state lay between
+  std::vector<LidarPose> lidar_poses_;   // of states in the window
+  MarginalPrior prior_;                  // of states that are still there, the oldest among them
   SmootherReport report_;
 };
 }  // namespace scanloom

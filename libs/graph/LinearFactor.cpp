@@ -1,5 +1,6 @@
 #include "graph/LinearFactor.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -127,21 +128,27 @@ LinearFactor eliminate(const std::vector<LinearFactor>& factors, std::size_t sta
   return {others, left.leftCols(left.cols() - 1), left.col(left.cols() - 1)};
 }
 
-Matrix15d marginalCovarianceOfLast(std::vector<LinearFactor> factors, std::size_t states)
+Eigen::MatrixXd marginalCovariance(const std::vector<LinearFactor>& factors, const std::vector<std::size_t>& kept)
 {
-  for (std::size_t state = 0; state + 1 < states; ++state)
-  {
-    const auto touching =
-        std::stable_partition(factors.begin(), factors.end(), [&](const LinearFactor& f) { return !f.touches(state); });
-    const std::vector<LinearFactor> leaving(std::make_move_iterator(touching), std::make_move_iterator(factors.end()));
-    factors.erase(touching, factors.end());
-    factors.push_back(eliminate(leaving, state));
-  }
+  const std::vector<std::size_t> states = statesOf(factors);
+  const auto columnOf = [&](std::size_t state)
+  { return columnsOf(static_cast<std::size_t>(std::lower_bound(states.begin(), states.end(), state) - states.begin())); };
 
-  const Eigen::MatrixXd equations = stacked(factors, {states - 1});
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(equations.leftCols<kStateSize>());
-  const Matrix15d upper = qr.matrixQR().topRows<kStateSize>().triangularView<Eigen::Upper>();
-  const Matrix15d inverse = upper.triangularView<Eigen::Upper>().solve(Matrix15d::Identity());
-  return inverse * inverse.transpose();
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(columnsOf(states.size()), columnsOf(states.size()));
+  for (const LinearFactor& f : factors)
+    for (std::size_t i = 0; i < f.states.size(); ++i)
+      for (std::size_t j = 0; j < f.states.size(); ++j)
+        information.block<kStateSize, kStateSize>(columnOf(f.states[i]), columnOf(f.states[j])).noalias() +=
+            f.jacobian.middleCols<kStateSize>(columnsOf(i)).transpose() *
+            f.jacobian.middleCols<kStateSize>(columnsOf(j));
+
+  // Of unit diagonal, so that metres beside radians per second cost no digits.
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> solver(scale.asDiagonal() * information * scale.asDiagonal());
+  Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(information.rows(), columnsOf(kept.size()));
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    wanted.block<kStateSize, kStateSize>(columnOf(kept[k]), columnsOf(k)).setIdentity();
+  const Eigen::MatrixXd half = solver.matrixL().solve(scale.asDiagonal() * wanted);
+  return half.transpose() * half;
 }
 }  // namespace scanloom

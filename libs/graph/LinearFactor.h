@@ -41,6 +41,6 @@ LinearFactor linearise(const Factor&, std::vector<StateBlocks>& window);
  */
 LinearFactor eliminate(const std::vector<LinearFactor>&, std::size_t state);
 
-/** Covariance of the last of `states` states given all the factors, which must determine it. */
-Matrix15d marginalCovarianceOfLast(std::vector<LinearFactor>, std::size_t states);
+/** Joint covariance of the states `kept`, in their order, given all the factors, which must determine them. */
+Eigen::MatrixXd marginalCovariance(const std::vector<LinearFactor>&, const std::vector<std::size_t>& kept);
 }  // namespace scanloom

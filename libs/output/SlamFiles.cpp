@@ -55,7 +55,8 @@ SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<Reco
     octomap_(octomap, originsOf(lidars)),
     picture_(MapPictureOptions{})
 {
-  csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete\n";
+  csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
+                   "surprise,trusted,recovered\n";
 }
 
 void SlamFiles::add(const StateEstimate& e)
@@ -66,9 +67,9 @@ void SlamFiles::add(const StateEstimate& e)
 
   const RegistrationResult none;
   const RegistrationResult& r = e.registration ? *e.registration : none;
-  fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d}\n", nanoseconds(e.stamp), toString(e.health),
-             e.registration ? toString(r.outcome) : "none", r.overlap, r.score, r.iterations, e.points,
-             e.keyframe.has_value(), e.scan_complete, e.imu_complete);
+  fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d}\n", nanoseconds(e.stamp),
+             toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap, r.score, r.iterations,
+             e.points, e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise, e.trusted, e.recovered);
   if (e.keyframe) addKeyframe(*e.keyframe);
 }
 

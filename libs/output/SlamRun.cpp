@@ -104,6 +104,8 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
   summary.counts["poses_degenerate"] = health.degenerate;
   summary.counts["poses_lost"] = health.lost;
   summary.counts["keyframes"] = health.keyframes;
+  summary.counts["recoveries"] = slam.recoveries();
+  summary.counts["map_restarts"] = slam.mapRestarts();
   summary.counts["imu_samples_refused"] = slam.refusedImuSamples();
   summary.stages = slam.times().stages();
   for (const auto& [stage, time] : times.stages()) summary.stages[stage] = time;

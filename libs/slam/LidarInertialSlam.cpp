@@ -1,6 +1,8 @@
 #include "slam/LidarInertialSlam.h"
 
+#include "ndt/Rivals.h"
 #include "preprocessing/Deskew.h"
+#include "slam/ScanRegistration.h"
 
 #include <algorithm>
 
@@ -107,23 +109,19 @@ StateEstimate LidarInertialSlam::track(Scan scan)
   const std::vector<ImuSample> samples = imu_.between(before.stamp, scan.end());
   smoother_->addState(
       times_.measure("preintegration", [&] { return preintegrate(samples, before.bias, settings_.imu); }));
-  const NavState predicted = smoother_->newest();
 
   const PointCloud cloud =
       times_.measure("preprocessing", [&] { return preprocess(std::move(scan), before, samples); });
   estimate.points = cloud.size();
-  estimate.registration = registerToMap(cloud, bodyAt(predicted));
-  if (estimate.registration && estimate.registration->outcome != Outcome::LowOverlap)
-    smoother_->addPosePrior(estimate.registration->target_T_source, estimate.registration->information);
+  locate(cloud, estimate);
   const NavState state = times_.measure("smoother", [&] { return smoother_->optimise(); });
 
   estimate.map_T_body = bodyAt(state);
   estimate.velocity = state.velocity;
-  estimate.health = healthOf(estimate);
   estimate.since_last = posesBetween(before, state, samples);
-  const bool placed =
-      local_map_.empty() || (estimate.registration && estimate.registration->outcome != Outcome::LowOverlap);
-  if (placed && estimate.health != Health::Lost && local_map_.wants(estimate.map_T_body)) addKeyframe(cloud, estimate);
+  estimate.health = healthOf(estimate);
+  if (estimate.health == Health::Lost && recover(cloud, estimate)) estimate.health = healthOf(estimate);
+  updateMap(cloud, estimate);
   imu_.forgetBefore(state.stamp);
   return estimate;
 }
@@ -142,43 +140,137 @@ PointCloud LidarInertialSlam::preprocess(Scan scan, const NavState& before, cons
   return deskew(cropOut(std::move(scan), settings_.crop), end_T_column);
 }
 
-/** Roughly from the prediction, then finely from there. */
-std::optional<RegistrationResult> LidarInertialSlam::registerToMap(const PointCloud& cloud, const Rigid& predicted)
+/**
+ * Registers the scan, and hands the result to the smoother, whose robust loss follows one that contradicts the IMU only
+ * slowly. Such a one is not trusted.
+ */
+void LidarInertialSlam::locate(const PointCloud& cloud, StateEstimate& estimate)
 {
-  if (local_map_.empty() || cloud.empty()) return std::nullopt;
-  const NdtMap coarse = times_.measure("scan_ndt", [&] { return NdtMap(cloud, settings_.scan_cells); });
-  RegistrationResult result =
-      times_.measure("rough_alignment", [&] { return align(local_map_.ndt(), coarse, predicted, settings_.rough); });
-  if (!settings_.slam.refine) return result;
-
-  const Rigid guess = result.trustworthy() ? result.target_T_source : predicted;
-  const NdtMap fine = times_.measure("scan_ndt", [&] { return NdtMap(cloud, settings_.fine_cells); });
-  return times_.measure("fine_alignment", [&] { return align(local_map_.ndt(), fine, guess, settings_.fine); });
+  if (local_map_.empty() || cloud.empty()) return;
+  const PoseGuess guess(map_T_local().inverse() * bodyAt(smoother_->newest()),
+                        times_.measure("smoother", [&] { return smoother_->newestBodyCovariance(); }));
+  estimate.registration = registerScan(local_map_.ndt(), cloud, guess, settings_, times_);
+  const RegistrationResult& registration = *estimate.registration;
+  if (registration.outcome == Outcome::LowOverlap) return;
+  const PoseGuess either(guess.target_T_source, *guess.covariance + registration.covariance);
+  estimate.surprise = std::sqrt(surprise(either, registration.target_T_source));
+  estimate.trusted =
+      registration.trustworthy() && (settings_.slam.gate == 0 || estimate.surprise <= settings_.slam.gate);
+  addToSmoother(registration);
 }
 
-/** Aligned again with finer cells, then added to the local map. */
-void LidarInertialSlam::addKeyframe(const PointCloud& cloud, StateEstimate& estimate)
+/**
+ * Cells that lie wrong, leaves seen from one side and occlusions are the same from scan to scan until the machine has
+ * moved: as independent measurements they would outvote the IMU by their number.
+ */
+void LidarInertialSlam::addToSmoother(const RegistrationResult& registration)
+{
+  constexpr double kLeastTravel = 0.02;  // m: at rest many scans count as one, but not as none
+  const Rigid& local_T_body = registration.target_T_source;
+  const double travel = last_registered_ ? (local_T_body.translation - last_registered_->translation).norm() : 0;
+  const double alike = std::max(1.0, settings_.slam.correlation / std::max(travel, kLeastTravel));
+  last_registered_ = local_T_body;
+  const Matrix6d information = registration.information / alike;
+  if (smoother_->hasAnchor())
+    smoother_->addRelativePose(smoother_->anchor().stamp, local_T_anchor_.inverse() * local_T_body, information);
+  else
+    smoother_->addPosePrior(local_T_body, information);
+}
+
+Rigid LidarInertialSlam::map_T_local() const
+{
+  if (!smoother_->hasAnchor()) return Rigid::identity();
+  return bodyAt(smoother_->anchor()) * local_T_anchor_.inverse();
+}
+
+/** Once a second: looks for the body all around where the IMU carried it. What is found there alone outweighs the IMU.
+ */
+bool LidarInertialSlam::recover(const PointCloud& cloud, StateEstimate& estimate)
+{
+  constexpr Duration kPatience = 1s;
+  if (local_map_.empty() || cloud.empty()) return false;
+  if (tried_to_recover_ && estimate.stamp - *tried_to_recover_ < kPatience) return false;
+  tried_to_recover_ = estimate.stamp;
+
+  const Rigid map_T_local = this->map_T_local();
+  const PoseGuess guess(map_T_local.inverse() * estimate.map_T_body, smoother_->newestBodyCovariance());
+  const auto found = times_.measure("recovery", [&] { return relocalise(local_map_.ndt(), cloud, guess, settings_); });
+  if (!found) return false;
+  estimate.registration = found;
+  estimate.map_T_body = map_T_local * found->target_T_source;
+  estimate.trusted = estimate.recovered = true;
+  ++recoveries_;
+  restartAt(estimate.map_T_body, found->covariance);
+  return true;
+}
+
+/** A new window from here. The local map's frame becomes the map's: what gravity had turned it by is in the pose. */
+void LidarInertialSlam::restartAt(const Rigid& map_T_body, const Matrix6d& covariance)
+{
+  constexpr double kVelocity = 1;  // m/s: found, but not how fast it goes
+  const Rigid map_T_local = this->map_T_local();
+  NavState state = smoother_->newest();
+  Matrix15d around = smoother_->newestCovariance();
+  around.topRows<9>().setZero();
+  around.leftCols<9>().setZero();
+  around.topLeftCorner<6, 6>() = covariance;
+  around.diagonal().segment<3>(6).setConstant(kVelocity * kVelocity);
+  state.map_T_imu = map_T_body * body_T_imu_;
+  state.velocity.setZero();
+  smoother_.emplace(state, around, body_T_imu_, settings_.imu, settings_.smoother);
+  last_registered_.reset();
+  if (settings_.slam.relative)
+  {
+    smoother_->anchorNewest();
+    local_T_anchor_ = map_T_local.inverse() * map_T_body;
+  }
+}
+
+void LidarInertialSlam::updateMap(const PointCloud& cloud, StateEstimate& estimate)
 {
   if (cloud.empty()) return;
+  const bool lost_for_good =
+      estimate.health == Health::Lost &&
+      estimate.stamp - last_trusted_ > fromSeconds(settings_.slam.lost_after + settings_.slam.restart_after);
+  if (lost_for_good && !local_map_.empty())
+  {
+    ++map_restarts_;
+    local_map_.clear();
+    last_trusted_ = estimate.stamp;
+  }
+  const bool trusted = estimate.trusted && estimate.registration->outcome == Outcome::Converged;
+  if (local_map_.empty() || (trusted && local_map_.wants(map_T_local().inverse() * estimate.map_T_body)))
+    addKeyframe(cloud, estimate);
+}
+
+/** Aligned again with finer cells, as far as the estimate leaves it open, then added to the local map. */
+void LidarInertialSlam::addKeyframe(const PointCloud& cloud, StateEstimate& estimate)
+{
   times_.measure("keyframe",
                  [&]
                  {
-                   Rigid map_T_body = estimate.map_T_body;
+                   const Rigid map_T_local = this->map_T_local();
+                   const Rigid estimated = map_T_local.inverse() * estimate.map_T_body;
+                   Rigid local_T_body = estimated;
                    if (!local_map_.empty())
                    {
                      const NdtMap source(cloud, settings_.keyframe_cells);
-                     const RegistrationResult fine = align(local_map_.ndt(), source, map_T_body, settings_.fine);
-                     if (fine.trustworthy()) map_T_body = fine.target_T_source;
+                     const PoseGuess guess(estimated, smoother_->newestBodyCovariance());
+                     const RegistrationResult fine = align(local_map_.ndt(), source, guess, settings_.fine);
+                     if (fine.trustworthy()) local_T_body = fine.target_T_source;
                    }
-                   local_map_.add(cloud, map_T_body);
-                   estimate.keyframe = Keyframe{estimate.stamp, map_T_body, cloud};
+                   local_map_.add(cloud, local_T_body);
+                   estimate.keyframe = Keyframe{estimate.stamp, map_T_local * local_T_body, cloud};
+                   if (!settings_.slam.relative || smoother_->hasAnchor()) return;
+                   smoother_->anchorNewest();
+                   local_T_anchor_ = estimated;
                  });
 }
 
 Health LidarInertialSlam::healthOf(const StateEstimate& estimate)
 {
   const bool opens_the_map = local_map_.empty() && estimate.points > 0;
-  const bool trusted = opens_the_map || (estimate.registration && estimate.registration->trustworthy());
+  const bool trusted = opens_the_map || estimate.trusted;
   if (trusted) last_trusted_ = estimate.stamp;
   if (estimate.stamp - last_trusted_ > fromSeconds(settings_.slam.lost_after)) return Health::Lost;
   if (initialising_until_ && estimate.stamp <= *initialising_until_) return Health::Initialising;

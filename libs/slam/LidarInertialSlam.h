@@ -38,6 +38,8 @@ class LidarInertialSlam
   const StageTimes& times() const { return times_; }
   std::uint64_t refusedImuSamples() const { return refused_imu_samples_; }
   std::uint64_t skippedScans() const { return skipped_scans_; }
+  std::uint64_t recoveries() const { return recoveries_; }
+  std::uint64_t mapRestarts() const { return map_restarts_; }
 
  private:
   std::vector<StateEstimate> processWaiting(bool input_ended);
@@ -47,9 +49,14 @@ class LidarInertialSlam
   bool covered(const Scan&) const;
   StateEstimate track(Scan);
   PointCloud preprocess(Scan, const NavState& at_end, const std::vector<ImuSample>&) const;
-  std::optional<RegistrationResult> registerToMap(const PointCloud&, const Rigid& predicted);
+  void locate(const PointCloud&, StateEstimate&);
+  void addToSmoother(const RegistrationResult&);
+  bool recover(const PointCloud&, StateEstimate&);
+  void restartAt(const Rigid& map_T_body, const Matrix6d& covariance);
+  void updateMap(const PointCloud&, StateEstimate&);
   void addKeyframe(const PointCloud&, StateEstimate&);
   Health healthOf(const StateEstimate&);
+  Rigid map_T_local() const;
   Trajectory posesBetween(const NavState& from, const NavState& to, const std::vector<ImuSample>&) const;
   Rigid bodyAt(const NavState&) const;
 
@@ -57,9 +64,12 @@ class LidarInertialSlam
   Rigid body_T_imu_, imu_T_body_;
   ImuBuffer imu_;
   std::deque<Scan> waiting_;
-  std::uint64_t scans_seen_ = 0, skipped_scans_ = 0, refused_imu_samples_ = 0;
+  std::uint64_t scans_seen_ = 0, skipped_scans_ = 0, refused_imu_samples_ = 0, recoveries_ = 0, map_restarts_ = 0;
   std::optional<FixedLagSmoother> smoother_;  // none before the start
-  LocalMap local_map_;
+  LocalMap local_map_;                        // rigid, in a frame of its own
+  Rigid local_T_anchor_;                      // where the smoother's anchor, the first keyframe's state, is in it
+  std::optional<Rigid> last_registered_;      // in the local map
+  std::optional<Timestamp> tried_to_recover_;
   std::optional<Timestamp> initialising_until_;
   Timestamp last_trusted_;
   StageTimes times_;

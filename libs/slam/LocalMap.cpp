@@ -26,6 +26,12 @@ bool LocalMap::wants(const Rigid& map_T_body) const
          travel.tail<3>().norm() >= options_.keyframe_turn_deg * M_PI / 180;
 }
 
+void LocalMap::clear()
+{
+  keyframes_.clear();
+  ndt_ = NdtMap(ndt_.options());
+}
+
 void LocalMap::add(const PointCloud& points_in_body, const Rigid& map_T_body)
 {
   keyframes_.push_back({map_T_body, NdtMap(movedBy(map_T_body, points_in_body), ndt_.options())});

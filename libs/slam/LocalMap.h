@@ -34,6 +34,9 @@ class LocalMap
   /** Whether a body there is far enough from the newest keyframe; true while there is none. */
   bool wants(const Rigid& map_T_body) const;
 
+  /** Forgets all keyframes. */
+  void clear();
+
   /** Adds a keyframe, its points in the body frame, and forgets the oldest past the limit. */
   void add(const PointCloud& points_in_body, const Rigid& map_T_body);
 

@@ -19,6 +19,10 @@ struct SlamOptions
   double imu_wait_ms = 50;
   double lost_after = 2.0;
   bool refine = true;
+  bool relative = true;
+  double correlation = 2.0;
+  double gate = 10.0;
+  double restart_after = 10.0;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -30,6 +34,15 @@ struct SlamOptions
               "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first lidar's"});
     visit(o.imu_wait_ms, Field{"imu_wait_ms", "ms", "how long a scan waits for the IMU to cover its end", atLeast(0)});
     visit(o.refine, Field{"refine", "", "align every scan again with [fine_cells] after the rough alignment"});
+    visit(o.relative, Field{"relative", "",
+                            "a registration measures from the first keyframe, whose attitude gravity may still turn; "
+                            "false: from the map, as the paper does"});
+    visit(o.correlation, Field{"correlation", "m",
+                               "registrations err together over so much travel: so many count as one", atLeast(0)});
+    visit(o.gate, Field{"gate", "sigma", "a registration farther from what the IMU predicts is not trusted; 0: all are",
+                        atLeast(0)});
+    visit(o.restart_after,
+          Field{"restart_after", "s", "LOST for so long, a new local map begins where the IMU says", atLeast(0)});
     visit(o.lost_after,
           Field{"lost_after", "s", "without a trustworthy registration for so long the state is LOST", above(0)});
   }

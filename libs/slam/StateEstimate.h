@@ -28,6 +28,9 @@ struct StateEstimate
   bool imu_complete = true;  // false: the IMU did not cover the scan in time, its last reading was held
   std::size_t points = 0;    // after the crop
   std::optional<RegistrationResult> registration;  // none for the first scan, or one without points
+  double surprise = 0;                             // sigma, of the registration against what the IMU predicted
+  bool trusted = false;                            // the registration, by its outcome and by that
+  bool recovered = false;                          // found again: the pose does not continue the last one
   std::optional<Keyframe> keyframe;
   Trajectory since_last;  // body poses at the IMU's stamps, after the previous estimate up to this one
 };

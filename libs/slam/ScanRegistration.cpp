@@ -1,0 +1,115 @@
+#include "slam/ScanRegistration.h"
+
+#include "ndt/LidarInformation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::array kFactors{8, 4, 2, 1};  // of the map's cells, coarse ones first
+
+// Times the scan's cells: from further away the score of those draws nowhere, or to the wrong stem.
+constexpr double kReachOfCells = 0.3;
+
+/** Of both, so that a search from many places makes them once. */
+class Pyramid
+{
+ public:
+  Pyramid(const NdtMap& map, const PointCloud& cloud, const NdtOptions& cells)
+  {
+    std::vector<double> sizes;
+    for (const int factor : kFactors)
+    {
+      targets_.push_back(map.coarser(factor));
+      sizes.push_back(factor * map.options().cell_size);
+    }
+    sources_ = ndtLevels(positionsOf(cloud), sizes, cells);
+  }
+
+  RegistrationResult align(const PoseGuess& guess, const RegistrationOptions& options) const
+  {
+    return alignCoarseToFine(pairLevels(targets_, sources_), guess, options);
+  }
+
+ private:
+  static std::vector<Eigen::Vector3f> positionsOf(const PointCloud& cloud)
+  {
+    std::vector<Eigen::Vector3f> positions;
+    positions.reserve(cloud.size());
+    for (std::size_t i = 0; i < cloud.size(); ++i) positions.push_back(cloud.position(i));
+    return positions;
+  }
+
+  std::vector<NdtMap> targets_, sources_;
+};
+
+bool isFarFrom(const Rigid& pose, const Rigid& other)
+{
+  constexpr double kMetres = 1, kRadians = 0.1;
+  const Vector6d way = boxMinus(pose, other);
+  return way.head<3>().norm() > kMetres || way.tail<3>().norm() > kRadians;
+}
+
+/** Where to begin, the guess first. */
+std::vector<Rigid> startsAround(const PoseGuess& guess)
+{
+  constexpr double kStep = 3, kFarthest = 10;  // m: a start finds what is within 2 m of it
+  constexpr int kHeadings = 8;                 // all around: what is within 25 deg of one is found
+  const double sigma = guess.covariance ? std::sqrt(guess.covariance->topLeftCorner<2, 2>().trace()) : kFarthest;
+  const double turn = guess.covariance ? std::sqrt((*guess.covariance)(5, 5)) : M_PI;
+  const int reach = static_cast<int>(std::ceil(std::min(kFarthest, 3 * sigma) / kStep));
+  const int headings = 3 * turn > M_PI / kHeadings ? kHeadings : 1;
+  std::vector<Rigid> starts{guess.target_T_source};
+  for (int heading = 0; heading < headings; ++heading)
+    for (int x = -reach; x <= reach; ++x)
+      for (int y = -reach; y <= reach; ++y)
+        starts.push_back(guess.target_T_source *
+                         Rigid::fromXyzYawPitchRoll(x * kStep, y * kStep, 0, 2 * M_PI * heading / kHeadings, 0, 0));
+  return starts;
+}
+}  // namespace
+
+RegistrationResult registerScan(const NdtMap& map, const PointCloud& cloud, const PoseGuess& guess,
+                                const SlamSettings& settings, StageTimes& times)
+{
+  const bool unsure =
+      guess.covariance && 3 * largestDeviation(*guess.covariance) > kReachOfCells * settings.scan_cells.cell_size;
+  const RegistrationResult rough = [&]
+  {
+    if (unsure)
+      return times.measure("rough_alignment",
+                           [&] { return Pyramid(map, cloud, settings.fine_cells).align(guess, settings.rough); });
+    const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(cloud, settings.scan_cells); });
+    return times.measure("rough_alignment", [&] { return align(map, scan, guess.target_T_source, settings.rough); });
+  }();
+  if (!settings.slam.refine) return rough;
+
+  const Rigid& start = rough.trustworthy() ? rough.target_T_source : guess.target_T_source;
+  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(cloud, settings.fine_cells); });
+  return times.measure("fine_alignment", [&] { return align(map, scan, start, settings.fine); });
+}
+
+std::optional<RegistrationResult> relocalise(const NdtMap& map, const PointCloud& cloud, const PoseGuess& guess,
+                                             const SlamSettings& settings)
+{
+  constexpr double kRivals = 0.8;  // of the best score, at another place: no telling which
+  constexpr double kGoodOverlap = 0.5;
+  const Pyramid pyramid(map, cloud, settings.fine_cells);
+  std::vector<RegistrationResult> found;
+  for (const Rigid& start : startsAround(guess))
+  {
+    RegistrationResult result = pyramid.align(start, settings.fine);
+    if (result.trustworthy() && result.overlap >= kGoodOverlap) found.push_back(std::move(result));
+  }
+  if (found.empty()) return std::nullopt;
+  const auto best = std::min_element(found.begin(), found.end(), [](auto& a, auto& b) { return a.score < b.score; });
+  const auto isRival = [&](const RegistrationResult& other)
+  { return other.score < kRivals * best->score && isFarFrom(other.target_T_source, best->target_T_source); };
+  if (std::any_of(found.begin(), found.end(), isRival)) return std::nullopt;
+  return *best;
+}
+}  // namespace scanloom

@@ -1,0 +1,26 @@
+/** A scan's pose in the local map. */
+#pragma once
+#include "core/PointCloud.h"
+#include "core/StageTimes.h"
+#include "slam/SlamSettings.h"
+
+#include <optional>
+
+namespace scanloom
+{
+/**
+ * Roughly from the guess, then finely from there (paper, section 2.2); through coarser cells first where the guess may
+ * be off by more than those of [scan_cells] reach. What the result says is the lidar's alone: a guess that is surer
+ * than that chooses where to begin and nothing else.
+ */
+RegistrationResult registerScan(const NdtMap& map, const PointCloud& cloud_in_body, const PoseGuess& map_T_body,
+                                const SlamSettings&, StageTimes&);
+
+/**
+ * For a body that may be anywhere near the guess: from positions on a grid out to three deviations (10 m at the most)
+ *, and headings all
+ * around if those are unsure. Nothing if no pose is trustworthy, or if another one far from the best is nearly as good.
+ */
+std::optional<RegistrationResult> relocalise(const NdtMap& map, const PointCloud& cloud_in_body,
+                                             const PoseGuess& map_T_body, const SlamSettings&);
+}  // namespace scanloom
