@@ -1,6 +1,7 @@
 #include "ExperimentRun.h"
 
 #include "ExitCode.h"
+#include "Interruption.h"
 #include "config/AtomicFile.h"
 #include "evaluation/Evaluation.h"
 #include "output/Trajectory.h"
@@ -172,17 +173,23 @@ RunRecord execute(RunRecord record, const ExperimentFolder& folder)
   try
   {
     runAndEvaluate(record, folder, out);
-    writeAtomically(out / kRecord, [&](std::ostream& file) { file << nlohmann::json(record).dump(2) << '\n'; });
   }
   catch (const std::exception& e)
   {
     record.outcome = "FAILED";
     record.error = e.what();
   }
+  if (interrupted()) return record;
+  writeAtomically(out / kRecord, [&](std::ostream& file) { file << nlohmann::json(record).dump(2) << '\n'; });
   return record;
 }
 
-std::optional<RunRecord> finishedBefore(const RunRecord& planned, const ExperimentFolder& folder)
+void removeRecord(const RunRecord& planned, const ExperimentFolder& folder)
+{
+  std::filesystem::remove(folder.of(planned) / kRecord);
+}
+
+std::optional<RunRecord> recordOf(const RunRecord& planned, const ExperimentFolder& folder)
 {
   const auto path = folder.of(planned) / kRecord;
   if (!std::filesystem::exists(path)) return std::nullopt;

@@ -23,11 +23,13 @@ struct ExperimentFolder
 Command slamCommand(const PlannedRun&, const ExperimentFolder&, const std::filesystem::path& out);
 
 /**
- * Simulates the truth, runs slam in a process of its own, evaluates, and writes record.json. What goes wrong is in the
- * record: it does not throw.
+ * Simulates the truth, runs slam in a process of its own, evaluates, and writes record.json, unless it was interrupted.
+ * What goes wrong is in the record; std::runtime_error is thrown only if that cannot be written.
  */
 RunRecord execute(RunRecord planned, const ExperimentFolder&);
 
-/** Of an earlier execution with the same hash that did not fail. */
-std::optional<RunRecord> finishedBefore(const RunRecord& planned, const ExperimentFolder&);
+/** What the latest execution with the same hash left; nothing if there was none, or if it was interrupted. */
+std::optional<RunRecord> recordOf(const RunRecord& planned, const ExperimentFolder&);
+
+void removeRecord(const RunRecord& planned, const ExperimentFolder&);
 }  // namespace scanloom

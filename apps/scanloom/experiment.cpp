@@ -1,24 +1,19 @@
 /** `scanloom experiment`: a sweep over stands, lidars, N, seeds and any parameter, a process per run. */
 #include "Arguments.h"
-#include "ExperimentRun.h"
 #include "Interruption.h"
 #include "Progress.h"
 #include "Settings.h"
+#include "Sweep.h"
 #include "Verb.h"
 #include "config/AtomicFile.h"
 #include "simulation/RecordingOptions.h"
-#include "study/Study.h"
 
 #include <fmt/format.h>
-#include <sched.h>
 
 #include <algorithm>
-#include <atomic>
 #include <iostream>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <thread>
 
 namespace scanloom
 {
@@ -30,6 +25,8 @@ struct ExperimentArguments
   OutputFolderArguments output;
   int jobs = 0;
   bool resume = false;
+  std::string engine = "local";
+  std::size_t only = 0;  // 0: all
 };
 
 constexpr const char* kCsv = "results.csv";
@@ -64,23 +61,15 @@ std::vector<RunRecord> plannedRecords(const ExperimentPlan& plan)
   return records;
 }
 
-std::vector<RunRecord> thoseDone(const Records& results)
-{
-  std::vector<RunRecord> done;
-  for (const auto& record : results)
-    if (record) done.push_back(*record);
-  return done;
-}
-
 /** As one would type it where this one was typed. */
-std::string commandOf(const ExperimentArguments& arguments)
+Command commandOf(const std::string& program, const ExperimentArguments& arguments)
 {
-  Command command{{"scanloom", "experiment"}, {}};
+  Command command{{program, "experiment"}, {}};
   for (const auto& file : arguments.configuration.files) command.words.insert(command.words.end(), {"-c", file});
   for (const std::string& assignment : arguments.configuration.assignments)
     command.words.insert(command.words.end(), {"--set", assignment});
   command.words.insert(command.words.end(), {"--out-dir", arguments.output.folder});
-  return toText(command);
+  return command;
 }
 
 /** Its copy beside the results does not lie where the original's paths are seen from. */
@@ -97,92 +86,6 @@ ExperimentOptions withAbsolutePaths(ExperimentOptions options, const ExperimentP
   options.configurations = absolute(plan.configurations);
   return options;
 }
-
-std::vector<int> ourCores()
-{
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  std::vector<int> cores;
-  if (sched_getaffinity(0, sizeof set, &set) != 0) return cores;
-  for (int core = 0; core < CPU_SETSIZE; ++core)
-    if (CPU_ISSET(core, &set)) cores.push_back(core);
-  return cores;
-}
-
-/** Each job has cores of its own, which its processes inherit: their times stay comparable. */
-void keepToShare(int job, int jobs, const std::vector<int>& cores)
-{
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  for (std::size_t i = static_cast<std::size_t>(job); i < cores.size(); i += static_cast<std::size_t>(jobs))
-    CPU_SET(cores[i], &set);
-  if (CPU_COUNT(&set) > 0) sched_setaffinity(0, sizeof set, &set);
-}
-
-class Sweep
-{
- public:
-  Sweep(const std::vector<RunRecord>& planned, const ExperimentFolder& folder, Study study, Records done)
-    : planned_(planned),
-      folder_(folder),
-      study_(std::move(study)),
-      results_(std::move(done)),
-      progress_("experiment", planned.size(), "runs")
-  {
-  }
-
-  /** What is done, in the order of the plan. */
-  std::vector<RunRecord> run(int jobs)
-  {
-    const std::vector<int> cores = ourCores();
-    std::vector<std::thread> threads;
-    for (int job = 0; job < jobs; ++job)
-      threads.emplace_back(
-          [&, job]
-          {
-            keepToShare(job, jobs, cores);
-            work();
-          });
-    for (std::thread& thread : threads) thread.join();
-    save();
-    return study_.records;
-  }
-
- private:
-  void work()
-  {
-    for (std::size_t i = next_++; i < planned_.size() && !interrupted(); i = next_++)
-    {
-      if (results_[i]) continue;
-      RunRecord record = execute(planned_[i], folder_);
-      if (interrupted()) return;  // half a run is none
-      add(i, std::move(record));
-    }
-  }
-
-  void add(std::size_t i, RunRecord record)
-  {
-    const std::lock_guard lock(mutex_);
-    if (!record.finished()) fmt::print(stderr, "failed: {}: {}\n", folder_.of(record).string(), record.error);
-    results_[i] = std::move(record);
-    save();
-    progress_.update(study_.records.size());
-  }
-
-  void save()
-  {
-    study_.records = thoseDone(results_);
-    writeStudy(folder_.root, study_);
-  }
-
-  const std::vector<RunRecord>& planned_;
-  const ExperimentFolder& folder_;
-  std::atomic<std::size_t> next_ = 0;
-  std::mutex mutex_;  // for what follows
-  Study study_;
-  Records results_;
-  Progress progress_;
-};
 
 double durationOf(const PlannedRun& run)
 {
@@ -209,6 +112,13 @@ double estimate(const std::vector<RunRecord>& planned, const Records& done, int 
       ++left;
     }
   return (count > 0 ? left * spent / count : ahead) / jobs;
+}
+
+std::optional<RunRecord> finishedBefore(const RunRecord& planned, const ExperimentFolder& folder)
+{
+  auto record = recordOf(planned, folder);
+  if (record && !record->finished()) record.reset();
+  return record;
 }
 
 int listRuns(const std::vector<RunRecord>& planned, const Records& done, const ExperimentFolder& folder, int jobs)
@@ -241,17 +151,29 @@ void pointLatestTo(const std::filesystem::path& folder)
   if (!std::filesystem::exists(link)) std::filesystem::create_directory_symlink(target.filename(), link, error);
 }
 
+/** A job of an array: its record is collected by who started the array. */
+int runOne(const std::vector<RunRecord>& planned, const ExperimentFolder& folder, std::size_t number)
+{
+  if (number > planned.size()) throw UsageError(fmt::format("--only {}: there are {} runs", number, planned.size()));
+  catchInterruption();
+  const RunRecord record = execute(planned[number - 1], folder);
+  fmt::print("{}: {} {}\n", record.run.label(), record.outcome, record.error);
+  return record.finished() ? kDone : kSomeFailed;
+}
+
 int run(const ExperimentArguments& arguments)
 {
   auto loaded = load<ExperimentSettings>(arguments.configuration);
   const ExperimentPlan plan = planOf(loaded.settings, loaded.configuration);
   checkSettings(plan);
+  const std::vector<RunRecord> planned = plannedRecords(plan);
+  const ExperimentFolder folder{arguments.output.folder, plan.configurations, loaded.settings.experiment.keep_maps};
+  if (arguments.only > 0) return runOne(planned, folder, arguments.only);
+
   OutputFolderArguments output = arguments.output;
   output.overwrite |= arguments.resume || arguments.configuration.dry_run;
   refuseExisting(output, {kCsv, kJson, kConfigurationName});
 
-  const std::vector<RunRecord> planned = plannedRecords(plan);
-  const ExperimentFolder folder{output.folder, plan.configurations, loaded.settings.experiment.keep_maps};
   Records done(planned.size());
   if (arguments.resume)
     std::transform(planned.begin(), planned.end(), done.begin(),
@@ -264,8 +186,10 @@ int run(const ExperimentArguments& arguments)
   loaded.settings.experiment = withAbsolutePaths(loaded.settings.experiment, plan);
   writeAtomically(output.folder / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
   pointLatestTo(output.folder);
-  const Study study{commandOf(arguments), thisMachine(), {}};
-  const std::vector<RunRecord> records = Sweep(planned, folder, study, std::move(done)).run(jobs);
+  Sweep sweep{planned, std::move(done), folder, {toText(commandOf("scanloom", arguments)), thisMachine(), {}}};
+  const std::vector<RunRecord> records =
+      arguments.engine == "slurm" ? runOnSlurm(std::move(sweep), commandOf(ownExecutable(), arguments), arguments.jobs)
+                                  : runOnCores(std::move(sweep), jobs);
   return report(records, planned.size(), output.folder);
 }
 
@@ -276,6 +200,13 @@ std::function<int()> addOptions(CLI::App& app)
   addOutputFolder(app, arguments->output)->required();
   addJobs(app, arguments->jobs);
   app.add_flag("--resume", arguments->resume, "keeps runs that are done with the same version, files and parameters");
+  app.add_option("--engine", arguments->engine,
+                 "local, or slurm: a job array by sbatch; the folder must be one that its nodes share")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  app.add_option("--only", arguments->only, "the N-th run of the plan alone, without the tables: for job arrays")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
   return [arguments] { return run(*arguments); };
 }
 }  // namespace
