@@ -108,7 +108,7 @@ RunFigures figuresOf(const std::filesystem::path& out, const std::filesystem::pa
     figures.rpe = rpe.metres.rmse;
     figures.rpe_deg = rpe.degrees->rmse;
   }
-  figures.over_distance = e.drift.over_distance;
+  figures.over_distance = e.imu_rate_drift->over_distance;
   return figures;
 }
 

@@ -78,15 +78,6 @@ std::string valueText(const CellSummary& summary)
   return median ? fmt::format("{:.3g}", *median) : "-";
 }
 
-/** What a figure shows, for who cannot see it. */
-std::string alternative(const std::vector<StudyCell>& cells, const Quantity& quantity)
-{
-  std::vector<std::string> parts;
-  for (const StudyCell& cell : cells)
-    parts.push_back(fmt::format("{}, {}: {}", cell.lidars, cell.group, valueText(summaryOf(cell, quantity))));
-  return fmt::format("Medians of {}: {}.", quantity.name, fmt::join(parts, "; "));
-}
-
 std::string alternativeOverDistance(const std::vector<StudyCell>& cells)
 {
   std::vector<std::string> parts;
@@ -106,19 +97,6 @@ std::string figureElement(const std::string& svg, const std::string& alternative
                      escaped(alternative_text), svg, escaped(caption));
 }
 
-std::string figuresOf(const std::string& stand, const std::vector<StudyCell>& cells, const Draw& draw)
-{
-  std::string html = fmt::format("<h2>{}</h2>\n", escaped(stand));
-  for (const Quantity& quantity : drawn())
-    html +=
-        figureElement(draw(barsScript(cells, quantity)), alternative(cells, quantity),
-                      fmt::format("{}, {}: medians as bars, a dot per run; crosses and hatched bars are lost runs and "
-                                  "medians (beyond 10 m or 5 % of the path).",
-                                  stand, quantity.name));
-  return html + figureElement(draw(driftOverDistanceScript(cells)), alternativeOverDistance(cells),
-                              fmt::format("{}, drift over distance: medians of the runs that were not lost.", stand));
-}
-
 std::set<std::string> stagesOf(const std::vector<StudyCell>& cells)
 {
   std::set<std::string> stages;
@@ -127,6 +105,49 @@ std::set<std::string> stagesOf(const std::vector<StudyCell>& cells)
       if (record->costs)
         for (const auto& [stage, ms] : record->costs->stage_ms) stages.insert(stage);
   return stages;
+}
+
+/** A group for each stage of localisation, of the cells that share the first one's N and settings. */
+std::vector<Bar> stageBars(const std::vector<StudyCell>& cells)
+{
+  std::vector<Bar> bars;
+  for (const std::string& stage : stagesOf(cells))
+    for (const StudyCell& cell : cells)
+      if (cell.group == cells.front().group && stage.rfind("output.", 0) != 0)
+        bars.push_back({stage, cell.lidars, summaryOf(cell, millisecondsOf(stage))});
+  return bars;
+}
+
+/** What a figure shows, for who cannot see it. */
+std::string alternative(const std::vector<Bar>& bars, const std::string& what)
+{
+  std::vector<std::string> parts;
+  for (const Bar& bar : bars) parts.push_back(fmt::format("{}, {}: {}", bar.series, bar.group, valueText(bar.summary)));
+  return fmt::format("Medians of {}: {}.", what, fmt::join(parts, "; "));
+}
+
+std::string barsFigure(const std::vector<Bar>& bars, const std::string& axis, const std::string& caption,
+                       const Draw& draw)
+{
+  return figureElement(draw(barsScript(bars, axis)), alternative(bars, axis), caption);
+}
+
+std::string figuresOf(const std::string& stand, const std::vector<StudyCell>& cells, const Draw& draw)
+{
+  std::string html = fmt::format("<h2>{}</h2>\n", escaped(stand));
+  for (const Quantity& quantity : drawn())
+    html += barsFigure(barsOf(cells, quantity), quantity.name,
+                       fmt::format("{}, {}: medians as bars, a dot per run; crosses and hatched bars are lost runs and "
+                                   "medians (beyond 10 m or 5 % of the path).",
+                                   stand, quantity.name),
+                       draw);
+  html += figureElement(
+      draw(driftOverDistanceScript(cells)), alternativeOverDistance(cells),
+      fmt::format("{}, drift over distance at the IMU's rate: medians of the runs that were not lost.", stand));
+  return html + barsFigure(stageBars(cells), "mean [ms]",
+                           fmt::format("{}, {}: milliseconds per stage; medians as bars, a dot per run.", stand,
+                                       cells.front().group),
+                           draw);
 }
 
 std::string table(const std::vector<StudyCell>& cells, const std::vector<Quantity>& columns)

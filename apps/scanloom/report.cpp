@@ -61,7 +61,8 @@ class Scratch
   {
     const auto file = folder_ / "figure.gp", log = folder_ / "log.txt", svg = folder_ / "figure.svg";
     std::ofstream(file) << fmt::format(
-        "set terminal svg size 900,420 dynamic font 'sans-serif,13'\nset output '{}'\n{}", svg.string(), script);
+        "set terminal svg size 900,420 dynamic noenhanced font 'sans-serif,13'\nset output '{}'\n{}", svg.string(),
+        script);
     if (runCommand({{"gnuplot", file}, {}}, log) != 0)
       throw std::runtime_error(fmt::format("gnuplot: {}", contentOf(log)));
     const std::string drawn = contentOf(svg);

@@ -22,7 +22,7 @@ struct RunFigures
   std::optional<double> imu_rate_drift, floor;  // m
   double ape = 0;                               // m, root mean square against the true poses
   std::optional<double> rpe, rpe_deg;           // likewise, over 1 m; nothing on a shorter path
-  std::vector<ErrorAtDistance> over_distance;
+  std::vector<ErrorAtDistance> over_distance;   // at the IMU's rate
 };
 
 struct RunCosts

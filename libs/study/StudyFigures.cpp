@@ -14,17 +14,19 @@ namespace
 constexpr double kBar = 0.8;    // width, of a place on the axis
 constexpr double kRoom = 1.12;  // above the largest value, for what was lost
 constexpr std::size_t kBins = 20;
+constexpr std::size_t kLevelLabels = 6;  // so many fit side by side
 
 /** Okabe and Ito 2008: told apart by every eye. */
 constexpr std::array kColours{"#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"};
 
 std::string colour(std::size_t i) { return kColours[i % kColours.size()]; }
 
-std::vector<std::string> distinct(const std::vector<StudyCell>& cells, std::string StudyCell::*name)
+template <typename Owner>
+std::vector<std::string> distinct(const std::vector<Owner>& owners, std::string Owner::*name)
 {
   std::vector<std::string> names;
-  for (const StudyCell& cell : cells)
-    if (std::find(names.begin(), names.end(), cell.*name) == names.end()) names.push_back(cell.*name);
+  for (const Owner& owner : owners)
+    if (std::find(names.begin(), names.end(), owner.*name) == names.end()) names.push_back(owner.*name);
   return names;
 }
 
@@ -53,11 +55,11 @@ std::string block(const std::string& name, const std::string& rows)
   return fmt::format("${} << EOD\n{}EOD\n", name, rows.empty() ? "NaN NaN\n" : rows);
 }
 
-double topOf(const std::vector<StudyCell>& cells, const Quantity& quantity)
+double topOf(const std::vector<Bar>& bars)
 {
   double largest = 0;
-  for (const StudyCell& cell : cells)
-    for (const double value : summaryOf(cell, quantity).values) largest = std::max(largest, value);
+  for (const Bar& bar : bars)
+    for (const double value : bar.summary.values) largest = std::max(largest, value);
   return largest > 0 ? kRoom * largest : 1;
 }
 
@@ -83,17 +85,23 @@ std::string ticks(const std::vector<std::string>& groups, std::size_t bars)
 }
 }  // namespace
 
-std::string barsScript(const std::vector<StudyCell>& cells, const Quantity& quantity)
+std::vector<Bar> barsOf(const std::vector<StudyCell>& cells, const Quantity& quantity)
 {
-  const auto groups = distinct(cells, &StudyCell::group), series = distinct(cells, &StudyCell::lidars);
-  const double top = topOf(cells, quantity);
+  std::vector<Bar> bars;
+  for (const StudyCell& cell : cells) bars.push_back({cell.group, cell.lidars, summaryOf(cell, quantity)});
+  return bars;
+}
+
+std::string barsScript(const std::vector<Bar>& bars, const std::string& axis)
+{
+  const auto groups = distinct(bars, &Bar::group), series = distinct(bars, &Bar::series);
+  const double top = topOf(bars);
   std::vector<BarBlocks> blocks(series.size());
   bool any_lost = false;
-  for (const StudyCell& cell : cells)
+  for (const auto& [group, name, summary] : bars)
   {
-    const std::size_t s = indexOf(series, cell.lidars), g = indexOf(groups, cell.group);
+    const std::size_t s = indexOf(series, name), g = indexOf(groups, group);
     const auto x = static_cast<double>(g * (series.size() + 1) + s);
-    const CellSummary summary = summaryOf(cell, quantity);
     BarBlocks& b = blocks[s];
     if (const auto median = summary.median()) b.medians += fmt::format("{} {:.6g}\n", x, *median);
     if (summary.medianIsLost()) b.lost_medians += fmt::format("{} {:.6g}\n", x, top);
@@ -117,9 +125,10 @@ std::string barsScript(const std::vector<StudyCell>& cells, const Quantity& quan
   }
   const double width = static_cast<double>(groups.size() * (series.size() + 1));
   script += fmt::format(
-      "set boxwidth {}\nset xrange [-1:{}]\nset yrange [0:{:.6g}]\nset xtics ({}) scale 0\nset ylabel \"{}\"\n"
+      "set boxwidth {}\nset xrange [-1:{}]\nset yrange [0:{:.6g}]\nset xtics ({}) scale 0 rotate by {}\nset ylabel "
+      "\"{}\"\n"
       "set key outside top center horizontal\nset grid ytics\n",
-      kBar, width - 1, top * 1.05, ticks(groups, series.size()), quantity.name);
+      kBar, width - 1, top * 1.05, ticks(groups, series.size()), groups.size() > kLevelLabels ? -25 : 0, axis);
   if (any_lost) script += fmt::format("set label \"lost\" at graph 1.005, first {:.6g}\n", top);
   return script + "plot " + plots + "\n";
 }

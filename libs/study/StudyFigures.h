@@ -7,11 +7,17 @@
 
 namespace scanloom
 {
-/**
- * Of one stand: bars of medians, groups of N (and settings), one bar for each set of lidars, a dot per run. Runs that
- * were lost are crosses above the axis' end, and where the median is lost the bar is hatched up to there.
- */
-std::string barsScript(const std::vector<StudyCell>& of_one_stand, const Quantity&);
+struct Bar
+{
+  std::string group, series;  // where it stands, and its colour
+  CellSummary summary;
+};
+
+/** A group for each N (and settings that vary), a bar for each set of lidars. */
+std::vector<Bar> barsOf(const std::vector<StudyCell>& of_one_stand, const Quantity&);
+
+/** Bars of medians with a dot per run. Lost runs are crosses above all others, a lost median is hatched up to there. */
+std::string barsScript(const std::vector<Bar>&, const std::string& axis);
 
 /** Of one stand: the median error over the distance, a line per cell; runs that were lost or failed are left out. */
 std::string driftOverDistanceScript(const std::vector<StudyCell>& of_one_stand);

@@ -19,7 +19,7 @@ TEST(StudyFigures, barsStandSideBySideInGroupsOfN)
   const std::vector<RunRecord> records{runWithDrift(1, "left", 1), runWithDrift(2, "left,right", 1),
                                        runWithDrift(3, "left", 5), runWithDrift(4, "left,right", 5)};
 
-  const std::string script = barsScript(cellsOf(records), kDrift);
+  const std::string script = barsScript(barsOf(cellsOf(records), kDrift), "drift [m]");
 
   EXPECT_THAT(script, HasSubstr("$median0 << EOD\n0 1\n3 3\nEOD\n"));
   EXPECT_THAT(script, HasSubstr("$median1 << EOD\n1 2\n4 4\nEOD\n"));
@@ -33,7 +33,7 @@ TEST(StudyFigures, lostRunsAreAboveAllOthersAndALostMedianIsHatched)
   const std::vector<RunRecord> records{runWithDrift(5, "left", 1, 1), runWithDrift(50, "left", 1, 2),
                                        runWithDrift(50, "left", 1, 3)};
 
-  const std::string script = barsScript(cellsOf(records), kDrift);
+  const std::string script = barsScript(barsOf(cellsOf(records), kDrift), "drift [m]");
 
   EXPECT_THAT(script, HasSubstr("$median0 << EOD\nNaN NaN\nEOD\n"));
   EXPECT_THAT(script, HasSubstr("$hatched0 << EOD\n0 5.6\nEOD\n"));  // 12 % above the largest that is not lost
