@@ -6,16 +6,19 @@ namespace scanloom
 Verb configVerb();
 Verb doctorVerb();
 Verb evaluateVerb();
+Verb experimentVerb();
 Verb infoVerb();
 Verb recordVerb();
 Verb registerVerb();
+Verb reportVerb();
 Verb simulateVerb();
 Verb slamVerb();
 
 const std::vector<Verb>& verbs()
 {
   static const std::vector<Verb> table{
-      recordVerb(), infoVerb(), doctorVerb(), configVerb(), slamVerb(), evaluateVerb(), registerVerb(), simulateVerb(),
+      recordVerb(),   infoVerb(),     doctorVerb(),   configVerb(),     slamVerb(),
+      evaluateVerb(), registerVerb(), simulateVerb(), experimentVerb(), reportVerb(),
   };
   return table;
 }

@@ -33,6 +33,7 @@ struct SimulateArguments
   double seconds = 0;  // 0: as configured
   int jobs = 0;
   bool udp = false;
+  bool truth = false;
   double delay = 3;  // s before the first packet over UDP
   std::string pictures;
 };
@@ -62,6 +63,14 @@ int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const st
     return kInterrupted;
   }
   writeAtomically(folder / kConfigurationCopy, [&](std::ostream& file) { file << toIni(loaded); });
+  std::cout << folder.string() << '\n';
+  return kDone;
+}
+
+int writeTruthOnly(const Scene& scene, const std::filesystem::path& folder)
+{
+  std::filesystem::create_directories(folder);
+  writeTruth(scene, folder);
   std::cout << folder.string() << '\n';
   return kDone;
 }
@@ -103,8 +112,8 @@ int run(SimulateArguments arguments)
   if (arguments.jobs > 0)
     jobs.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.jobs));
   const Loaded<SimulationSettings> loaded = load<SimulationSettings>(arguments.configuration);
-  std::vector<std::string> names = recordingFileNames(loaded.settings);
-  names.emplace_back(kConfigurationCopy);
+  std::vector<std::string> names = arguments.truth ? truthFileNames() : recordingFileNames(loaded.settings);
+  if (!arguments.truth) names.emplace_back(kConfigurationCopy);
   if (arguments.udp + !arguments.output.folder.empty() + !arguments.pictures.empty() != 1)
     throw UsageError("one of --out-dir, for a recording in a folder, --udp, for packets in real time, and --pictures");
   if (!arguments.output.folder.empty()) refuseExisting(arguments.output, names);
@@ -116,6 +125,7 @@ int run(SimulateArguments arguments)
   }
 
   if (!arguments.pictures.empty()) return draw(scene, arguments.pictures);
+  if (arguments.truth) return writeTruthOnly(scene, arguments.output.folder);
   catchInterruption();
   return arguments.udp ? play(scene, arguments.delay) : write(scene, loaded, arguments.output.folder);
 }
@@ -129,7 +139,11 @@ Verb simulateVerb()
           {
             auto arguments = std::make_shared<SimulateArguments>();
             addConfiguration(app, arguments->configuration);
-            addOutputFolder(app, arguments->output);
+            CLI::Option* folder = addOutputFolder(app, arguments->output);
+            app.add_flag("--truth", arguments->truth,
+                         "in the folder, only what evaluates 'slam --simulate': ground truth, total station and "
+                         "extrinsics")
+                ->needs(folder);
             app.add_flag("--udp", arguments->udp,
                          "no folder: sensors of this computer, with web pages, send in real time to 127.0.0.1; their "
                          "section for 'record' is printed first");

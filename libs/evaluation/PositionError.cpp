@@ -1,24 +1,15 @@
 #include "evaluation/PositionError.h"
 
-#include "output/SecondsText.h"
+#include "evaluation/PositionTrack.h"
 #include "output/Trajectory.h"
-
-#include <fmt/format.h>
 
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 namespace scanloom
 {
 namespace
 {
-std::string spanText(const Trajectory& trajectory)
-{
-  if (trajectory.empty()) return "no pose";
-  return fmt::format("{} to {} s", secondsText(trajectory.front().stamp), secondsText(trajectory.back().stamp));
-}
-
 double lengthBetween(const Trajectory& reference, Timestamp from, Timestamp to)
 {
   Eigen::Vector3d last = poseAt(reference, from)->translation;
@@ -60,9 +51,7 @@ PositionError positionErrorFromFirstPose(const Trajectory& estimate, const Traje
       error.largest_at = pose.stamp;
     }
   }
-  if (error.poses == 0)
-    throw std::invalid_argument(fmt::format("the trajectory ({}) and the reference ({}) share no time",
-                                            spanText(estimate), spanText(reference)));
+  if (error.poses == 0) throw shareNoTime(positionsOf(estimate), positionsOf(reference));
   error.root_mean_square = std::sqrt(squares / static_cast<double>(error.poses));
   error.path_length = lengthBetween(reference, first, last);
   return error;

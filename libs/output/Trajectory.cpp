@@ -32,7 +32,7 @@ std::optional<StampedPose> parseTumLine(const std::string& line)
 }
 }  // namespace
 
-std::optional<Rigid> poseAt(const Trajectory& trajectory, Timestamp stamp)
+std::optional<Rigid> poseAt(const Trajectory& trajectory, Timestamp stamp, Duration widest)
 {
   const auto after = std::lower_bound(trajectory.begin(), trajectory.end(), stamp,
                                       [](const StampedPose& pose, Timestamp t) { return pose.stamp < t; });
@@ -41,6 +41,7 @@ std::optional<Rigid> poseAt(const Trajectory& trajectory, Timestamp stamp)
   if (after == trajectory.begin()) return std::nullopt;
 
   const auto before = std::prev(after);
+  if (after->stamp - before->stamp > widest) return std::nullopt;
   const double share = seconds(stamp - before->stamp) / seconds(after->stamp - before->stamp);
   return interpolate(before->map_T_body, after->map_T_body, share);
 }

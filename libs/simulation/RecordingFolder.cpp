@@ -165,10 +165,19 @@ std::string summaryOf(const Scene& scene, const std::vector<PacketCounts>& count
 
 std::vector<std::string> recordingFileNames(const SimulationSettings& settings)
 {
-  std::vector<std::string> names{"recording.pcap", "imu.csv",     "groundtruth.tum", "total_station.csv",
-                                 "extrinsics.txt", "objects.csv", "summary.json"};
+  std::vector<std::string> names = truthFileNames();
+  for (const char* name : {"recording.pcap", "imu.csv", "objects.csv", "summary.json"}) names.emplace_back(name);
   for (const SimulatedLidarOptions& lidar : settings.lidars) names.push_back(lidar.name + ".json");
   return names;
+}
+
+std::vector<std::string> truthFileNames() { return {"groundtruth.tum", "total_station.csv", "extrinsics.txt"}; }
+
+void writeTruth(const Scene& scene, const std::filesystem::path& folder)
+{
+  writeGroundTruth(scene, folder / "groundtruth.tum");
+  writeTotalStation(scene, folder / "total_station.csv");
+  writeExtrinsics(scene, folder / "extrinsics.txt");
 }
 
 void writeRecording(const Scene& scene, const std::filesystem::path& folder,
@@ -177,9 +186,7 @@ void writeRecording(const Scene& scene, const std::filesystem::path& folder,
   const std::vector<PacketCounts> counts = writeCapture(scene, folder / "recording.pcap", progress);
   for (const LidarStation& lidar : scene.lidars) writeText(folder / (lidar.name + ".json"), toJson(lidar.metadata()));
   const TurnOnBias bias = writeImu(scene, folder / "imu.csv");
-  writeGroundTruth(scene, folder / "groundtruth.tum");
-  writeTotalStation(scene, folder / "total_station.csv");
-  writeExtrinsics(scene, folder / "extrinsics.txt");
+  writeTruth(scene, folder);
   writeObjects(scene, folder / "objects.csv");
   writeText(folder / "summary.json", summaryOf(scene, counts, bias));
 }

@@ -21,4 +21,10 @@ std::vector<std::string> recordingFileNames(const SimulationSettings&);
  * std::runtime_error if a file cannot be written; the folder must exist.
  */
 void writeRecording(const Scene&, const std::filesystem::path& folder, const std::function<void(double)>& progress);
+
+/** What writeTruth() writes. */
+std::vector<std::string> truthFileNames();
+
+/** What a trajectory is evaluated by, without the packets: groundtruth.tum, total_station.csv and extrinsics.txt. */
+void writeTruth(const Scene&, const std::filesystem::path& folder);
 }  // namespace scanloom

@@ -93,6 +93,15 @@ TEST(Trajectory, refusesStampsThatGoBack)
   EXPECT_THAT([&] { readTum(folder / "t.tum"); }, ThrowsMessage<std::invalid_argument>(HasSubstr("t.tum:2")));
 }
 
+TEST(Trajectory, hasNoPoseInAGapWiderThanAllowed)
+{
+  const Trajectory trajectory{poseAtX(1000, 0), poseAtX(2000, 4)};
+
+  EXPECT_FALSE(poseAt(trajectory, fromNanoseconds(1500), 999ns));
+  EXPECT_TRUE(poseAt(trajectory, fromNanoseconds(1500), 1000ns));
+  EXPECT_TRUE(poseAt(trajectory, fromNanoseconds(2000), 1ns));
+}
+
 TEST(Trajectory, isInterpolatedBetweenItsPosesAndNotBeyondThem)
 {
   const Trajectory trajectory{poseAtX(1000, 0, 0), poseAtX(2000, 4, 1)};

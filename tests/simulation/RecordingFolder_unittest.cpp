@@ -106,6 +106,22 @@ Surroundings nearestSurface(const World& world, const Eigen::Vector3d& p)
   return nearest;
 }
 
+TEST(RecordingFolder, truthAloneIsThatOfTheRecording)
+{
+  const TemporaryFolder folder;
+  record(folder / "all");
+  std::filesystem::create_directory(folder / "truth");
+
+  writeTruth(makeScene(shortDrive(), 1), folder / "truth");
+
+  for (const char* name : {"groundtruth.tum", "total_station.csv", "extrinsics.txt"})
+  {
+    EXPECT_EQ(contentOf(folder / "truth" / name), contentOf(folder / "all" / name)) << name;
+    std::filesystem::remove(folder / "truth" / name);
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "truth"));
+}
+
 TEST(RecordingFolder, putsDecodedPointsOntoTheSurfacesWithTheNoiseThatWasAskedFor)
 {
   const TemporaryFolder folder;

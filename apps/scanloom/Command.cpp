@@ -1,0 +1,105 @@
+#include "Command.h"
+
+#include "Interruption.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <stdexcept>
+#include <thread>
+
+namespace scanloom
+{
+namespace
+{
+using namespace std::chrono_literals;
+
+std::string quoted(const std::string& word)
+{
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& words)
+{
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/** Of two equal names getenv() finds the first. */
+std::vector<std::string> withOurs(std::vector<std::string> environment)
+{
+  for (char** variable = environ; *variable; ++variable) environment.emplace_back(*variable);
+  return environment;
+}
+
+class Streams
+{
+ public:
+  explicit Streams(const std::filesystem::path& log)
+  {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions_, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    posix_spawn_file_actions_adddup2(&actions_, STDOUT_FILENO, STDERR_FILENO);
+  }
+  Streams(const Streams&) = delete;
+  Streams& operator=(const Streams&) = delete;
+  ~Streams() { posix_spawn_file_actions_destroy(&actions_); }
+
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_{};
+};
+
+/** Polls, because a signal wakes any one of our threads, and each of them may wait for a command. */
+int statusOf(pid_t process)
+{
+  int status = 0;
+  bool told = false;
+  while (::waitpid(process, &status, WNOHANG) == 0)
+  {
+    if (interrupted() && !told)
+    {
+      ::kill(process, SIGTERM);
+      told = true;
+    }
+    std::this_thread::sleep_for(20ms);
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+}  // namespace
+
+std::string toText(const Command& command)
+{
+  std::string text;
+  for (const auto* words : {&command.environment, &command.words})
+    for (const std::string& word : *words) text += (text.empty() ? "" : " ") + quoted(word);
+  return text;
+}
+
+std::filesystem::path ownExecutable() { return std::filesystem::read_symlink("/proc/self/exe"); }
+
+int runCommand(const Command& command, const std::filesystem::path& log)
+{
+  std::vector<std::string> words = command.words, environment = withOurs(command.environment);
+  const Streams streams(log);
+  pid_t process = 0;
+  const int error = ::posix_spawnp(&process, words.front().c_str(), streams.get(), nullptr, pointersTo(words).data(),
+                                   pointersTo(environment).data());
+  if (error != 0) throw std::runtime_error(fmt::format("cannot start {}: {}", words.front(), std::strerror(error)));
+  return statusOf(process);
+}
+}  // namespace scanloom

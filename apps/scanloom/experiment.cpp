@@ -1,0 +1,219 @@
+/** `scanloom experiment`: a sweep over stands, lidars, N, seeds and any parameter, a process per run. */
+#include "Arguments.h"
+#include "Interruption.h"
+#include "Progress.h"
+#include "Settings.h"
+#include "Sweep.h"
+#include "Verb.h"
+#include "config/AtomicFile.h"
+#include "simulation/RecordingOptions.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace scanloom
+{
+namespace
+{
+struct ExperimentArguments
+{
+  ConfigurationArguments configuration;
+  OutputFolderArguments output;
+  int jobs = 0;
+  bool resume = false;
+  std::string engine = "local";
+  std::size_t only = 0;  // 0: all
+};
+
+constexpr const char* kCsv = "results.csv";
+constexpr const char* kJson = "results.json";
+constexpr const char* kConfigurationName = "configuration.ini";
+
+using Records = std::vector<std::optional<RunRecord>>;
+
+/** A name that no verb knows would fail every run. */
+void checkSettings(const ExperimentPlan& plan)
+{
+  const Schema known = knownToAnyVerb();
+  for (const PlannedRun& run : plan.runs)
+  {
+    Configuration configuration;
+    for (const auto& [name, value] : run.settings) configuration.set(name + '=' + value);
+    configuration.refuseUnknown(known);
+  }
+}
+
+std::vector<RunRecord> plannedRecords(const ExperimentPlan& plan)
+{
+  std::vector<RunRecord> records;
+  for (const PlannedRun& run : plan.runs)
+  {
+    RunRecord record;
+    record.run = run;
+    record.version = SCANLOOM_VERSION;
+    record.configuration_hash = configurationHash(run, plan, SCANLOOM_VERSION);
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
+/** As one would type it where this one was typed. */
+Command commandOf(const std::string& program, const ExperimentArguments& arguments)
+{
+  Command command{{program, "experiment"}, {}};
+  for (const auto& file : arguments.configuration.files) command.words.insert(command.words.end(), {"-c", file});
+  for (const std::string& assignment : arguments.configuration.assignments)
+    command.words.insert(command.words.end(), {"--set", assignment});
+  command.words.insert(command.words.end(), {"--out-dir", arguments.output.folder});
+  return command;
+}
+
+/** Its copy beside the results does not lie where the original's paths are seen from. */
+ExperimentOptions withAbsolutePaths(ExperimentOptions options, const ExperimentPlan& plan)
+{
+  const auto absolute = [](const std::vector<std::filesystem::path>& paths)
+  {
+    std::vector<std::string> words;
+    for (const auto& path : paths) words.push_back(std::filesystem::absolute(path).string());
+    return fmt::format("{}", fmt::join(words, " "));
+  };
+  options.simulations = absolute(plan.simulations);
+  options.recordings = absolute(plan.recordings);
+  options.configurations = absolute(plan.configurations);
+  return options;
+}
+
+double durationOf(const PlannedRun& run)
+{
+  constexpr double kAssumed = 60;  // s, of a recording
+  if (run.simulation.empty()) return kAssumed;
+  Configuration configuration = Configuration::fromFiles({run.simulation});
+  for (const auto& [name, value] : run.settings) configuration.set(name + '=' + value);
+  return readSettings<SimulationSettings>(configuration, knownToAnyVerb()).drive.duration;
+}
+
+/** A run takes as long as those before it, or as its drive. */
+double estimate(const std::vector<RunRecord>& planned, const Records& done, int jobs)
+{
+  double spent = 0, count = 0, ahead = 0, left = 0;
+  for (std::size_t i = 0; i < planned.size(); ++i)
+    if (done[i] && done[i]->costs)
+    {
+      spent += done[i]->costs->elapsed;
+      ++count;
+    }
+    else
+    {
+      ahead += durationOf(planned[i].run);
+      ++left;
+    }
+  return (count > 0 ? left * spent / count : ahead) / jobs;
+}
+
+std::optional<RunRecord> finishedBefore(const RunRecord& planned, const ExperimentFolder& folder)
+{
+  auto record = recordOf(planned, folder);
+  if (record && !record->finished()) record.reset();
+  return record;
+}
+
+int listRuns(const std::vector<RunRecord>& planned, const Records& done, const ExperimentFolder& folder, int jobs)
+{
+  for (std::size_t i = 0; i < planned.size(); ++i)
+    fmt::print("{}{}\n", done[i] ? "# done: " : "", toText(slamCommand(planned[i].run, folder, folder.of(planned[i]))));
+  fmt::print("# {} runs, about {} with {} jobs\n", planned.size(), timeText(estimate(planned, done, jobs)), jobs);
+  return kDone;
+}
+
+int report(const std::vector<RunRecord>& records, std::size_t planned, const std::filesystem::path& folder)
+{
+  const auto failed =
+      std::count_if(records.begin(), records.end(), [](const RunRecord& record) { return !record.finished(); });
+  const auto lost =
+      std::count_if(records.begin(), records.end(), [](const RunRecord& record) { return record.lost(); });
+  fmt::print("{} of {} runs, {} failed, {} lost\n{}\n", records.size(), planned, failed, lost,
+             (folder / kCsv).string());
+  if (interrupted()) return kInterrupted;
+  return failed > 0 ? kSomeFailed : kDone;
+}
+
+/** Beside the folder, so that scripts find the newest one. */
+void pointLatestTo(const std::filesystem::path& folder)
+{
+  const auto target = std::filesystem::absolute(folder / "").parent_path();
+  const auto link = target.parent_path() / "latest";
+  std::error_code error;
+  if (std::filesystem::is_symlink(link)) std::filesystem::remove(link, error);
+  if (!std::filesystem::exists(link)) std::filesystem::create_directory_symlink(target.filename(), link, error);
+}
+
+/** A job of an array: its record is collected by who started the array. */
+int runOne(const std::vector<RunRecord>& planned, const ExperimentFolder& folder, std::size_t number)
+{
+  if (number > planned.size()) throw UsageError(fmt::format("--only {}: there are {} runs", number, planned.size()));
+  catchInterruption();
+  const RunRecord record = execute(planned[number - 1], folder);
+  fmt::print("{}: {} {}\n", record.run.label(), record.outcome, record.error);
+  return record.finished() ? kDone : kSomeFailed;
+}
+
+int run(const ExperimentArguments& arguments)
+{
+  auto loaded = load<ExperimentSettings>(arguments.configuration);
+  const ExperimentPlan plan = planOf(loaded.settings, loaded.configuration);
+  checkSettings(plan);
+  const std::vector<RunRecord> planned = plannedRecords(plan);
+  const ExperimentFolder folder{arguments.output.folder, plan.configurations, loaded.settings.experiment.keep_maps};
+  if (arguments.only > 0) return runOne(planned, folder, arguments.only);
+
+  OutputFolderArguments output = arguments.output;
+  output.overwrite |= arguments.resume || arguments.configuration.dry_run;
+  refuseExisting(output, {kCsv, kJson, kConfigurationName});
+
+  Records done(planned.size());
+  if (arguments.resume)
+    std::transform(planned.begin(), planned.end(), done.begin(),
+                   [&](const RunRecord& record) { return finishedBefore(record, folder); });
+  const int jobs = arguments.jobs > 0 ? arguments.jobs : std::max(1, static_cast<int>(ourCores().size()));
+  if (arguments.configuration.dry_run) return listRuns(planned, done, folder, jobs);
+
+  catchInterruption();
+  std::filesystem::create_directories(output.folder);
+  loaded.settings.experiment = withAbsolutePaths(loaded.settings.experiment, plan);
+  writeAtomically(output.folder / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
+  pointLatestTo(output.folder);
+  Sweep sweep{planned, std::move(done), folder, {toText(commandOf("scanloom", arguments)), thisMachine(), {}}};
+  const std::vector<RunRecord> records =
+      arguments.engine == "slurm" ? runOnSlurm(std::move(sweep), commandOf(ownExecutable(), arguments), arguments.jobs)
+                                  : runOnCores(std::move(sweep), jobs);
+  return report(records, planned.size(), output.folder);
+}
+
+std::function<int()> addOptions(CLI::App& app)
+{
+  auto arguments = std::make_shared<ExperimentArguments>();
+  addConfiguration(app, arguments->configuration)->required();
+  addOutputFolder(app, arguments->output)->required();
+  addJobs(app, arguments->jobs);
+  app.add_flag("--resume", arguments->resume, "keeps runs that are done with the same version, files and parameters");
+  app.add_option("--engine", arguments->engine,
+                 "local, or slurm: a job array by sbatch; the folder must be one that its nodes share")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  app.add_option("--only", arguments->only, "the N-th run of the plan alone, without the tables: for job arrays")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  return [arguments] { return run(*arguments); };
+}
+}  // namespace
+
+Verb experimentVerb()
+{
+  return {"experiment", "a sweep of simulated or recorded drives over lidars, N, seeds and parameters",
+          schemaOf<ExperimentSettings>(), &addOptions};
+}
+}  // namespace scanloom

@@ -1,0 +1,73 @@
+#include "evaluation/Alignment.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+struct Moments
+{
+  Eigen::Vector3d map_mean = Eigen::Vector3d::Zero(), reference_mean = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();   // reference by map
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  // of the reference
+};
+
+Moments momentsOf(const std::vector<PositionPair>& pairs)
+{
+  const double share = 1 / static_cast<double>(pairs.size());
+  Moments m;
+  for (const PositionPair& pair : pairs)
+  {
+    m.map_mean += share * pair.map_p;
+    m.reference_mean += share * pair.reference_p;
+  }
+  for (const PositionPair& pair : pairs)
+  {
+    const Eigen::Vector3d reference = pair.reference_p - m.reference_mean;
+    m.cross += share * reference * (pair.map_p - m.map_mean).transpose();
+    m.spread += share * reference * reference.transpose();
+  }
+  return m;
+}
+
+Eigen::Quaterniond yawOf(const Moments& m)
+{
+  const double yaw = std::atan2(m.cross(1, 0) - m.cross(0, 1), m.cross(0, 0) + m.cross(1, 1));
+  return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
+}
+
+/** Umeyama 1991, eq. (40) and (43). */
+Eigen::Quaterniond rotationOf(const Moments& m)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+  return Eigen::Quaterniond(Eigen::Matrix3d(svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose()));
+}
+}  // namespace
+
+Alignment align(const std::vector<PositionPair>& pairs, AlignmentKind kind)
+{
+  if (pairs.empty()) throw std::invalid_argument("align: no pairs of positions");
+  const Moments m = momentsOf(pairs);
+
+  Alignment alignment;
+  alignment.reference_T_map.rotation = kind == AlignmentKind::Yaw ? yawOf(m) : rotationOf(m);
+  alignment.reference_T_map.translation = m.reference_mean - alignment.reference_T_map.rotation * m.map_mean;
+  if (kind == AlignmentKind::Yaw)
+  {
+    alignment.lever = std::sqrt(m.spread(0, 0) + m.spread(1, 1));
+    return alignment;
+  }
+  const Eigen::Vector3d variances =  // ascending
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m.spread, Eigen::EigenvaluesOnly).eigenvalues().cwiseMax(0.0);
+  const double worst = variances(0) + variances(1), best = variances(1) + variances(2);
+  alignment.lever = std::sqrt(worst);
+  alignment.condition = worst > 0 ? best / worst : std::numeric_limits<double>::infinity();
+  return alignment;
+}
+}  // namespace scanloom

@@ -1,0 +1,120 @@
+/** `scanloom experiment` and `scanloom report`, as a person or a script meets them. */
+#include "support/runProgram.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+#include "support/TemporaryFolder.h"
+
+namespace scanloom
+{
+namespace
+{
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Ended scanloom(const std::string& arguments) { return runProgram(SCANLOOM_BIN_DIR "/scanloom " + arguments + " 2>&1"); }
+
+Ended experiment(const TemporaryFolder& folder, const std::string& arguments)
+{
+  return scanloom("experiment -c " SCANLOOM_SOURCE_DIR "/params/experiments/small.ini --out-dir " +
+                  (folder / "sweep").string() + " " + arguments);
+}
+
+/** Of each run what does not depend on the machine. */
+std::vector<std::string> outcomesOf(const TemporaryFolder& folder)
+{
+  std::vector<std::string> outcomes;
+  const auto study = nlohmann::json::parse(contentOf(folder / "sweep/results.json"));
+  for (const auto& run : study.at("runs"))
+  {
+    const auto& figures = run.at("figures");
+    outcomes.push_back(run.at("lidars").get<std::string>() + " " + run.at("outcome").get<std::string>() + " " +
+                       (figures.is_null() ? "" : figures.at("drift_m").dump()));
+  }
+  return outcomes;
+}
+
+TEST(ExperimentVerb, givesTheSameRowsInTheSameOrderWithAnyNumberOfJobs)
+{
+  const TemporaryFolder one, two;
+
+  ASSERT_EQ(experiment(one, "--jobs 1").status, 0);
+  ASSERT_EQ(experiment(two, "--jobs 2").status, 0);
+
+  const std::vector<std::string> outcomes = outcomesOf(one);
+  ASSERT_EQ(outcomes.size(), 2U);
+  EXPECT_THAT(outcomes[0], HasSubstr("left OK 0."));
+  EXPECT_THAT(outcomes[1], HasSubstr("left,right OK 0."));
+  EXPECT_EQ(outcomesOf(two), outcomes);
+}
+
+TEST(ExperimentVerb, keepsWhatIsDoneWhenItResumesAndWritesOverNothingUnasked)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(experiment(folder, "--set experiment.lidars=left").status, 0);
+  EXPECT_EQ(experiment(folder, "").status, 2);
+
+  const std::string results = contentOf(folder / "sweep/results.json");
+  EXPECT_THAT(experiment(folder, "--resume --dry-run").output, HasSubstr("# done: "));
+  ASSERT_EQ(experiment(folder, "--resume --set experiment.lidars=left").status, 0);
+  EXPECT_EQ(contentOf(folder / "sweep/results.json"), results);  // down to the milliseconds
+}
+
+TEST(ExperimentVerb, aFailedRunIsARowAndStatusFour)
+{
+  const TemporaryFolder folder;
+
+  const Ended ended = experiment(folder, "--set 'experiment.lidars=middle left'");
+
+  EXPECT_EQ(ended.status, 4);
+  EXPECT_THAT(outcomesOf(folder), ElementsAre("middle FAILED ", HasSubstr("left OK")));
+  EXPECT_THAT(contentOf(folder / "sweep/results.csv"), HasSubstr("no simulated lidar is called 'middle'"));
+}
+
+TEST(ExperimentVerb, aDryRunListsCommandsAndTimeAndWritesNothing)
+{
+  const TemporaryFolder folder;
+
+  const Ended ended = experiment(folder, "--dry-run --jobs 1 --set experiment.seeds=1:3");
+
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_THAT(ended.output, HasSubstr("--seed 3 --lidars left,right --every-nth 1"));
+  EXPECT_THAT(ended.output, HasSubstr("# 6 runs, about 48 s with 1 jobs"));  // six drives of 8 s
+  EXPECT_FALSE(std::filesystem::exists(folder / "sweep"));
+}
+
+TEST(ExperimentVerb, refusesAParameterThatNoVerbHas)
+{
+  const TemporaryFolder folder;
+
+  const Ended ended = experiment(folder, "--set experiment.axis3_name=octomap.resolutoin");
+
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.output, HasSubstr("did you mean 'resolution'"));
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ReportVerb, isOneFileWithFiguresAndTheCommand)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(experiment(folder, "--set 'experiment.lidars=middle left'").status, 4);
+
+  const Ended ended = scanloom("report " + (folder / "sweep").string());
+  EXPECT_EQ(ended.status, 0) << ended.output;
+
+  const std::string html = contentOf(folder / "sweep/report.html");
+  for (const char* part : {"<svg", "aria-label=\"Medians of drift [m]: middle, N = 1: -; left, N = 1: 0.",
+                           "scanloom experiment -c ", "<li>sparse middle n1 seed 1: slam ended with status 2"})
+    EXPECT_TRUE(contains(html, part)) << part;
+  for (const char* part : {"<script", "src=", "http-equiv"}) EXPECT_FALSE(contains(html, part)) << part;
+  EXPECT_EQ(scanloom("report " + (folder / "sweep").string()).status, 2);  // it exists
+  EXPECT_EQ(scanloom("report " + folder.path().string()).status, 1);       // no experiment
+}
+}  // namespace
+}  // namespace scanloom

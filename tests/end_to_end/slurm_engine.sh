@@ -1,0 +1,69 @@
+#!/bin/sh
+# A sweep as a job array, on a Slurm cluster of one node that lives on the loopback for this test, gives the rows of the
+# same sweep on local cores, one failed run among them. Skips (77) where Slurm is not installed.
+#   slurm_engine.sh SCANLOOM SOURCE_DIR
+set -eu
+scanloom=$1
+experiment=$2/params/experiments/small.ini
+
+for program in slurmctld slurmd sbatch sinfo; do
+  command -v $program >/dev/null || { echo "skipped: $program is not installed"; exit 77; }
+done
+[ "$(id -u)" = 0 ] || { echo "skipped: slurmd starts jobs as root only"; exit 77; }
+
+dir=$(mktemp -d)
+node=$(hostname -s)
+mkdir "$dir/state" "$dir/spool"
+cat >"$dir/slurm.conf" <<EOF
+ClusterName=loopback
+SlurmctldHost=$node(127.0.0.1)
+SlurmUser=root
+SlurmdUser=root
+AuthType=auth/none
+CredType=cred/none
+SlurmctldPort=16817
+SlurmdPort=16818
+StateSaveLocation=$dir/state
+SlurmdSpoolDir=$dir/spool
+SlurmctldPidFile=$dir/slurmctld.pid
+SlurmdPidFile=$dir/slurmd.pid
+SlurmctldLogFile=$dir/slurmctld.log
+SlurmdLogFile=$dir/slurmd.log
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+JobAcctGatherType=jobacct_gather/none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_CPU
+ReturnToService=2
+MpiDefault=none
+NodeName=$node NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+PartitionName=all Nodes=ALL Default=YES State=UP
+EOF
+export SLURM_CONF="$dir/slurm.conf"
+slurmctld -D >/dev/null 2>&1 &
+controller=$!
+slurmd -D >/dev/null 2>&1 &
+daemon=$!
+trap 'kill $controller $daemon; wait; rm -rf "$dir"' EXIT
+
+for _ in $(seq 60); do
+  case $(sinfo -h -o %T 2>/dev/null) in *idle*) break ;; esac
+  sleep 0.5
+done
+
+sweep() { # ENGINE: a lidar that is not there makes one of the two runs fail
+  status=0
+  "$scanloom" experiment -c "$experiment" --set "experiment.lidars=middle left" --engine "$1" --out-dir "$dir/$1" || status=$?
+  [ $status = 4 ] || { echo "$1: status $status, expected 4"; cat "$dir"/*.log "$dir/$1"/slurm/* || true; exit 1; }
+}
+sweep slurm
+sweep local
+
+for engine in slurm local; do
+  cut -d , -f 1-21 "$dir/$engine/results.csv" >"$dir/$engine.csv" # up to the path: what follows are times
+done
+cat "$dir/slurm.csv"
+diff "$dir/slurm.csv" "$dir/local.csv"
+[ "$(wc -l <"$dir/slurm.csv")" = 3 ]
+grep -q ",OK," "$dir/slurm.csv"
+grep -q "no simulated lidar is called 'middle'" "$dir/slurm/results.csv"

@@ -1,0 +1,125 @@
+#include "study/ExperimentPlan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "support/TemporaryFolder.h"
+
+namespace scanloom
+{
+namespace
+{
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ExperimentPlanOf : public testing::Test
+{
+ protected:
+  ExperimentPlanOf()
+  {
+    std::filesystem::create_directories(folder_ / "stands");
+    std::filesystem::create_directories(folder_ / "drive");
+    std::ofstream(folder_ / "stands/easy.ini") << "[simulated_drive]\nduration = 1\n";
+    std::ofstream(folder_ / "stands/hard.ini") << "[simulated_drive]\nduration = 2\n";
+    std::ofstream(folder_ / "slam.ini") << "[slam]\n";
+    std::ofstream(folder_ / "drive/recording.pcap") << "packets";
+  }
+
+  ExperimentPlan plan(const std::string& lines) const
+  {
+    const auto file = folder_ / "experiment.ini";
+    std::ofstream(file) << "[experiment]\nconfigurations = slam.ini\n" << lines;
+    const Configuration configuration = Configuration::fromFiles({file});
+    return planOf(readSettings<ExperimentSettings>(configuration, schemaOf<ExperimentSettings>()), configuration);
+  }
+
+  std::string complaintAbout(const std::string& lines) const
+  {
+    try
+    {
+      plan(lines);
+    }
+    catch (const ConfigError& e)
+    {
+      return e.what();
+    }
+    return "";
+  }
+
+  TemporaryFolder folder_;
+};
+
+std::vector<std::string> labelsOf(const ExperimentPlan& plan)
+{
+  std::vector<std::string> labels;
+  for (const PlannedRun& run : plan.runs) labels.push_back(run.label());
+  return labels;
+}
+
+TEST_F(ExperimentPlanOf, combinesEverythingWithTheSeedAsTheFastest)
+{
+  EXPECT_THAT(labelsOf(plan("simulations = stands/easy.ini stands/hard.ini\nlidars = left left,right\nevery_nth = 1 5\n"
+                            "seeds = 7:8\n")),
+              ElementsAre("easy left n1 seed 7", "easy left n1 seed 8", "easy left n5 seed 7", "easy left n5 seed 8",
+                          "easy left+right n1 seed 7", "easy left+right n1 seed 8", "easy left+right n5 seed 7",
+                          "easy left+right n5 seed 8", "hard left n1 seed 7", "hard left n1 seed 8",
+                          "hard left n5 seed 7", "hard left n5 seed 8", "hard left+right n1 seed 7",
+                          "hard left+right n1 seed 8", "hard left+right n5 seed 7", "hard left+right n5 seed 8"));
+}
+
+TEST_F(ExperimentPlanOf, variesAnyParameterByValuesWithBarsBetween)
+{
+  const ExperimentPlan two = plan(
+      "simulations = stands/easy.ini\nlidars = left\nseeds = 1\n"
+      "axis1_name = slam.imu\naxis1_values = left\naxis2_name = a.pose\naxis2_values = 0 0 1 | 0 0 2\n");
+
+  ASSERT_EQ(two.runs.size(), 2U);
+  EXPECT_THAT(two.runs[0].settings, ElementsAre(std::pair("slam.imu", "left"), std::pair("a.pose", "0 0 1")));
+  EXPECT_THAT(two.runs[1].settings, ElementsAre(std::pair("slam.imu", "left"), std::pair("a.pose", "0 0 2")));
+}
+
+TEST_F(ExperimentPlanOf, drawsNothingInRecordings)
+{
+  EXPECT_THAT(labelsOf(plan("recordings = drive\nlidars = left\nseeds = 1:10\n")), ElementsAre("drive left n1"));
+}
+
+TEST_F(ExperimentPlanOf, findsFilesFromTheFolderOfTheFileThatNamesThem)
+{
+  EXPECT_EQ(plan("simulations = stands/easy.ini\n").runs[0].simulation, folder_ / "stands/easy.ini");
+}
+
+TEST_F(ExperimentPlanOf, namesFileLineAndWhatIsWrong)
+{
+  const std::string easy = "simulations = stands/easy.ini\n";
+  EXPECT_THAT(complaintAbout("simulations = stands/esy.ini\n"),
+              HasSubstr("experiment.ini:3: [experiment] simulations"));
+  EXPECT_THAT(complaintAbout("simulations = stands/esy.ini\n"), HasSubstr("stands/esy.ini' is not there"));
+  EXPECT_THAT(complaintAbout(easy + "seeds = 5:1\n"), HasSubstr("experiment.ini:4: [experiment] seeds"));
+  EXPECT_THAT(complaintAbout(easy + "seeds = 0\n"), HasSubstr("seeds"));
+  EXPECT_THAT(complaintAbout(easy + "every_nth = 1 2.5\n"), HasSubstr("every_nth"));
+  EXPECT_THAT(complaintAbout(easy + "axis1_name = a.b\n"), HasSubstr("axis1_name"));
+  EXPECT_THAT(complaintAbout("lidars = left\n"), HasSubstr("recordings must name what runs"));
+}
+
+TEST_F(ExperimentPlanOf, hashesDifferWithAnythingThatTheResultDependsOn)
+{
+  const std::string lines = "simulations = stands/easy.ini\nlidars = left\nseeds = 1:2\n";
+  const auto hash = [&](const ExperimentPlan& p, std::size_t run, const std::string& version = "1.0")
+  { return configurationHash(p.runs[run], p, version); };
+  const std::string before = hash(plan(lines), 0);
+  EXPECT_EQ(hash(plan(lines + "every_nth = 1 5\n"), 0), before);  // what else runs does not matter
+
+  EXPECT_NE(hash(plan(lines), 1), before);
+  EXPECT_NE(hash(plan(lines), 0, "1.1"), before);
+  EXPECT_NE(hash(plan(lines + "axis1_name = slam.imu\naxis1_values = left\n"), 0), before);
+  std::ofstream(folder_ / "slam.ini") << "[slam]\nrefine = false\n";
+  EXPECT_NE(hash(plan(lines), 0), before);
+  std::ofstream(folder_ / "slam.ini") << "[slam]\n";
+  EXPECT_EQ(hash(plan(lines), 0), before);
+  std::ofstream(folder_ / "stands/easy.ini") << "[simulated_drive]\nduration = 3\n";
+  EXPECT_NE(hash(plan(lines), 0), before);
+}
+}  // namespace
+}  // namespace scanloom
