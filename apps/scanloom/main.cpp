@@ -5,6 +5,7 @@ namespace scanloom
 {
 Verb configVerb();
 Verb doctorVerb();
+Verb editVerb();
 Verb evaluateVerb();
 Verb infoVerb();
 Verb recordVerb();
@@ -15,7 +16,8 @@ Verb slamVerb();
 const std::vector<Verb>& verbs()
 {
   static const std::vector<Verb> table{
-      recordVerb(), infoVerb(), doctorVerb(), configVerb(), slamVerb(), evaluateVerb(), registerVerb(), simulateVerb(),
+      recordVerb(), infoVerb(),     editVerb(),     doctorVerb(),   configVerb(),
+      slamVerb(),   evaluateVerb(), registerVerb(), simulateVerb(),
   };
   return table;
 }
