@@ -50,7 +50,7 @@ TEST_F(RawlogEdit, whatIsNotChangedKeepsItsBytes)
 {
   const RawlogEdited result = edited(in, unchanged, out);
 
-  EXPECT_EQ(uncompressed(out), uncompressed(in));
+  EXPECT_TRUE(uncompressed(out) == uncompressed(in));
   EXPECT_EQ(result.read(), 17u) << "header, 4 scans, 12 samples";
   EXPECT_EQ(result.labels.at("imu").written, 8u);
   EXPECT_EQ(result.damage, "");
@@ -60,7 +60,7 @@ TEST_F(RawlogEdit, mayReplaceItsInput)
 {
   const std::string before = uncompressed(in);
   edited(in, unchanged, in);
-  EXPECT_EQ(uncompressed(in), before);
+  EXPECT_TRUE(uncompressed(in) == before);
 }
 
 TEST_F(RawlogEdit, aCutFileIsEditedUpToTheCutAndSaidToBeCut)
@@ -76,7 +76,7 @@ TEST_F(RawlogEdit, aCutFileIsEditedUpToTheCutAndSaidToBeCut)
   EXPECT_EQ(observationsIn(out).size(), result.read());
   const std::string whole = uncompressed(writeSmallRawlog(folder / "whole.rawlog"));
   const std::string recovered = uncompressed(out);
-  EXPECT_EQ(recovered, whole.substr(0, recovered.size())) << "to the byte what was before the cut";
+  EXPECT_TRUE(recovered == whole.substr(0, recovered.size())) << "to the byte what was before the cut";
 }
 
 TEST_F(RawlogEdit, leavesNoFileWhenAnOperationFails)
@@ -167,7 +167,7 @@ TEST_F(RawlogEdit, aShiftBackGivesTheSameBytes)
 {
   edited(in, addTimeOffset("imu", 250ms, 100ms), out);
   edited(out, addTimeOffset("imu", -250ms, 100ms), out);
-  EXPECT_EQ(uncompressed(out), uncompressed(in));
+  EXPECT_TRUE(uncompressed(out) == uncompressed(in));
 }
 
 TEST_F(RawlogEdit, clocksOfDifferentEpochsAreBroughtTogether)
@@ -176,7 +176,7 @@ TEST_F(RawlogEdit, clocksOfDifferentEpochsAreBroughtTogether)
   edited(in, addTimeOffset("imu", -epoch, 100ms), out);
   EXPECT_EQ(fromMrpt(observationsIn(out, "imu").front()->timestamp), fromNanoseconds(10'000'000));
   edited(out, addTimeOffset("imu", epoch, 100ms), out);
-  EXPECT_EQ(uncompressed(out), uncompressed(in));
+  EXPECT_TRUE(uncompressed(out) == uncompressed(in));
 }
 }  // namespace
 }  // namespace scanloom

@@ -29,7 +29,7 @@ TEST_F(AgainstStock, removingALabelGivesTheSameBytes)
 {
   SCANLOOM_NEEDS_PROGRAM("rawlog-edit");
   edited(in, removeLabels({"imu_right"}), ours);
-  EXPECT_EQ(uncompressed(ours), stock("--remove-label imu_right"));
+  EXPECT_TRUE(uncompressed(ours) == stock("--remove-label imu_right"));
 }
 
 TEST_F(AgainstStock, aCutHoldsTheSameObjectsAndTheHeader)
@@ -41,7 +41,7 @@ TEST_F(AgainstStock, aCutHoldsTheSameObjectsAndTheHeader)
   edited(in, cutTo(span), ours);
   const std::string mine = uncompressed(ours), stocks = stock("--cut --from-index 3 --to-index 11");
   ASSERT_GT(mine.size(), stocks.size());
-  EXPECT_EQ(mine.substr(mine.size() - stocks.size()), stocks);
+  EXPECT_TRUE(mine.substr(mine.size() - stocks.size()) == stocks);
 }
 
 TEST_F(AgainstStock, partsOfLidarsAreReadWhole)
