@@ -5,6 +5,7 @@ namespace scanloom
 {
 Verb configVerb();
 Verb doctorVerb();
+Verb editVerb();
 Verb evaluateVerb();
 Verb experimentVerb();
 Verb infoVerb();
@@ -17,7 +18,7 @@ Verb slamVerb();
 const std::vector<Verb>& verbs()
 {
   static const std::vector<Verb> table{
-      recordVerb(),   infoVerb(),     doctorVerb(),   configVerb(),     slamVerb(),
+      recordVerb(),   infoVerb(),     editVerb(),     doctorVerb(),     configVerb(), slamVerb(),
       evaluateVerb(), registerVerb(), simulateVerb(), experimentVerb(), reportVerb(),
   };
   return table;

@@ -52,6 +52,11 @@ bool GzipArchive::atEnd()
   return true;
 }
 
+std::uint64_t GzipArchive::bytesRead() const
+{
+  return static_cast<std::uint64_t>(std::max<z_off_t>(0, gzoffset(file_)));
+}
+
 void GzipArchive::endMember()
 {
   if (gzflush(file_, Z_FINISH) != Z_OK) fail(std::strerror(errno));

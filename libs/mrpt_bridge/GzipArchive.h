@@ -25,6 +25,9 @@ class GzipArchive : public mrpt::serialization::CArchive
   /** Whether the file ends here, in good order; throws std::runtime_error if it ends because it was cut or damaged. */
   bool atEnd();
 
+  /** Of the file as it lies on the disk, for a progress bar: runs ahead of the objects by a buffer. */
+  std::uint64_t bytesRead() const;
+
   /**
    * What was written so far is handed to the operating system as a whole gzip member: readable whatever becomes of this
    * program. Readers take the members of a file for one stream. Throws std::runtime_error if the disk says no.

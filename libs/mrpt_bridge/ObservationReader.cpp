@@ -45,6 +45,8 @@ void ObservationReader::readObject()
       waiting_.push_back(observation);
     else if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
       waiting_.insert(waiting_.end(), frame->begin(), frame->end());
+    else
+      passed_over_++;
   }
   catch (const std::exception& e)
   {

@@ -26,12 +26,19 @@ class ObservationReader
   /** Empty if all is well so far. */
   const std::string& damage() const { return damage_; }
 
+  /** Of the file as it lies on the disk. */
+  std::uint64_t bytesRead() const { return archive_.bytesRead(); }
+
+  /** Objects that are no observations: actions, maps. */
+  std::uint64_t passedOver() const { return passed_over_; }
+
  private:
   void readObject();
 
   GzipArchive archive_;
   std::deque<mrpt::obs::CObservation::Ptr> waiting_;
   std::size_t objects_ = 0;
+  std::uint64_t passed_over_ = 0;
   bool ended_ = false;
   std::string damage_;
 };

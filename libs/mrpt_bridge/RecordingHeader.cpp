@@ -9,6 +9,8 @@ namespace
 {
 using nlohmann::json;
 
+constexpr const char* kRecordedRate = "recorded_scan_rate";
+
 json toRows(const Eigen::Matrix4d& m)
 {
   json rows = json::array();
@@ -61,10 +63,24 @@ std::string toJson(const RecordingHeader& header)
                       {"beams", lidar.beams},
                       {"columns", lidar.columns},
                       {"clock", lidar.clock}});
-  const json content = {{"version", header.version.empty() ? SCANLOOM_VERSION : header.version},
-                        {"scan_rate", header.scan_rate},
-                        {"lidars", lidars}};
+  json content = {{"version", header.version.empty() ? SCANLOOM_VERSION : header.version},
+                  {"scan_rate", header.scan_rate},
+                  {"lidars", lidars}};
+  if (header.recorded_rate > 0) content[kRecordedRate] = header.recorded_rate;
   return json{{"scanloom", content}}.dump(1);
+}
+
+std::string withScanRate(const std::string& header, double scan_rate)
+{
+  json document = json::parse(header);
+  json& content = document.at("scanloom");
+  const double recorded = content.value(kRecordedRate, content.at("scan_rate").get<double>());
+  content.at("scan_rate") = scan_rate;
+  if (scan_rate == recorded)
+    content.erase(kRecordedRate);
+  else
+    content[kRecordedRate] = recorded;
+  return document.dump(1);
 }
 
 std::optional<RecordingHeader> recordingHeaderFromJson(const std::string& text)
@@ -77,6 +93,7 @@ std::optional<RecordingHeader> recordingHeaderFromJson(const std::string& text)
     RecordingHeader header;
     header.version = content.at("version").get<std::string>();
     header.scan_rate = content.at("scan_rate").get<double>();
+    header.recorded_rate = content.value(kRecordedRate, 0.0);
     for (const json& lidar : content.at("lidars")) header.lidars.push_back(lidarFromJson(lidar));
     return header;
   }

@@ -30,6 +30,7 @@ struct RecordingHeader
   std::vector<RecordedLidar> lidars;  // the index is the points' sensor_id
   double scan_rate = 0;               // Hz
   std::string version;                // of the program that wrote the rawlog; toJson() fills an empty one in
+  double recorded_rate = 0;           // Hz, of the scans before they were batched anew; 0: scan_rate
 
   /** 0 if the rate is unknown. */
   Duration period() const { return scan_rate > 0 ? fromSeconds(1 / scan_rate) : Duration{0}; }
@@ -38,6 +39,10 @@ struct RecordingHeader
 RecordedLidar recordedLidar(const std::string& name, const LidarDescription&);
 
 std::string toJson(const RecordingHeader&);
+
+/** A header's text with another rate and the recorded one, if they differ; poses keep all their digits, which parsing
+ * them does not promise. */
+std::string withScanRate(const std::string& header, double scan_rate);
 
 /** Nothing if the text is not a header at all (somebody else's comment); throws std::invalid_argument naming the key
  *  if it is one of ours but damaged. */

@@ -1,0 +1,21 @@
+#pragma once
+#include "dataset/RawlogEdit.h"
+#include "mrpt_bridge/RecordingHeader.h"
+#include "output/Trajectory.h"
+
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include <optional>
+
+namespace scanloom
+{
+/**
+ * The scan of a cloud as it would have been seen at its start, in the body frame, by the trajectory's motion; nothing
+ * where the trajectory does not reach. Throws std::invalid_argument for clouds without t.
+ */
+std::optional<PointCloud> deskewed(const mrpt::obs::CObservationPointCloud&, const Trajectory&,
+                                   const std::optional<RecordingHeader>&);
+
+/** Clouds deskewed to their stamp; all fields stay, t too. Clouds where the trajectory does not reach go. */
+RawlogOperation deskewClouds(const Trajectory&, const std::optional<RecordingHeader>&);
+}  // namespace scanloom

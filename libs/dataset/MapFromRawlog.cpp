@@ -1,0 +1,96 @@
+#include "dataset/MapFromRawlog.h"
+
+#include "dataset/CloudObservation.h"
+#include "dataset/DeskewClouds.h"
+#include "mrpt_bridge/Conversions.h"
+#include "mrpt_bridge/Observations.h"
+#include "output/SimpleMapFile.h"
+#include "preprocessing/Thin.h"
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+/** Whole scans, deskewed, one each time the body has moved on. */
+class KeyframeChoice
+{
+ public:
+  KeyframeChoice(KeyframeOptions options, RecordingHeader header)
+    : options_(std::move(options)), header_(std::move(header))
+  {
+  }
+
+  std::optional<Keyframe> keyframeOf(const ObservationPtr& observation)
+  {
+    const auto cloud = cloudIn(observation);
+    if (!cloud || isSlice(*cloud)) return std::nullopt;
+    const Timestamp stamp = fromMrpt(cloud->timestamp);
+    const auto pose = poseAt(options_.trajectory, stamp);
+    if (!pose || (latest_ && (pose->translation - *latest_).norm() < options_.distance)) return std::nullopt;
+    auto points = deskewed(*cloud, options_.trajectory, header_);
+    if (!points) return std::nullopt;
+    latest_ = pose->translation;
+    return Keyframe{stamp, *pose, std::move(*points)};
+  }
+
+  void requireSome() const
+  {
+    if (!latest_) throw std::runtime_error("no scan lies within the trajectory: are both of one recording?");
+  }
+
+ private:
+  KeyframeOptions options_;
+  RecordingHeader header_;
+  std::optional<Eigen::Vector3d> latest_;
+};
+
+/** `close` is called at the end of input. */
+RawlogOperation overKeyframes(const KeyframeOptions& options, const RecordingHeader& header,
+                              const std::function<void(Keyframe)>& add, const std::function<void()>& close)
+{
+  return [choice = KeyframeChoice(options, header), add, close](const ObservationPtr& observation) mutable
+  {
+    if (!observation)
+    {
+      choice.requireSome();
+      close();
+    }
+    else if (auto keyframe = choice.keyframeOf(observation))
+      add(std::move(*keyframe));
+    return Observations{};
+  };
+}
+}  // namespace
+
+RawlogOperation toSimpleMap(const std::filesystem::path& path, const KeyframeOptions& options,
+                            const RecordingHeader& header)
+{
+  std::vector<MountedLidar> lidars;
+  for (const RecordedLidar& lidar : header.lidars) lidars.push_back({lidar.name, lidar.body_T_sensor});
+  auto map = std::make_shared<SimpleMapBuilder>(std::move(lidars));
+  return overKeyframes(
+      options, header, [map](const Keyframe& keyframe) { map->add(keyframe); }, [map, path] { map->write(path); });
+}
+
+RawlogOperation toOctoMap(const std::filesystem::path& binary, const OctoMapOptions& map_options,
+                          const KeyframeOptions& options, const RecordingHeader& header)
+{
+  std::vector<Rigid> body_T_sensor;
+  for (const RecordedLidar& lidar : header.lidars) body_T_sensor.push_back(lidar.body_T_sensor);
+  auto map = std::make_shared<OctoMapBuilder>(map_options, std::move(body_T_sensor));
+  std::filesystem::path full = binary;
+  full.replace_extension(".ot");
+  return overKeyframes(
+      options, header,
+      [map, edge = map_options.resolution](Keyframe keyframe)
+      {
+        keyframe.points = thin(std::move(keyframe.points), edge);
+        map->add(keyframe);
+      },
+      [map, binary, full] { std::move(*map).write(binary, full); });
+}
+}  // namespace scanloom
