@@ -1,15 +1,18 @@
 /** `scanloom slam`: trajectory and maps of a recording. */
 #include "Arguments.h"
 #include "Interruption.h"
+#include "LiveStatus.h"
 #include "Progress.h"
 #include "Settings.h"
 #include "SimulatedRig.h"
 #include "Verb.h"
 #include "config/AtomicFile.h"
+#include "mrpt_bridge/ImuDriver.h"
 #include "output/SlamRun.h"
 #include "source/RigOptions.h"
 
 #include <fmt/format.h>
+#include <mrpt/config/CConfigFileMemory.h>
 
 #include <cmath>
 #include <iostream>
@@ -27,6 +30,7 @@ struct SlamArguments
   std::filesystem::path rawlog;
   std::vector<std::string> lidars;
   int every_nth = 0;
+  double seconds = 0;  // live: 0 until it is interrupted
 };
 
 struct SlamVerbSettings : SlamSettings
@@ -48,7 +52,39 @@ struct Input
   std::unique_ptr<SensorInput> sensors;
   std::uint64_t size = 0;  // 0: no telling how far it is
   const char* unit = "MB";
+  RigInput* live = nullptr;  // within `sensors`, if packets come from sockets
 };
+
+/** Of the body's IMU: the section of another driver than the lidars'. */
+std::optional<std::string> imuSection(const Configuration& configuration, const std::string& lidars)
+{
+  std::vector<std::string> found;
+  for (const std::string& section : configuration.sections())
+    if (configuration.isSensor(section) && section != lidars) found.push_back(section);
+  if (found.size() > 1)
+    throw ConfigError(fmt::format("sections [{}] and [{}] both have a driver beside the lidars': which is the IMU?",
+                                  found[0], found[1]));
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
+std::unique_ptr<ImuDriver> openImuDriver(const Configuration& configuration, const std::string& section)
+{
+  mrpt::config::CConfigFileMemory as_mrpt;
+  for (const std::string& key : configuration.keys(section))
+    as_mrpt.write(section, key, configuration.text(section, key));
+  return std::make_unique<ImuDriver>(as_mrpt, section);
+}
+
+Input openLive(const Rig& rig, const Configuration& configuration, const std::string& lidars)
+{
+  const std::optional<std::string> imu = imuSection(configuration, lidars);
+  std::unique_ptr<ImuDriver> driver = imu ? openImuDriver(configuration, *imu) : nullptr;
+  std::unique_ptr<RigInput> packets = openRig(rig);
+  RigInput* live = packets.get();
+  std::unique_ptr<SensorInput> sensors = driver ? makeRigSensorInput(rig, std::move(packets), std::move(driver))
+                                                : makeRigSensorInput(rig, std::move(packets), false);
+  return {std::move(sensors), 0, "", live};
+}
 
 Input openInput(const SlamArguments& arguments, const Configuration& configuration)
 {
@@ -61,9 +97,7 @@ Input openInput(const SlamArguments& arguments, const Configuration& configurati
   }
   const std::string section = rigSection(configuration);
   Rig rig = makeRig(readRigSettings(configuration, section), arguments.lidars);
-  if (rig.captures.empty())
-    throw ConfigError(
-        fmt::format("[{}] pcap_input is missing: nothing to read (or give a rawlog by --input)", section));
+  if (rig.captures.empty()) return openLive(rig, configuration, section);
   const std::uint64_t megabytes = megabytesOf(rig.captures);
   return {makeCaptureInput(std::move(rig)), megabytes};
 }
@@ -79,7 +113,44 @@ std::string commandOf(const SlamArguments& arguments)
   if (arguments.scene.given())
     command += fmt::format(" --simulate {} --seed {}", arguments.scene.file.string(), arguments.scene.seed);
   if (!arguments.lidars.empty()) command += fmt::format(" --lidars {}", fmt::join(arguments.lidars, ","));
+  if (arguments.seconds > 0) command += fmt::format(" --seconds {}", arguments.seconds);
   return command + fmt::format(" --out-dir {}", arguments.output.folder.string());
+}
+
+/** A bar where the end is known, the lidars' state where it is not. */
+class Display
+{
+ public:
+  explicit Display(const Input& input) : total_(input.size), live_input_(input.live)
+  {
+    if (live_input_)
+      live_.emplace("slam");
+    else
+      replay_.emplace("slam", total_, total_ > 0 ? input.unit : "scans");
+  }
+
+  void update(double share, std::uint64_t scans)
+  {
+    if (live_) return live_->update(*live_input_);
+    replay_->update(total_ > 0 ? static_cast<std::uint64_t>(share * static_cast<double>(total_)) : scans);
+  }
+
+ private:
+  std::uint64_t total_;
+  RigInput* live_input_;
+  std::optional<Progress> replay_;
+  std::optional<LiveStatus> live_;
+};
+
+/** What a person who ran it live wants to know last. */
+void noteWhetherItKeptUp(const RunSummary& summary)
+{
+  const auto dropped = summary.counts.find("scans_dropped");
+  if (dropped == summary.counts.end() || dropped->second == 0) return;
+  fmt::print(
+      stderr,
+      "warning: fell behind: {} scans were dropped, {} processed; use --every-nth, fewer lidars or coarser maps\n",
+      dropped->second, summary.counts.at("scans"));
 }
 
 void report(const SlamRunResult& result, const std::filesystem::path& folder)
@@ -103,6 +174,8 @@ int run(SlamArguments arguments)
   names.emplace_back(kConfigurationName);
   refuseExisting(arguments.output, names);
   const Input input = openInput(arguments, loaded.configuration);
+  if (!input.live && arguments.seconds > 0)
+    throw UsageError("--seconds is for live lidars: captures and simulated drives end by themselves");
   if (arguments.configuration.dry_run)
   {
     std::cout << toIni(loaded);
@@ -111,23 +184,28 @@ int run(SlamArguments arguments)
 
   catchInterruption();
   SlamFiles files(arguments.output.folder, input.sensors->header().lidars, loaded.settings.octomap);
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
   writeAtomically(arguments.output.folder / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
   SlamRunResult result;
   {
-    Progress progress("slam", input.size, input.size > 0 ? input.unit : "scans");
-    result = runSlam(
-        *input.sensors, loaded.settings, files,
-        [&](double share, std::uint64_t scans)
-        {
-          progress.update(input.size > 0 ? static_cast<std::uint64_t>(share * static_cast<double>(input.size)) : scans);
-          return !interrupted();
-        });
+    Display display(input);
+    result = runSlam(*input.sensors, loaded.settings, files,
+                     [&](double share, std::uint64_t scans)
+                     {
+                       display.update(share, scans);
+                       const bool over =
+                           arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
+                       if (input.live && (over || interrupted())) input.live->stop();
+                       return input.live || !interrupted();
+                     });
   }
   result.summary.command = commandOf(arguments);
   result.summary.versions = {{"scanloom", SCANLOOM_VERSION}};
   files.close(result.summary);
 
   report(result, arguments.output.folder);
+  noteWhetherItKeptUp(result.summary);
   for (const std::string& warning : input.sensors->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
   if (interrupted()) return kInterrupted;
   return result.passed ? kDone : kQualityGate;
@@ -142,6 +220,8 @@ std::function<int()> addOptions(CLI::App& app)
       ->check(CLI::ExistingFile);
   addScene(app, arguments->scene)->excludes("--input");
   app.add_option("--lidars", arguments->lidars, "names of the lidars to use, separated by commas")->delimiter(',');
+  app.add_option("--seconds", arguments->seconds, "live: stop after so long; 0: when interrupted")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--every-nth", arguments->every_nth, "use every N-th scan only")->check(CLI::PositiveNumber);
   return [arguments] { return run(*arguments); };
 }

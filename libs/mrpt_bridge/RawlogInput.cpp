@@ -67,14 +67,20 @@ class RawlogInput : public SensorInput
     }
   }
 
-  std::optional<SensorEvent> next() override
+  std::optional<SensorEvent> next(Duration) override
   {
-    if (ahead_.empty()) return read();
+    if (ahead_.empty())
+    {
+      std::optional<SensorEvent> event = read();
+      ended_ = !event;
+      return event;
+    }
     std::optional<SensorEvent> event(std::move(ahead_.front()));
     ahead_.pop_front();
     return event;
   }
 
+  bool ended() const override { return ended_; }
   const RecordingHeader& header() const override { return header_; }
   double progress() const override { return 0; }
 
@@ -138,6 +144,7 @@ class RawlogInput : public SensorInput
 
   RawlogReader reader_;
   std::deque<SensorEvent> ahead_;
+  bool ended_ = false;
   RecordingHeader header_;
   std::vector<std::optional<std::uint8_t>> new_id_;  // by the rawlog's sensor id
   bool all_kept_ = true;

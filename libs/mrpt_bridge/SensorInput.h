@@ -12,13 +12,19 @@
 
 namespace scanloom
 {
+class ImuDriver;
+
 class SensorInput
 {
  public:
   virtual ~SensorInput() = default;
 
-  /** Nothing at the end of input. Throws what its reader throws. */
-  virtual std::optional<SensorEvent> next() = 0;
+  /** Nothing if nothing came within `patience` (files let nobody wait), and nothing once ended(). Throws what its
+   * reader throws. */
+  virtual std::optional<SensorEvent> next(Duration patience) = 0;
+
+  /** Nothing more will come. */
+  virtual bool ended() const = 0;
 
   /** Lidars by sensor id, and the rate of the scans. */
   virtual const RecordingHeader& header() const = 0;
@@ -38,6 +44,9 @@ class SensorInput
 
 /** Whatever reads a rig; `has_body_imu`: samples of the body's own IMU come with it. */
 std::unique_ptr<SensorInput> makeRigSensorInput(const Rig&, std::unique_ptr<RigInput>, bool has_body_imu);
+
+/** The same with the body's IMU from a driver of its own, at the pose that it says. Throws what ImuDriver does. */
+std::unique_ptr<SensorInput> makeRigSensorInput(const Rig&, std::unique_ptr<RigInput>, std::unique_ptr<ImuDriver>);
 
 /** The captures of a rig. */
 std::unique_ptr<SensorInput> makeCaptureInput(const Rig&);

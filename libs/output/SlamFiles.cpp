@@ -53,7 +53,8 @@ SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<Reco
     ply_(folder / "map.ply"),
     simple_map_(mounted(lidars)),
     octomap_(octomap, originsOf(lidars)),
-    picture_(MapPictureOptions{})
+    picture_(MapPictureOptions{}),
+    thread_([this] { drawMaps(); })
 {
   csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
                    "surprise,trusted,recovered\n";
@@ -70,8 +71,56 @@ void SlamFiles::add(const StateEstimate& e)
   fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d}\n", nanoseconds(e.stamp),
              toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap, r.score, r.iterations,
              e.points, e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise, e.trusted, e.recovered);
-  if (e.keyframe) addKeyframe(*e.keyframe);
+  for (TumWriter* writer : {&trajectory_, &trajectory_imu_}) writer->flush();
+  csv_.stream().flush();
+  if (e.keyframe) enqueue(*e.keyframe);
 }
+
+void SlamFiles::enqueue(Keyframe keyframe)
+{
+  constexpr std::size_t kMostWaiting = 8;
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return keyframes_.size() < kMostWaiting || error_; });
+  if (error_) std::rethrow_exception(error_);
+  keyframes_.push_back(std::move(keyframe));
+  changed_.notify_all();
+}
+
+void SlamFiles::drawMaps()
+{
+  try
+  {
+    while (true)
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return !keyframes_.empty() || no_more_; });
+      if (keyframes_.empty()) return;
+      const Keyframe keyframe = std::move(keyframes_.front());
+      keyframes_.pop_front();
+      changed_.notify_all();
+      lock.unlock();
+      addKeyframe(keyframe);
+    }
+  }
+  catch (...)
+  {
+    const std::lock_guard lock(mutex_);
+    error_ = std::current_exception();
+    changed_.notify_all();
+  }
+}
+
+void SlamFiles::finishMaps()
+{
+  {
+    const std::lock_guard lock(mutex_);
+    no_more_ = true;
+    changed_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+SlamFiles::~SlamFiles() { finishMaps(); }
 
 void SlamFiles::addKeyframe(const Keyframe& keyframe)
 {
@@ -83,6 +132,8 @@ void SlamFiles::addKeyframe(const Keyframe& keyframe)
 
 void SlamFiles::close(RunSummary summary)
 {
+  finishMaps();
+  if (error_) std::rethrow_exception(error_);
   trajectory_.close();
   trajectory_imu_.close();
   csv_.commit();

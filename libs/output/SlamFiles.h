@@ -10,8 +10,13 @@
 #include "output/Trajectory.h"
 #include "slam/StateEstimate.h"
 
+#include <condition_variable>
+#include <deque>
+#include <exception>
 #include <filesystem>
+#include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace scanloom
@@ -29,13 +34,23 @@ class SlamFiles
 
   /** Creates the folder. Throws std::runtime_error if it cannot be written. */
   SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OctoMapOptions&);
+  SlamFiles(const SlamFiles&) = delete;
+  SlamFiles& operator=(const SlamFiles&) = delete;
+  ~SlamFiles();
 
+  /**
+   * Poses are on disk when it returns. Keyframes join the maps in a thread of their own, in order, because an occupancy
+   * map takes seconds for one; when eight wait it waits, too.
+   */
   void add(const StateEstimate&);
 
   /** Writes the maps and the summary, completed by what was counted here, and gives every file its name. */
   void close(RunSummary);
 
  private:
+  void enqueue(Keyframe);
+  void drawMaps();
+  void finishMaps();
   void addKeyframe(const Keyframe&);
 
   std::filesystem::path folder_;
@@ -46,6 +61,13 @@ class SlamFiles
   OctoMapBuilder octomap_;
   MapPicture picture_;
   Trajectory poses_;
-  StageTimes times_;
+  StageTimes times_;  // of the thread that draws
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Keyframe> keyframes_;
+  bool no_more_ = false;
+  std::exception_ptr error_;
+  std::thread thread_;  // draws
 };
 }  // namespace scanloom

@@ -72,12 +72,14 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
     }
   };
 
+  constexpr Duration kPatience = 100ms;  // live: then a person may want to stop
   bool going = true;
-  while (going)
+  while (going && !input.ended())
   {
-    std::optional<SensorEvent> event = times.measure("input", [&] { return input.next(); });
-    if (!event) break;
-    if (const auto* sample = std::get_if<SensorImu>(&*event))
+    std::optional<SensorEvent> event = times.measure("input", [&] { return input.next(kPatience); });
+    if (!event)
+      going = keepGoing(input.progress(), scans);
+    else if (const auto* sample = std::get_if<SensorImu>(&*event))
     {
       if (sample->sensor == imu) slam.addImu(sample->sample);
     }

@@ -21,6 +21,7 @@ class TumWriter
   explicit TumWriter(const std::filesystem::path& path) : file_(path) {}
 
   void add(const StampedPose&);
+  void flush() { file_.stream().flush(); }
   void close() { file_.commit(); }
 
  private:

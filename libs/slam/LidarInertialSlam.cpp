@@ -183,23 +183,34 @@ Rigid LidarInertialSlam::map_T_local() const
   return bodyAt(smoother_->anchor()) * local_T_anchor_.inverse();
 }
 
-/** Once a second: looks for the body all around where the IMU carried it. What is found there alone outweighs the IMU.
+/**
+ * Once a second: looks for the body about where it was last seen, as far as a machine drives since. Its tilt and, every
+ * other time, its heading are the IMU's, which may have lied: every other time all headings are tried.
  */
 bool LidarInertialSlam::recover(const PointCloud& cloud, StateEstimate& estimate)
 {
   constexpr Duration kPatience = 1s;
-  if (local_map_.empty() || cloud.empty()) return false;
+  constexpr double kSpeed = 1.5, kFarthest = 10;  // m/s, m
+  constexpr double kAsGood = 0.75;                // times the score with which it was last seen
+  if (local_map_.empty() || cloud.empty() || !last_seen_) return false;
   if (tried_to_recover_ && estimate.stamp - *tried_to_recover_ < kPatience) return false;
+  const bool all_around = tried_to_recover_.has_value() && !tried_all_around_;
   tried_to_recover_ = estimate.stamp;
+  tried_all_around_ = all_around;
 
   const Rigid map_T_local = this->map_T_local();
-  const PoseGuess guess(map_T_local.inverse() * estimate.map_T_body, smoother_->newestBodyCovariance());
-  const auto found = times_.measure("recovery", [&] { return relocalise(local_map_.ndt(), cloud, guess, settings_); });
-  if (!found) return false;
+  const double since = seconds(estimate.stamp - last_trusted_);
+  const SearchArea area{
+      {(map_T_local.inverse() * estimate.map_T_body).rotation, last_seen_->target_T_source.translation},
+      std::min(kFarthest, kSpeed * since),
+      all_around ? 8 : 1};
+  const auto found = times_.measure("recovery", [&] { return relocalise(local_map_.ndt(), cloud, area, settings_); });
+  if (!found || found->score > kAsGood * last_seen_->score) return false;  // scores are negative
   estimate.registration = found;
   estimate.map_T_body = map_T_local * found->target_T_source;
   estimate.trusted = estimate.recovered = true;
   ++recoveries_;
+  tried_to_recover_.reset();
   restartAt(estimate.map_T_body, found->covariance);
   return true;
 }
@@ -272,6 +283,7 @@ Health LidarInertialSlam::healthOf(const StateEstimate& estimate)
   const bool opens_the_map = local_map_.empty() && estimate.points > 0;
   const bool trusted = opens_the_map || estimate.trusted;
   if (trusted) last_trusted_ = estimate.stamp;
+  if (estimate.trusted) last_seen_ = estimate.registration;
   if (estimate.stamp - last_trusted_ > fromSeconds(settings_.slam.lost_after)) return Health::Lost;
   if (initialising_until_ && estimate.stamp <= *initialising_until_) return Health::Initialising;
   return trusted ? Health::Ok : Health::Degenerate;

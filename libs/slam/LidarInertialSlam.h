@@ -65,11 +65,13 @@ class LidarInertialSlam
   ImuBuffer imu_;
   std::deque<Scan> waiting_;
   std::uint64_t scans_seen_ = 0, skipped_scans_ = 0, refused_imu_samples_ = 0, recoveries_ = 0, map_restarts_ = 0;
-  std::optional<FixedLagSmoother> smoother_;  // none before the start
-  LocalMap local_map_;                        // rigid, in a frame of its own
-  Rigid local_T_anchor_;                      // where the smoother's anchor, the first keyframe's state, is in it
-  std::optional<Rigid> last_registered_;      // in the local map
+  std::optional<FixedLagSmoother> smoother_;     // none before the start
+  LocalMap local_map_;                           // rigid, in a frame of its own
+  Rigid local_T_anchor_;                         // where the smoother's anchor, the first keyframe's state, is in it
+  std::optional<Rigid> last_registered_;         // in the local map
+  std::optional<RegistrationResult> last_seen_;  // the last trusted one
   std::optional<Timestamp> tried_to_recover_;
+  bool tried_all_around_ = false;
   std::optional<Timestamp> initialising_until_;
   Timestamp last_trusted_;
   StageTimes times_;

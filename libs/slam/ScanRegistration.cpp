@@ -54,21 +54,16 @@ bool isFarFrom(const Rigid& pose, const Rigid& other)
   return way.head<3>().norm() > kMetres || way.tail<3>().norm() > kRadians;
 }
 
-/** Where to begin, the guess first. */
-std::vector<Rigid> startsAround(const PoseGuess& guess)
+std::vector<Rigid> startsWithin(const SearchArea& area)
 {
-  constexpr double kStep = 3, kFarthest = 10;  // m: a start finds what is within 2 m of it
-  constexpr int kHeadings = 8;                 // all around: what is within 25 deg of one is found
-  const double sigma = guess.covariance ? std::sqrt(guess.covariance->topLeftCorner<2, 2>().trace()) : kFarthest;
-  const double turn = guess.covariance ? std::sqrt((*guess.covariance)(5, 5)) : M_PI;
-  const int reach = static_cast<int>(std::ceil(std::min(kFarthest, 3 * sigma) / kStep));
-  const int headings = 3 * turn > M_PI / kHeadings ? kHeadings : 1;
-  std::vector<Rigid> starts{guess.target_T_source};
-  for (int heading = 0; heading < headings; ++heading)
+  constexpr double kStep = 3;  // m: a start finds what is within 2 m of it
+  const int reach = static_cast<int>(std::ceil(area.radius / kStep));
+  std::vector<Rigid> starts;
+  for (int heading = 0; heading < area.headings; ++heading)
     for (int x = -reach; x <= reach; ++x)
       for (int y = -reach; y <= reach; ++y)
-        starts.push_back(guess.target_T_source *
-                         Rigid::fromXyzYawPitchRoll(x * kStep, y * kStep, 0, 2 * M_PI * heading / kHeadings, 0, 0));
+        starts.push_back(area.map_T_body *
+                         Rigid::fromXyzYawPitchRoll(x * kStep, y * kStep, 0, 2 * M_PI * heading / area.headings, 0, 0));
   return starts;
 }
 }  // namespace
@@ -93,14 +88,14 @@ RegistrationResult registerScan(const NdtMap& map, const PointCloud& cloud, cons
   return times.measure("fine_alignment", [&] { return align(map, scan, start, settings.fine); });
 }
 
-std::optional<RegistrationResult> relocalise(const NdtMap& map, const PointCloud& cloud, const PoseGuess& guess,
+std::optional<RegistrationResult> relocalise(const NdtMap& map, const PointCloud& cloud, const SearchArea& area,
                                              const SlamSettings& settings)
 {
   constexpr double kRivals = 0.8;  // of the best score, at another place: no telling which
   constexpr double kGoodOverlap = 0.5;
   const Pyramid pyramid(map, cloud, settings.fine_cells);
   std::vector<RegistrationResult> found;
-  for (const Rigid& start : startsAround(guess))
+  for (const Rigid& start : startsWithin(area))
   {
     RegistrationResult result = pyramid.align(start, settings.fine);
     if (result.trustworthy() && result.overlap >= kGoodOverlap) found.push_back(std::move(result));

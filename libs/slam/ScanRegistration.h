@@ -16,11 +16,16 @@ namespace scanloom
 RegistrationResult registerScan(const NdtMap& map, const PointCloud& cloud_in_body, const PoseGuess& map_T_body,
                                 const SlamSettings&, StageTimes&);
 
-/**
- * For a body that may be anywhere near the guess: from positions on a grid out to three deviations (10 m at the most)
- *, and headings all
- * around if those are unsure. Nothing if no pose is trustworthy, or if another one far from the best is nearly as good.
+/** Where a lost body may be: that far to each side (m), turned by any of so many headings, the pose's own among them.
  */
-std::optional<RegistrationResult> relocalise(const NdtMap& map, const PointCloud& cloud_in_body,
-                                             const PoseGuess& map_T_body, const SlamSettings&);
+struct SearchArea
+{
+  Rigid map_T_body;
+  double radius = 3;
+  int headings = 8;  // what is within 25 deg of one is found: 8 are all around
+};
+
+/** Nothing if no pose in it is trustworthy, or if another one far from the best is nearly as good. */
+std::optional<RegistrationResult> relocalise(const NdtMap& map, const PointCloud& cloud_in_body, const SearchArea&,
+                                             const SlamSettings&);
 }  // namespace scanloom

@@ -21,7 +21,7 @@ struct SlamOptions
   bool refine = true;
   bool relative = true;
   double correlation = 2.0;
-  double gate = 10.0;
+  double gate = 40.0;
   double restart_after = 10.0;
 
   template <typename Self, typename Visitor>

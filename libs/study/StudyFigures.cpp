@@ -161,19 +161,25 @@ std::string driftOverDistanceScript(const std::vector<StudyCell>& cells)
 {
   const auto groups = distinct(cells, &StudyCell::group), series = distinct(cells, &StudyCell::lidars);
   std::string script, plots;
+  double farthest = 0;
   for (std::size_t c = 0; c < cells.size(); ++c)
   {
     std::string rows;
     for (const auto& [distance, error] : medianOverDistance(cells[c]))
+    {
       rows += fmt::format("{:.6g} {:.6g}\n", distance, error);
+      farthest = std::max(farthest, distance);
+    }
     script += block(fmt::format("cell{}", c), rows);
     plots += fmt::format("{}$cell{} using 1:2 with lines lw 1.5 dt {} lc rgb \"{}\" title \"{}, {}\"",
                          c > 0 ? ", " : "", c, indexOf(groups, cells[c].group) + 1,
                          colour(indexOf(series, cells[c].lidars)), cells[c].lidars, cells[c].group);
   }
+  // gnuplot finds no range by itself where all runs were lost.
+  script += farthest > 0 ? fmt::format("set xrange [0:{:.6g}]\nset yrange [0:*]\n", farthest)
+                         : "set xrange [0:1]\nset yrange [0:1]\n";
   return script +
-         "set xlabel \"distance [m]\"\nset ylabel \"error [m], median\"\nset yrange [0:*]\nset grid\n"
-         "set key outside right\nplot " +
+         "set xlabel \"distance [m]\"\nset ylabel \"error [m], median\"\nset grid\nset key outside right\nplot " +
          plots + "\n";
 }
 }  // namespace scanloom

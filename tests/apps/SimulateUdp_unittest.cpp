@@ -1,5 +1,6 @@
-/** `scanloom simulate --udp` and `scanloom record`, which knows of its lidars the addresses only. */
+/** `scanloom simulate --udp` and verbs that know of its lidars the addresses only. */
 #include "mrpt_bridge/RawlogReader.h"
+#include "output/Trajectory.h"
 #include "support/ChildProcess.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
@@ -64,6 +65,33 @@ TEST(SimulateUdp, isRecordedByAddressesAlone)
   for (const std::size_t received : columns)
     EXPECT_GE(received, 37u * 512) << "4 s of 10 turns, less what was before the start: " << record.log();
   EXPECT_THAT(simulate.log(), HasSubstr(" 0 refused"));
+}
+
+TEST(SimulateUdp, isLocalisedInLive)
+{
+  const TemporaryFolder folder;
+  const std::uint16_t left = freeUdpPort(), right = freeUdpPort();
+  std::ofstream(folder / "scene.ini") << fmt::format(
+      "[simulated_drive]\nduration = 8\nroute = work\nspeed_up = 1\n[simulated_stand]\nstems_per_hectare = 600\n"
+      "[simulated_lidars]\nlidar1_name = left\nlidar1_model = OS0-16\nlidar1_port = {}\nlidar2_name = right\n"
+      "lidar2_port = {}\n",
+      left, right);
+  ChildProcess simulate(
+      fmt::format("{}/scanloom simulate -c {} --udp --delay 4", SCANLOOM_BIN_DIR, (folder / "scene.ini").string()),
+      folder / "simulate.txt");
+  const std::string section = sectionPrintedBy(simulate);
+  std::ofstream(folder / "live.ini") << section << "deadline_ms = 200\n[slam]\nimu = left\n";
+  ChildProcess slam(fmt::format("{}/scanloom slam -c {} --out-dir {}", SCANLOOM_BIN_DIR, (folder / "live.ini").string(),
+                                (folder / "out").string()),
+                    folder / "slam.txt");
+
+  EXPECT_EQ(simulate.wait(), 0) << simulate.log();
+  std::this_thread::sleep_for(500ms);
+  slam.send(SIGINT);
+  EXPECT_EQ(slam.wait(), 130) << slam.log();
+  const Trajectory poses = readTum(folder / "out" / "trajectory.tum");
+  EXPECT_GE(poses.size(), 60u) << "8 s of 10 scans, some of them before the start: " << slam.log();
+  EXPECT_GT(readTum(folder / "out" / "trajectory_imu.tum").size(), 2 * poses.size());
 }
 
 TEST(SimulateUdp, isEitherForAFolderOrForRealTime)

@@ -207,6 +207,70 @@ TEST(FixedLagSmoother, tiesAStateToAnOlderOneInTheWindow)
   EXPECT_LT(boxMinus(first_T_newest, expected).norm(), 1e-3);
 }
 
+namespace
+{
+/** Every lidar pose is measured from the second state, as long as the smoother keeps it. */
+FixedLagSmoother runFromAnchor(const SimulatedDrive& drive, const DriveNoise& noise, const SmootherOptions& options,
+                               bool optimise_always = true)
+{
+  FixedLagSmoother smoother = smootherFor(drive, noise, options);
+  for (std::size_t k = 1; k < drive.truth.size(); ++k)
+  {
+    smoother.addState(drive.motions[k - 1]);
+    if (k == 1) smoother.anchorNewest();
+    if (k > 1)
+      smoother.addRelativePose(drive.truth[1].stamp, drive.map_T_body[1].inverse() * drive.map_T_body[k],
+                               drive.information);
+    if (optimise_always || k + 1 == drive.truth.size()) smoother.optimise();
+  }
+  return smoother;
+}
+}  // namespace
+
+TEST(FixedLagSmoother, keepsItsAnchorBeyondTheWindow)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 20, 200ms, noise, 21);
+  const FixedLagSmoother smoother = runFromAnchor(drive, noise, withoutHuber(5));
+  ASSERT_EQ(smoother.states().size(), 6u);
+  EXPECT_EQ(smoother.states()[0].stamp, drive.truth[1].stamp);
+  EXPECT_EQ(smoother.states()[1].stamp, drive.truth[15].stamp);
+  EXPECT_EQ(smoother.anchor().stamp, drive.truth[1].stamp);
+}
+
+TEST(FixedLagSmoother, withAnAnchorEqualsTheBatchWhereTheProblemIsLinear)
+{
+  DriveNoise noise;
+  noise.share = 1e-6;
+  const SimulatedDrive drive = simulate(straightDrive(), 20, 200ms, noise, 22);
+  const NavState windowed = runFromAnchor(drive, noise, withoutHuber(4)).newest();
+  const NavState batch = runFromAnchor(drive, noise, withoutHuber(20, 30), false).newest();
+  EXPECT_LT(boxMinus(windowed, batch).norm(), 1e-9);
+}
+
+TEST(FixedLagSmoother, bodySeenFromTheAnchorIsAsFarOffAsItsCovarianceSays)
+{
+  // The anchor's own measured pose is exact here, so that errors of different scans are independent.
+  const DriveNoise noise;
+  double nees = 0, largest = 0;
+  constexpr int kRuns = 100;
+  for (unsigned seed = 300; seed < 300 + kRuns; ++seed)
+  {
+    SimulatedDrive drive = simulate(kDrive, 25, 200ms, noise, seed);
+    drive.map_T_body[1] = drive.truth[1].map_T_imu * kBodyFromImu.inverse();
+    const FixedLagSmoother smoother = runFromAnchor(drive, noise, withoutHuber(8));
+    const auto seen = [](const NavState& from, const NavState& to)
+    { return (from.map_T_imu * kBodyFromImu.inverse()).inverse() * (to.map_T_imu * kBodyFromImu.inverse()); };
+    const Vector6d error =
+        boxMinus(seen(drive.truth[1], drive.truth.back()), seen(smoother.anchor(), smoother.newest()));
+    const Matrix6d covariance = smoother.newestBodyCovariance();
+    nees += error.dot(covariance.ldlt().solve(error)) / kRuns;
+    largest = std::max(largest, covariance.diagonal().head<3>().sum());
+  }
+  EXPECT_NEAR(nees, 6, 1.04) << "seeds from 300";
+  EXPECT_LT(std::sqrt(largest), 2 * noise.pose);  // however uncertain the map is that both are in
+}
+
 TEST(FixedLagSmoother, resistsAnOutlier)
 {
   const DriveNoise noise;

@@ -51,13 +51,18 @@ Machine gentleMachine(Duration standstill)
 struct Driven
 {
   std::vector<StateEstimate> estimates;
-  std::uint64_t skipped = 0;
+  std::uint64_t skipped = 0, recoveries = 0, map_restarts = 0;
+
+  const StateEstimate& at(Duration t) const { return estimates[static_cast<std::size_t>(t / 100ms - 2)]; }
 };
 
 using ChangeScan = std::function<void(Scan&)>;
 
+using ChangeImu = std::function<void(ImuSample&)>;
+
 Driven runFor(
-    const Machine& machine, Duration length, SlamSettings settings = {}, const ChangeScan& change = [](Scan&) {})
+    const Machine& machine, Duration length, SlamSettings settings = {}, const ChangeScan& change = [](Scan&) {},
+    const ChangeImu& changeImu = [](ImuSample&) {})
 {
   settings.crop.max_x = 3;
   settings.crop.max_y = 2;
@@ -70,13 +75,20 @@ Driven runFor(
   Timestamp imu{0ms};
   for (Timestamp start{100ms}; start + 100ms <= Timestamp{length}; start += 100ms)
   {
-    for (; imu <= start + 105ms; imu += 5ms) slam.addImu(machine.sampleAt(imu));
+    for (; imu <= start + 105ms; imu += 5ms)
+    {
+      ImuSample sample = machine.sampleAt(imu);
+      changeImu(sample);
+      slam.addImu(sample);
+    }
     Scan scan = stand.scanAt(start, [&](Timestamp t) { return machine.bodyAt(t); });
     change(scan);
     keep(slam.addScan(std::move(scan)));
   }
   keep(slam.finish());
   run.skipped = slam.skippedScans();
+  run.recoveries = slam.recoveries();
+  run.map_restarts = slam.mapRestarts();
   return run;
 }
 
@@ -162,17 +174,107 @@ TEST(LidarInertialSlam, blindScansAreCarriedByTheImuAndThenCalledLost)
 {
   const Machine machine = gentleMachine(3s);
   const Driven run = runFor(machine, 12s, {},
-                         [](Scan& scan)
-                         {
-                           if (scan.start < Timestamp{6s}) return;
-                           scan.columns.clear();
-                           scan.points.clear();
-                         });
+                            [](Scan& scan)
+                            {
+                              if (scan.start < Timestamp{6s}) return;
+                              scan.columns.clear();
+                              scan.points.clear();
+                            });
   ASSERT_EQ(run.estimates.size(), 119u);
-  const auto healthAt = [&run](Duration t) { return run.estimates[static_cast<std::size_t>(t / 100ms - 2)].health; };
-  EXPECT_EQ(healthAt(7s), Health::Degenerate);
-  EXPECT_EQ(healthAt(10s), Health::Lost);
+  EXPECT_EQ(run.at(7s).health, Health::Degenerate);
+  EXPECT_EQ(run.at(10s).health, Health::Lost);
   EXPECT_LT(largestError(run, machine), 0.5);
+}
+
+namespace
+{
+void blind(Scan& scan)
+{
+  scan.columns.clear();
+  scan.points.clear();
+}
+}  // namespace
+
+TEST(LidarInertialSlam, isFoundAgainFarFromWhereAWrongImuCarriedIt)
+{
+  // Blind for four seconds, in which the gyroscope adds 60 degrees of yaw and the accelerometer metres.
+  const Machine machine = gentleMachine(3s);
+  const Timestamp from{6s}, to{10s};
+  const Driven run = runFor(
+      machine, 14s, {},
+      [&](Scan& scan)
+      {
+        if (scan.start >= from && scan.start < to) blind(scan);
+      },
+      [&](ImuSample& sample)
+      {
+        if (sample.stamp < from || sample.stamp >= to) return;
+        sample.gyro.z() += 60 * M_PI / 180 / 4;
+        sample.accel.x() += 0.5;
+      });
+  EXPECT_EQ(run.at(9900ms).health, Health::Lost);
+  EXPECT_EQ(run.recoveries, 1u);
+  const Rigid world_T_map = machine.bodyAt(run.estimates.front().stamp) * run.estimates.front().map_T_body.inverse();
+  const StateEstimate& end = run.estimates.back();
+  EXPECT_EQ(end.health, Health::Ok);
+  EXPECT_LT(((world_T_map * end.map_T_body).translation - machine.bodyAt(end.stamp).translation).norm(), 0.1);
+}
+
+TEST(LidarInertialSlam, addsNoKeyframeWhileItIsNotHealthy)
+{
+  const Driven run = runFor(gentleMachine(3s), 14s, {},
+                            [](Scan& scan)
+                            {
+                              if (scan.start >= Timestamp{5s} && scan.start < Timestamp{9s}) blind(scan);
+                            });
+  for (const StateEstimate& e : run.estimates) EXPECT_TRUE(!e.keyframe || e.health == Health::Ok);
+}
+
+TEST(LidarInertialSlam, beginsANewMapWhereTheOldOneIsOutOfSightForGood)
+{
+  SlamSettings settings;
+  settings.slam.restart_after = 3;
+  const StandOfStems stand;
+  const Machine machine = gentleMachine(3s);
+  const Driven run = runFor(machine, 16s, settings,
+                            [&](Scan& scan)
+                            {
+                              if (scan.start < Timestamp{5s}) return;
+                              const auto above = [&](Timestamp t)
+                              { return Rigid::fromXyzYawPitchRoll(0, 0, 30, 0, 0, 0) * machine.bodyAt(t); };
+                              scan = stand.scanAt(scan.start, above);
+                            });
+  EXPECT_EQ(run.map_restarts, 1u);
+  EXPECT_EQ(run.estimates.back().health, Health::Ok);
+}
+
+TEST(LidarInertialSlam, aScanFromElsewhereIsNotTrusted)
+{
+  // As if the machine had jumped by a metre for one scan.
+  const Machine machine = gentleMachine(3s);
+  const StandOfStems stand;
+  const Driven run = runFor(machine, 9s, {},
+                            [&](Scan& scan)
+                            {
+                              if (scan.start != Timestamp{8s}) return;
+                              const auto jumped = [&](Timestamp t)
+                              { return machine.bodyAt(t) * Rigid::fromXyzYawPitchRoll(0, 1, 0, 0, 0, 0); };
+                              scan = stand.scanAt(scan.start, jumped);
+                            });
+  const StateEstimate& jump = run.at(8100ms);
+  EXPECT_GT(jump.surprise, 40);
+  EXPECT_FALSE(jump.trusted);
+  EXPECT_EQ(jump.health, Health::Degenerate);
+  EXPECT_EQ(run.estimates.back().health, Health::Ok);
+  EXPECT_LT(largestError(run, machine), 0.06);
+}
+
+TEST(LidarInertialSlam, followsAlsoWithLidarPosesOfTheMap)
+{
+  SlamSettings settings;
+  settings.slam.relative = false;
+  const Machine machine = gentleMachine(3s);
+  EXPECT_LT(largestError(runFor(machine, 12s, settings), machine), 0.03);
 }
 
 TEST(LidarInertialSlam, theSameInputGivesTheSameBits)

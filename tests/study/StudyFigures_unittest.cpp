@@ -42,6 +42,12 @@ TEST(StudyFigures, lostRunsAreAboveAllOthersAndALostMedianIsHatched)
   EXPECT_THAT(script, HasSubstr("set label \"lost\""));
 }
 
+TEST(StudyFigures, gnuplotIsGivenARangeWhereAllRunsAreLost)
+{
+  const std::vector<RunRecord> lost{runWithDrift(50, "left", 1, 1)};
+  EXPECT_THAT(driftOverDistanceScript(cellsOf(lost)), HasSubstr("set xrange [0:1]\nset yrange [0:1]"));
+}
+
 TEST(StudyFigures, errorsOverTheDistanceAreMediansOfTheRunsThatWereNotLost)
 {
   const std::vector<RunRecord> records{runWithDrift(1, "left", 1, 1), runWithDrift(2, "left", 1, 2),
