@@ -84,7 +84,7 @@ TEST(ExperimentVerb, aDryRunListsCommandsAndTimeAndWritesNothing)
 
   EXPECT_EQ(ended.status, 0);
   EXPECT_THAT(ended.output, HasSubstr("--seed 3 --lidars left,right --every-nth 1"));
-  EXPECT_THAT(ended.output, HasSubstr("# 6 runs, about 120 s with 1 jobs"));  // six drives of 20 s
+  EXPECT_THAT(ended.output, HasSubstr("# 6 runs, about 2:00 min with 1 jobs"));  // six drives of 20 s
   EXPECT_FALSE(std::filesystem::exists(folder / "sweep"));
 }
 
