@@ -35,6 +35,17 @@ void refuseExisting(const OutputFolderArguments& arguments, const std::vector<st
   refuseExisting(files, arguments.overwrite);
 }
 
+CLI::Option* addSeconds(CLI::App& app, double& seconds)
+{
+  return app.add_option("--seconds", seconds, "live: stop after so long; 0: when interrupted")
+      ->check(CLI::NonNegativeNumber);
+}
+
+void refuseSeconds(double seconds)
+{
+  if (seconds > 0) throw UsageError("--seconds is for live lidars: captures and simulated drives end by themselves");
+}
+
 CLI::Option* addOverwrite(CLI::App& app, bool& overwrite)
 {
   return app.add_flag("-w,--overwrite", overwrite, "replace outputs that exist");

@@ -48,6 +48,11 @@ ConfigurationArguments withScene(ConfigurationArguments, const SceneArguments&);
 /** --simulate, --seed. @return the option --simulate. */
 CLI::Option* addScene(CLI::App&, SceneArguments&);
 
+/** --seconds, for live lidars: 0 until it is interrupted. @return the option. */
+CLI::Option* addSeconds(CLI::App&, double&);
+/** For an input that ends by itself. @throws UsageError if seconds were given. */
+void refuseSeconds(double seconds);
+
 CLI::Option* addOverwrite(CLI::App&, bool&);      // -w/--overwrite
 CLI::Option* addJson(CLI::App&, bool&);           // --json: results as JSON on stdout
 CLI::Option* addSeed(CLI::App&, std::uint64_t&);  // --seed

@@ -1,8 +1,7 @@
 /** `scanloom record`: packets, live or of captures, through the batcher into a rawlog. */
 #include "Arguments.h"
+#include "InputDisplay.h"
 #include "Interruption.h"
-#include "LiveStatus.h"
-#include "Progress.h"
 #include "Settings.h"
 #include "SimulatedRig.h"
 #include "Verb.h"
@@ -76,40 +75,19 @@ struct Source
   bool isLive() const { return !scene && rig.captures.empty(); }
 };
 
-/** A bar where the end is known, the lidars' state where it is not. */
-class Display
+InputDisplay displayOf(const Source& source, RigInput& input)
 {
- public:
-  explicit Display(const Source& source)
-  {
-    if (source.isLive())
-    {
-      live_.emplace("record");
-      return;
-    }
-    total_ = source.scene ? static_cast<std::uint64_t>(std::ceil(source.scene->span.duration))
-                          : megabytesOf(source.rig.captures);
-    replay_.emplace("record", total_, source.scene ? "s" : "MB");
-  }
-
-  void update(RigInput& input)
-  {
-    if (live_) return live_->update(input);
-    replay_->update(static_cast<std::uint64_t>(input.progress() * static_cast<double>(total_)));
-  }
-
- private:
-  std::uint64_t total_ = 0;
-  std::optional<Progress> replay_;
-  std::optional<LiveStatus> live_;
-};
+  if (source.isLive()) return {"record", input};
+  if (source.scene) return {"record", static_cast<std::uint64_t>(std::ceil(source.scene->span.duration)), "s"};
+  return {"record", megabytesOf(source.rig.captures), "MB"};
+}
 
 Recorded record(RigInput& input, const Source& source, double seconds, RawlogWriter& writer)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   Rig rig = source.rig;
-  Display display(source);
+  InputDisplay display = displayOf(source, input);
   Recorded recorded;
   while (!input.ended())
   {
@@ -121,7 +99,7 @@ Recorded record(RigInput& input, const Source& source, double seconds, RawlogWri
       if (std::holds_alternative<SensorImu>(*event)) ++recorded.imu_samples;
     }
     writer.secure();
-    display.update(input);
+    display.update(input.progress(), recorded.scans);
     const bool over = seconds > 0 && Clock::now() - start >= fromSeconds(seconds);
     if (interrupted() || over) input.stop();
   }
@@ -182,8 +160,7 @@ int run(const RecordArguments& arguments)
   const Loaded<RecordSettings> loaded = load<RecordSettings>(withScene(arguments.configuration, arguments.scene));
   const Source source = openSource(arguments, loaded.configuration);
   const bool live = source.isLive();
-  if (!live && arguments.seconds > 0)
-    throw UsageError("--seconds is for live lidars: captures and simulated drives end by themselves");
+  if (!live) refuseSeconds(arguments.seconds);
   const RawlogOptions options = rawlogOptions(loaded.settings.record, source.driver, live);
   if (arguments.configuration.dry_run)
   {
@@ -213,8 +190,7 @@ std::function<int()> addOptions(CLI::App& app)
   addConfiguration(app, arguments->configuration);
   addScene(app, arguments->scene);
   app.add_option("-o,--output", arguments->output, "the rawlog to write")->required();
-  app.add_option("--seconds", arguments->seconds, "live: stop after so long; 0: when interrupted")
-      ->check(CLI::NonNegativeNumber);
+  addSeconds(app, arguments->seconds);
   addOverwrite(app, arguments->overwrite);
   app.add_option("--lidars", arguments->lidars, "names of the lidars to use, separated by commas")->delimiter(',');
   addJson(app, arguments->json);

@@ -1,8 +1,7 @@
 /** `scanloom slam`: trajectory and maps of a recording. */
 #include "Arguments.h"
+#include "InputDisplay.h"
 #include "Interruption.h"
-#include "LiveStatus.h"
-#include "Progress.h"
 #include "Settings.h"
 #include "SimulatedRig.h"
 #include "Verb.h"
@@ -117,30 +116,11 @@ std::string commandOf(const SlamArguments& arguments)
   return command + fmt::format(" --out-dir {}", arguments.output.folder.string());
 }
 
-/** A bar where the end is known, the lidars' state where it is not. */
-class Display
+InputDisplay displayOf(const Input& input)
 {
- public:
-  explicit Display(const Input& input) : total_(input.size), live_input_(input.live)
-  {
-    if (live_input_)
-      live_.emplace("slam");
-    else
-      replay_.emplace("slam", total_, total_ > 0 ? input.unit : "scans");
-  }
-
-  void update(double share, std::uint64_t scans)
-  {
-    if (live_) return live_->update(*live_input_);
-    replay_->update(total_ > 0 ? static_cast<std::uint64_t>(share * static_cast<double>(total_)) : scans);
-  }
-
- private:
-  std::uint64_t total_;
-  RigInput* live_input_;
-  std::optional<Progress> replay_;
-  std::optional<LiveStatus> live_;
-};
+  if (input.live) return {"slam", *input.live};
+  return {"slam", input.size, input.unit};
+}
 
 /** What a person who ran it live wants to know last. */
 void noteWhetherItKeptUp(const RunSummary& summary)
@@ -174,8 +154,7 @@ int run(SlamArguments arguments)
   names.emplace_back(kConfigurationName);
   refuseExisting(arguments.output, names);
   const Input input = openInput(arguments, loaded.configuration);
-  if (!input.live && arguments.seconds > 0)
-    throw UsageError("--seconds is for live lidars: captures and simulated drives end by themselves");
+  if (!input.live) refuseSeconds(arguments.seconds);
   if (arguments.configuration.dry_run)
   {
     std::cout << toIni(loaded);
@@ -189,7 +168,7 @@ int run(SlamArguments arguments)
   writeAtomically(arguments.output.folder / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
   SlamRunResult result;
   {
-    Display display(input);
+    InputDisplay display = displayOf(input);
     result = runSlam(*input.sensors, loaded.settings, files,
                      [&](double share, std::uint64_t scans)
                      {
@@ -220,8 +199,7 @@ std::function<int()> addOptions(CLI::App& app)
       ->check(CLI::ExistingFile);
   addScene(app, arguments->scene)->excludes("--input");
   app.add_option("--lidars", arguments->lidars, "names of the lidars to use, separated by commas")->delimiter(',');
-  app.add_option("--seconds", arguments->seconds, "live: stop after so long; 0: when interrupted")
-      ->check(CLI::NonNegativeNumber);
+  addSeconds(app, arguments->seconds);
   app.add_option("--every-nth", arguments->every_nth, "use every N-th scan only")->check(CLI::PositiveNumber);
   return [arguments] { return run(*arguments); };
 }

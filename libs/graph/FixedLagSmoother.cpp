@@ -159,17 +159,12 @@ NavState FixedLagSmoother::optimise()
 Matrix15d FixedLagSmoother::newestCovariance() const
 {
   std::vector<StateBlocks> window = blocks();
-  std::vector<LinearFactor> linear;
-  for (const Factor& factor : factors()) linear.push_back(linearise(factor, window));
-  return marginalCovariance(linear, {states_.size() - 1});
+  return marginalCovariance(linearFactors(window), {states_.size() - 1});
 }
 
 Matrix6d FixedLagSmoother::newestBodyCovariance() const
 {
   std::vector<StateBlocks> window = blocks();
-  std::vector<LinearFactor> linear;
-  for (const Factor& factor : factors()) linear.push_back(linearise(factor, window));
-
   // A measurement of unit information whose Jacobian is that of the pose asked for.
   const std::size_t newest_index = states_.size() - 1, anchor_index = hasAnchor() ? indexOf(anchor_) : newest_index;
   const Rigid map_T_body = newest().map_T_imu * body_T_imu_.inverse();
@@ -181,7 +176,7 @@ Matrix6d FixedLagSmoother::newestBodyCovariance() const
             {anchor_index, newest_index}};
   }
   const LinearFactor seen = linearise(pose, window);
-  return seen.jacobian * marginalCovariance(linear, seen.states) * seen.jacobian.transpose();
+  return seen.jacobian * marginalCovariance(linearFactors(window), seen.states) * seen.jacobian.transpose();
 }
 
 void FixedLagSmoother::anchorNewest() { anchor_ = newest().stamp; }
@@ -228,6 +223,13 @@ std::vector<Factor> FixedLagSmoother::factors() const
           {std::make_unique<PosePriorFactor>(l.pose, l.information, body_T_imu_), {indexOf(l.stamp)}, options_.huber});
   }
   return all;
+}
+
+std::vector<LinearFactor> FixedLagSmoother::linearFactors(std::vector<StateBlocks>& window) const
+{
+  std::vector<LinearFactor> linear;
+  for (const Factor& factor : factors()) linear.push_back(linearise(factor, window));
+  return linear;
 }
 
 std::vector<StateBlocks> FixedLagSmoother::blocks() const

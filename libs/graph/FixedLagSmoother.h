@@ -104,6 +104,7 @@ class FixedLagSmoother
   void forget(std::size_t index);
   void add(const LidarPose&);
   std::vector<Factor> factors() const;
+  std::vector<LinearFactor> linearFactors(std::vector<StateBlocks>& window) const;
   std::vector<StateBlocks> blocks() const;
   std::size_t indexOf(Timestamp) const;
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace scanloom
 {
@@ -131,8 +130,9 @@ LinearFactor eliminate(const std::vector<LinearFactor>& factors, std::size_t sta
 Eigen::MatrixXd marginalCovariance(const std::vector<LinearFactor>& factors, const std::vector<std::size_t>& kept)
 {
   const std::vector<std::size_t> states = statesOf(factors);
-  const auto columnOf = [&](std::size_t state)
-  { return columnsOf(static_cast<std::size_t>(std::lower_bound(states.begin(), states.end(), state) - states.begin())); };
+  const auto columnOf = [&](std::size_t state) {
+    return columnsOf(static_cast<std::size_t>(std::lower_bound(states.begin(), states.end(), state) - states.begin()));
+  };
 
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(columnsOf(states.size()), columnsOf(states.size()));
   for (const LinearFactor& f : factors)

@@ -156,13 +156,10 @@ std::vector<Place> placesOf(const Neighbourhoods& all, const Evidence& evidence,
   return places;
 }
 
-/** Takes steps in the source's frame, in metres (see stepOfMetres), to those of Evidence. */
-Matrix6d targetOfStep(const Rigid& target_T_source)
+/** targetOfStep() for steps in metres (see stepOfMetres). */
+Matrix6d targetOfMetres(const Rigid& target_T_source)
 {
-  const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
-  Matrix6d target_of_step = Matrix6d::Zero();
-  target_of_step.topLeftCorner<3, 3>() = target_of_step.bottomRightCorner<3, 3>() = rotation;
-  return target_of_step * stepOfMetres().asDiagonal();
+  return targetOfStep(target_T_source) * stepOfMetres().asDiagonal();
 }
 
 /** Of the curvature, which far from a minimum need not be positive: what is not counts as little. */
@@ -214,7 +211,7 @@ double keptBy(const Vector6d& direction, Neighbourhoods& all, const Rigid& targe
 std::vector<Vector6d> directionsWithoutStructure(const Evidence& evidence, Neighbourhoods& all,
                                                  const Rigid& target_T_source, double d2)
 {
-  const Matrix6d target_of_step = targetOfStep(target_T_source);
+  const Matrix6d target_of_step = targetOfMetres(target_T_source);
   const Matrix6d structure = target_of_step.transpose() * evidence.structure * target_of_step;
   Matrix6d resistance = target_of_step.transpose() * evidence.resistance * target_of_step;
   resistance += 1e-9 * (1 + resistance.trace()) * Matrix6d::Identity();
@@ -257,7 +254,7 @@ LidarInformation lidarInformation(Neighbourhoods& all, const Rigid& target_T_sou
 {
   const Evidence evidence = evidenceOf(all, target_T_source, d2);
   Matrix6d metres = kUnmodelled * covarianceOf(placesOf(all, evidence, target_T_source), evidence.unsure_means,
-                                               targetOfStep(target_T_source));
+                                               targetOfMetres(target_T_source));
   metres.diagonal().head<3>().array() += kTranslationFloor * kTranslationFloor;
   metres.diagonal().tail<3>().array() += kRotationFloor * kRotationFloor;
 

@@ -44,6 +44,14 @@ ChunkSums sumOf(const Neighbourhoods& all, std::size_t index, const Vector3d& tr
 }
 }  // namespace
 
+Matrix6d targetOfStep(const Rigid& target_T_source)
+{
+  Matrix6d target_of_step = Matrix6d::Zero();
+  target_of_step.topLeftCorner<3, 3>() = target_of_step.bottomRightCorner<3, 3>() =
+      target_T_source.rotation.toRotationMatrix();
+  return target_of_step;
+}
+
 NormalEquations normalEquations(Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
   std::vector<ChunkSums> chunks(all.chunks());
@@ -66,9 +74,7 @@ NormalEquations normalEquations(Neighbourhoods& all, const Rigid& target_T_sourc
   }
 
   // boxPlus steps in the source's frame.
-  const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
-  Matrix6d target_of_step = Matrix6d::Zero();
-  target_of_step.topLeftCorner<3, 3>() = target_of_step.bottomRightCorner<3, 3>() = rotation;
+  const Matrix6d target_of_step = targetOfStep(target_T_source);
   equations.gradient = target_of_step.transpose() * gradient;
   equations.curvature = target_of_step.transpose() * curvature * target_of_step;
   return equations;

@@ -15,4 +15,7 @@ struct NormalEquations
 
 /** Moves the neighbourhoods to the pose. Sums run over fixed chunks of cells in a fixed order, on all threads. */
 NormalEquations normalEquations(Neighbourhoods&, const Rigid& target_T_source, double d2);
+
+/** Takes steps of boxPlus at the pose, in the source's frame, to steps about the source's origin in the target's. */
+Matrix6d targetOfStep(const Rigid& target_T_source);
 }  // namespace scanloom

@@ -215,7 +215,7 @@ bool LidarInertialSlam::recover(const PointCloud& cloud, StateEstimate& estimate
   return true;
 }
 
-/** A new window from here. The local map's frame becomes the map's: what gravity had turned it by is in the pose. */
+/** A new window from here. The local map stays where it lies in the map. */
 void LidarInertialSlam::restartAt(const Rigid& map_T_body, const Matrix6d& covariance)
 {
   constexpr double kVelocity = 1;  // m/s: found, but not how fast it goes
@@ -230,11 +230,14 @@ void LidarInertialSlam::restartAt(const Rigid& map_T_body, const Matrix6d& covar
   state.velocity.setZero();
   smoother_.emplace(state, around, body_T_imu_, settings_.imu, settings_.smoother);
   last_registered_.reset();
-  if (settings_.slam.relative)
-  {
-    smoother_->anchorNewest();
-    local_T_anchor_ = map_T_local.inverse() * map_T_body;
-  }
+  anchorAt(map_T_local.inverse() * map_T_body);
+}
+
+void LidarInertialSlam::anchorAt(const Rigid& local_T_body)
+{
+  if (!settings_.slam.relative) return;
+  smoother_->anchorNewest();
+  local_T_anchor_ = local_T_body;
 }
 
 void LidarInertialSlam::updateMap(const PointCloud& cloud, StateEstimate& estimate)
@@ -272,9 +275,7 @@ void LidarInertialSlam::addKeyframe(const PointCloud& cloud, StateEstimate& esti
                    }
                    local_map_.add(cloud, local_T_body);
                    estimate.keyframe = Keyframe{estimate.stamp, map_T_local * local_T_body, cloud};
-                   if (!settings_.slam.relative || smoother_->hasAnchor()) return;
-                   smoother_->anchorNewest();
-                   local_T_anchor_ = estimated;
+                   if (!smoother_->hasAnchor()) anchorAt(estimated);
                  });
 }
 

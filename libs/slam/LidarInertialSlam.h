@@ -52,6 +52,7 @@ class LidarInertialSlam
   void locate(const PointCloud&, StateEstimate&);
   void addToSmoother(const RegistrationResult&);
   bool recover(const PointCloud&, StateEstimate&);
+  void anchorAt(const Rigid& local_T_body);
   void restartAt(const Rigid& map_T_body, const Matrix6d& covariance);
   void updateMap(const PointCloud&, StateEstimate&);
   void addKeyframe(const PointCloud&, StateEstimate&);

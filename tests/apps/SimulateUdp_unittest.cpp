@@ -31,28 +31,43 @@ std::string sectionPrintedBy(const ChildProcess& child)
   }
   return "";
 }
+
+/** Two lidars of 16 beams with web pages, in a stand of so many stems per hectare. */
+struct SimulatedSensors
+{
+  SimulatedSensors(const TemporaryFolder& folder, int seconds, int stems)
+    : simulate(started(folder, seconds, stems), folder / "simulate.txt"), section(sectionPrintedBy(simulate))
+  {
+  }
+
+  ChildProcess simulate;
+  std::string section;  // of an INI file that reads them
+
+ private:
+  static std::string started(const TemporaryFolder& folder, int seconds, int stems)
+  {
+    const std::uint16_t left = freeUdpPort(), right = freeUdpPort();
+    std::ofstream(folder / "scene.ini") << fmt::format(
+        "[simulated_drive]\nduration = {}\nroute = work\nspeed_up = 1\n[simulated_stand]\nstems_per_hectare = {}\n"
+        "[simulated_lidars]\nlidar1_name = left\nlidar1_model = OS0-16\nlidar1_port = {}\nlidar2_name = right\n"
+        "lidar2_port = {}\n",
+        seconds, stems, left, right);
+    return fmt::format("{}/scanloom simulate -c {} --udp --delay 4", SCANLOOM_BIN_DIR, (folder / "scene.ini").string());
+  }
+};
 }  // namespace
 
 TEST(SimulateUdp, isRecordedByAddressesAlone)
 {
   const TemporaryFolder folder;
-  const std::uint16_t left = freeUdpPort(), right = freeUdpPort();
-  std::ofstream(folder / "scene.ini") << fmt::format(
-      "[simulated_drive]\nduration = 4\nroute = work\nspeed_up = 1\n[simulated_stand]\nstems_per_hectare = 0\n"
-      "[simulated_lidars]\nlidar1_name = left\nlidar1_model = OS0-16\nlidar1_port = {}\nlidar2_name = right\n"
-      "lidar2_port = {}\n",
-      left, right);
-  ChildProcess simulate(
-      fmt::format("{}/scanloom simulate -c {} --udp --delay 4", SCANLOOM_BIN_DIR, (folder / "scene.ini").string()),
-      folder / "simulate.txt");
-  const std::string section = sectionPrintedBy(simulate);
-  ASSERT_THAT(section, HasSubstr("lidar1_address = 127.0.0.2:"));
-  std::ofstream(folder / "live.ini") << section << "deadline_ms = 200\n";
+  SimulatedSensors sensors(folder, 4, 0);
+  ASSERT_THAT(sensors.section, HasSubstr("lidar1_address = 127.0.0.2:"));
+  std::ofstream(folder / "live.ini") << sensors.section << "deadline_ms = 200\n";
   ChildProcess record(fmt::format("{}/scanloom record -c {} -o {}", SCANLOOM_BIN_DIR, (folder / "live.ini").string(),
                                   (folder / "live.rawlog").string()),
                       folder / "record.txt");
 
-  EXPECT_EQ(simulate.wait(), 0) << simulate.log();
+  EXPECT_EQ(sensors.simulate.wait(), 0) << sensors.simulate.log();
   std::this_thread::sleep_for(300ms);
   record.send(SIGINT);
   EXPECT_EQ(record.wait(), 130) << record.log();
@@ -64,28 +79,19 @@ TEST(SimulateUdp, isRecordedByAddressesAlone)
       for (std::size_t i : {0, 1}) columns[i] += recorded->scan.columns_of[i];
   for (const std::size_t received : columns)
     EXPECT_GE(received, 37u * 512) << "4 s of 10 turns, less what was before the start: " << record.log();
-  EXPECT_THAT(simulate.log(), HasSubstr(" 0 refused"));
+  EXPECT_THAT(sensors.simulate.log(), HasSubstr(" 0 refused"));
 }
 
 TEST(SimulateUdp, isLocalisedInLive)
 {
   const TemporaryFolder folder;
-  const std::uint16_t left = freeUdpPort(), right = freeUdpPort();
-  std::ofstream(folder / "scene.ini") << fmt::format(
-      "[simulated_drive]\nduration = 8\nroute = work\nspeed_up = 1\n[simulated_stand]\nstems_per_hectare = 600\n"
-      "[simulated_lidars]\nlidar1_name = left\nlidar1_model = OS0-16\nlidar1_port = {}\nlidar2_name = right\n"
-      "lidar2_port = {}\n",
-      left, right);
-  ChildProcess simulate(
-      fmt::format("{}/scanloom simulate -c {} --udp --delay 4", SCANLOOM_BIN_DIR, (folder / "scene.ini").string()),
-      folder / "simulate.txt");
-  const std::string section = sectionPrintedBy(simulate);
-  std::ofstream(folder / "live.ini") << section << "deadline_ms = 200\n[slam]\nimu = left\n";
+  SimulatedSensors sensors(folder, 8, 600);
+  std::ofstream(folder / "live.ini") << sensors.section << "deadline_ms = 200\n[slam]\nimu = left\n";
   ChildProcess slam(fmt::format("{}/scanloom slam -c {} --out-dir {}", SCANLOOM_BIN_DIR, (folder / "live.ini").string(),
                                 (folder / "out").string()),
                     folder / "slam.txt");
 
-  EXPECT_EQ(simulate.wait(), 0) << simulate.log();
+  EXPECT_EQ(sensors.simulate.wait(), 0) << sensors.simulate.log();
   std::this_thread::sleep_for(500ms);
   slam.send(SIGINT);
   EXPECT_EQ(slam.wait(), 130) << slam.log();
