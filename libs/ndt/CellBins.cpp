@@ -83,20 +83,6 @@ CellBins countPart(const Coordinates& points, std::int64_t cell_quanta)
   return result;
 }
 
-std::vector<Bin> sumOf(const std::vector<Bin>& a, const std::vector<Bin>& b)
-{
-  std::vector<Bin> sum;
-  sum.reserve(a.size() + b.size());
-  auto from_b = b.cbegin();
-  for (const Bin& bin : a)
-  {
-    while (from_b != b.cend() && from_b->key < bin.key) sum.push_back(*from_b++);
-    sum.push_back(bin);
-    if (from_b != b.cend() && from_b->key == bin.key) sum.back().moments += (from_b++)->moments;
-  }
-  sum.insert(sum.end(), from_b, b.cend());
-  return sum;
-}
 }  // namespace
 
 CellBins countInto(const Coordinates& points, std::int64_t cell_quanta)
@@ -115,6 +101,20 @@ CellBins countInto(const Coordinates& points, std::int64_t cell_quanta)
   return all;
 }
 
+std::vector<Bin> sumOf(const std::vector<Bin>& a, const std::vector<Bin>& b)
+{
+  std::vector<Bin> sum;
+  sum.reserve(a.size() + b.size());
+  auto from_b = b.cbegin();
+  for (const Bin& bin : a)
+  {
+    while (from_b != b.cend() && from_b->key < bin.key) sum.push_back(*from_b++);
+    sum.push_back(bin);
+    if (from_b != b.cend() && from_b->key == bin.key) sum.back().moments += (from_b++)->moments;
+  }
+  sum.insert(sum.end(), from_b, b.cend());
+  return sum;
+}
 std::vector<Bin> coarserBins(const std::vector<Bin>& fine, std::int64_t cell_quanta, int factor)
 {
   const DividedBy parentOf(factor);

@@ -38,6 +38,9 @@ struct Coordinates
 /** Parts of the points are counted in parallel; sums of integers are the same for any parts. */
 CellBins countInto(const Coordinates&, std::int64_t cell_quanta);
 
+/** The points of both. */
+std::vector<Bin> sumOf(const std::vector<Bin>&, const std::vector<Bin>&);
+
 /** The same points in cells `factor` times as large: no point is looked at again. */
 std::vector<Bin> coarserBins(const std::vector<Bin>&, std::int64_t cell_quanta, int factor);
 

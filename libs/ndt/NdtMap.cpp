@@ -1,5 +1,7 @@
 #include "ndt/NdtMap.h"
 
+#include "ndt/ThinBodies.h"
+
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -28,6 +30,13 @@ void check(const NdtOptions& options)
             f.bounds.lowest_excluded ? "above" : "at least", f.bounds.lowest,
             std::isfinite(f.bounds.highest) ? fmt::format(" and at most {}", f.bounds.highest) : std::string()));
       });
+}
+
+Coordinates coordinatesOf(const std::vector<Eigen::Vector3f>& points)
+{
+  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
+  const float* first = points.empty() ? nullptr : points.front().data();
+  return {first, first + 1, first + 2, 3, points.size()};
 }
 
 /** What of one axis lies in one block: the cells from -1 to 1 around the centre, and the centre alone. */
@@ -71,17 +80,25 @@ NdtMap::NdtMap(const PointCloud& points, const NdtOptions& options) : NdtMap(opt
 
 NdtMap::NdtMap(const std::vector<Eigen::Vector3f>& points, const NdtOptions& options) : NdtMap(options) { add(points); }
 
+NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options) : NdtMap(options)
+{
+  std::vector<Bin> all;
+  for (const View& view : views)
+  {
+    CellBins counted = countInto(coordinatesOf(view.points), cell_quanta_);
+    points_left_out_ += counted.left_out;
+    if (view.viewpoint) moveToAxes(counted.bins, cell_quanta_, *view.viewpoint, options_.min_points);
+    all = all.empty() ? std::move(counted.bins) : sumOf(all, counted.bins);
+  }
+  combine(all, [](Moments& a, const Moments& b) { a += b; });
+}
+
 void NdtMap::add(const PointCloud& cloud)
 {
   add(Coordinates{cloud.x.data(), cloud.y.data(), cloud.z.data(), 1, cloud.size()});
 }
 
-void NdtMap::add(const std::vector<Eigen::Vector3f>& points)
-{
-  static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-  const float* first = points.empty() ? nullptr : points.front().data();
-  add(Coordinates{first, first + 1, first + 2, 3, points.size()});
-}
+void NdtMap::add(const std::vector<Eigen::Vector3f>& points) { add(coordinatesOf(points)); }
 
 void NdtMap::add(const Coordinates& points)
 {
@@ -255,8 +272,10 @@ Eigen::Vector3i NdtMap::indexOf(const Eigen::Vector3d& point) const
   return {index(point.x()), index(point.y()), index(point.z())};
 }
 
-std::vector<NdtMap> ndtLevels(const std::vector<Eigen::Vector3f>& points, const std::vector<double>& cell_sizes,
-                              NdtOptions options)
+namespace
+{
+template <typename Points>
+std::vector<NdtMap> levelsOf(const Points& points, const std::vector<double>& cell_sizes, NdtOptions options)
 {
   if (cell_sizes.empty()) throw std::invalid_argument("ndtLevels: at least one size of cells is needed");
   options.cell_size = *std::min_element(cell_sizes.begin(), cell_sizes.end());
@@ -275,5 +294,17 @@ std::vector<NdtMap> ndtLevels(const std::vector<Eigen::Vector3f>& points, const 
       levels.emplace_back(points, own);
   }
   return levels;
+}
+}  // namespace
+
+std::vector<NdtMap> ndtLevels(const std::vector<Eigen::Vector3f>& points, const std::vector<double>& cell_sizes,
+                              NdtOptions options)
+{
+  return levelsOf(points, cell_sizes, options);
+}
+
+std::vector<NdtMap> ndtLevels(const std::vector<View>& views, const std::vector<double>& cell_sizes, NdtOptions options)
+{
+  return levelsOf(views, cell_sizes, options);
 }
 }  // namespace scanloom

@@ -3,6 +3,7 @@
 #include "core/Field.h"
 #include "core/PointCloud.h"
 #include "ndt/CellBins.h"
+#include "ndt/View.h"
 
 #include <tsl/robin_map.h>
 
@@ -41,6 +42,8 @@ class NdtMap
   explicit NdtMap(const NdtOptions&);
   NdtMap(const PointCloud&, const NdtOptions&);
   NdtMap(const std::vector<Eigen::Vector3f>&, const NdtOptions&);
+  /** Points of stems and poles stand on their axes (see moveToAxes), as far as viewpoints are known. */
+  NdtMap(const std::vector<View>&, const NdtOptions&);
 
   /** Adds points given in the map's frame. Those that are not finite or too far for an index are left out and counted.
    */
@@ -107,4 +110,5 @@ class NdtMap
  * size and as NdtMap does.
  */
 std::vector<NdtMap> ndtLevels(const std::vector<Eigen::Vector3f>&, const std::vector<double>& cell_sizes, NdtOptions);
+std::vector<NdtMap> ndtLevels(const std::vector<View>&, const std::vector<double>& cell_sizes, NdtOptions);
 }  // namespace scanloom

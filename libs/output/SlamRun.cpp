@@ -21,6 +21,13 @@ int chooseImu(const SensorInput& input, const std::string& wanted)
   throw ConfigError(fmt::format("[slam] imu = {}: the input has no such IMU: {}", wanted, suggestion(wanted, choices)));
 }
 
+std::vector<Eigen::Vector3d> positionsOf(const std::vector<RecordedLidar>& lidars)
+{
+  std::vector<Eigen::Vector3d> positions;
+  for (const RecordedLidar& lidar : lidars) positions.push_back(lidar.body_T_sensor.translation);
+  return positions;
+}
+
 struct HealthCounts
 {
   std::uint64_t poses = 0, initialising = 0, degenerate = 0, lost = 0, keyframes = 0;
@@ -59,7 +66,7 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
 {
   const auto start = std::chrono::steady_clock::now();
   const int imu = chooseImu(input, settings.slam.imu);
-  LidarInertialSlam slam(settings, *input.body_T_imu(imu));
+  LidarInertialSlam slam(settings, *input.body_T_imu(imu), positionsOf(input.header().lidars));
   StageTimes times;
   HealthCounts health;
   std::uint64_t scans = 0;

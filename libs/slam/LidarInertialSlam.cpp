@@ -14,10 +14,12 @@ namespace
 constexpr std::size_t kScansOfFirstPass = 4;
 }  // namespace
 
-LidarInertialSlam::LidarInertialSlam(const SlamSettings& settings, const Rigid& body_T_imu)
+LidarInertialSlam::LidarInertialSlam(const SlamSettings& settings, const Rigid& body_T_imu,
+                                     std::vector<Eigen::Vector3d> lidars)
   : settings_(settings),
     body_T_imu_(body_T_imu),
     imu_T_body_(body_T_imu.inverse()),
+    lidars_(settings.slam.stem_axes ? std::move(lidars) : std::vector<Eigen::Vector3d>()),
     local_map_(settings.local_map, settings.map_cells)
 {
 }
@@ -91,7 +93,7 @@ void LidarInertialSlam::begin(const ImuInitialisation& initial)
 Eigen::Vector3d LidarInertialSlam::velocityOfFirstScans(const ImuInitialisation& at_rest) const
 {
   const std::size_t scans = std::min({waiting_.size(), kScansOfFirstPass, std::size_t(settings_.smoother.window - 1)});
-  LidarInertialSlam trial(settings_, body_T_imu_);
+  LidarInertialSlam trial(settings_, body_T_imu_, lidars_);
   trial.imu_ = imu_;
   trial.begin(at_rest);
   for (std::size_t i = 0; i < scans; ++i) trial.track(waiting_[i]);
@@ -110,18 +112,18 @@ StateEstimate LidarInertialSlam::track(Scan scan)
   smoother_->addState(
       times_.measure("preintegration", [&] { return preintegrate(samples, before.bias, settings_.imu); }));
 
-  const PointCloud cloud =
-      times_.measure("preprocessing", [&] { return preprocess(std::move(scan), before, samples); });
+  PointCloud cloud = times_.measure("preprocessing", [&] { return preprocess(std::move(scan), before, samples); });
+  const std::vector<View> views = viewsOf(cloud, lidars_);
   estimate.points = cloud.size();
-  locate(cloud, estimate);
+  locate(views, estimate);
   const NavState state = times_.measure("smoother", [&] { return smoother_->optimise(); });
 
   estimate.map_T_body = bodyAt(state);
   estimate.velocity = state.velocity;
   estimate.since_last = posesBetween(before, state, samples);
   estimate.health = healthOf(estimate);
-  if (estimate.health == Health::Lost && recover(cloud, estimate)) estimate.health = healthOf(estimate);
-  updateMap(cloud, estimate);
+  if (estimate.health == Health::Lost && recover(views, estimate)) estimate.health = healthOf(estimate);
+  updateMap(std::move(cloud), views, estimate);
   imu_.forgetBefore(state.stamp);
   return estimate;
 }
@@ -144,12 +146,12 @@ PointCloud LidarInertialSlam::preprocess(Scan scan, const NavState& before, cons
  * Registers the scan, and hands the result to the smoother, whose robust loss follows one that contradicts the IMU only
  * slowly. Such a one is not trusted.
  */
-void LidarInertialSlam::locate(const PointCloud& cloud, StateEstimate& estimate)
+void LidarInertialSlam::locate(const std::vector<View>& views, StateEstimate& estimate)
 {
-  if (local_map_.empty() || cloud.empty()) return;
+  if (local_map_.empty() || estimate.points == 0) return;
   const PoseGuess guess(map_T_local().inverse() * bodyAt(smoother_->newest()),
                         times_.measure("smoother", [&] { return smoother_->newestBodyCovariance(); }));
-  estimate.registration = registerScan(local_map_.ndt(), cloud, guess, settings_, times_);
+  estimate.registration = registerScan(local_map_.ndt(), views, guess, settings_, times_);
   const RegistrationResult& registration = *estimate.registration;
   if (registration.outcome == Outcome::LowOverlap) return;
   const PoseGuess either(guess.target_T_source, *guess.covariance + registration.covariance);
@@ -187,12 +189,12 @@ Rigid LidarInertialSlam::map_T_local() const
  * Once a second: looks for the body about where it was last seen, as far as a machine drives since. Its tilt and, every
  * other time, its heading are the IMU's, which may have lied: every other time all headings are tried.
  */
-bool LidarInertialSlam::recover(const PointCloud& cloud, StateEstimate& estimate)
+bool LidarInertialSlam::recover(const std::vector<View>& views, StateEstimate& estimate)
 {
   constexpr Duration kPatience = 1s;
   constexpr double kSpeed = 1.5, kFarthest = 10;  // m/s, m
   constexpr double kAsGood = 0.75;                // times the score with which it was last seen
-  if (local_map_.empty() || cloud.empty() || !last_seen_) return false;
+  if (local_map_.empty() || estimate.points == 0 || !last_seen_) return false;
   if (tried_to_recover_ && estimate.stamp - *tried_to_recover_ < kPatience) return false;
   const bool all_around = tried_to_recover_.has_value() && !tried_all_around_;
   tried_to_recover_ = estimate.stamp;
@@ -204,7 +206,7 @@ bool LidarInertialSlam::recover(const PointCloud& cloud, StateEstimate& estimate
       {(map_T_local.inverse() * estimate.map_T_body).rotation, last_seen_->target_T_source.translation},
       std::min(kFarthest, kSpeed * since),
       all_around ? 8 : 1};
-  const auto found = times_.measure("recovery", [&] { return relocalise(local_map_.ndt(), cloud, area, settings_); });
+  const auto found = times_.measure("recovery", [&] { return relocalise(local_map_.ndt(), views, area, settings_); });
   if (!found || found->score > kAsGood * last_seen_->score) return false;  // scores are negative
   estimate.registration = found;
   estimate.map_T_body = map_T_local * found->target_T_source;
@@ -240,7 +242,7 @@ void LidarInertialSlam::anchorAt(const Rigid& local_T_body)
   local_T_anchor_ = local_T_body;
 }
 
-void LidarInertialSlam::updateMap(const PointCloud& cloud, StateEstimate& estimate)
+void LidarInertialSlam::updateMap(PointCloud cloud, const std::vector<View>& views, StateEstimate& estimate)
 {
   if (cloud.empty()) return;
   const bool lost_for_good =
@@ -254,11 +256,11 @@ void LidarInertialSlam::updateMap(const PointCloud& cloud, StateEstimate& estima
   }
   const bool trusted = estimate.trusted && estimate.registration->outcome == Outcome::Converged;
   if (local_map_.empty() || (trusted && local_map_.wants(map_T_local().inverse() * estimate.map_T_body)))
-    addKeyframe(cloud, estimate);
+    addKeyframe(std::move(cloud), views, estimate);
 }
 
 /** Aligned again with finer cells, as far as the estimate leaves it open, then added to the local map. */
-void LidarInertialSlam::addKeyframe(const PointCloud& cloud, StateEstimate& estimate)
+void LidarInertialSlam::addKeyframe(PointCloud cloud, const std::vector<View>& views, StateEstimate& estimate)
 {
   times_.measure("keyframe",
                  [&]
@@ -268,13 +270,13 @@ void LidarInertialSlam::addKeyframe(const PointCloud& cloud, StateEstimate& esti
                    Rigid local_T_body = estimated;
                    if (!local_map_.empty())
                    {
-                     const NdtMap source(cloud, settings_.keyframe_cells);
+                     const NdtMap source(views, settings_.keyframe_cells);
                      const PoseGuess guess(estimated, smoother_->newestBodyCovariance());
                      const RegistrationResult fine = align(local_map_.ndt(), source, guess, settings_.fine);
                      if (fine.trustworthy()) local_T_body = fine.target_T_source;
                    }
-                   local_map_.add(cloud, local_T_body);
-                   estimate.keyframe = Keyframe{estimate.stamp, map_T_local * local_T_body, cloud};
+                   local_map_.add(views, local_T_body);
+                   estimate.keyframe = Keyframe{estimate.stamp, map_T_local * local_T_body, std::move(cloud)};
                    if (!smoother_->hasAnchor()) anchorAt(estimated);
                  });
 }

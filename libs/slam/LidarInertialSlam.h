@@ -23,7 +23,8 @@ namespace scanloom
 class LidarInertialSlam
 {
  public:
-  LidarInertialSlam(const SlamSettings&, const Rigid& body_T_imu);
+  /** `lidars`: where each is in the body frame, by sensor_id. Of one that is not there stems are taken as they look. */
+  LidarInertialSlam(const SlamSettings&, const Rigid& body_T_imu, std::vector<Eigen::Vector3d> lidars);
 
   /** In time order; a sample out of order or not finite is refused and counted. */
   void addImu(const ImuSample&);
@@ -49,13 +50,13 @@ class LidarInertialSlam
   bool covered(const Scan&) const;
   StateEstimate track(Scan);
   PointCloud preprocess(Scan, const NavState& at_end, const std::vector<ImuSample>&) const;
-  void locate(const PointCloud&, StateEstimate&);
+  void locate(const std::vector<View>&, StateEstimate&);
   void addToSmoother(const RegistrationResult&);
-  bool recover(const PointCloud&, StateEstimate&);
+  bool recover(const std::vector<View>&, StateEstimate&);
   void anchorAt(const Rigid& local_T_body);
   void restartAt(const Rigid& map_T_body, const Matrix6d& covariance);
-  void updateMap(const PointCloud&, StateEstimate&);
-  void addKeyframe(const PointCloud&, StateEstimate&);
+  void updateMap(PointCloud, const std::vector<View>&, StateEstimate&);
+  void addKeyframe(PointCloud, const std::vector<View>&, StateEstimate&);
   Health healthOf(const StateEstimate&);
   Rigid map_T_local() const;
   Trajectory posesBetween(const NavState& from, const NavState& to, const std::vector<ImuSample>&) const;
@@ -63,6 +64,7 @@ class LidarInertialSlam
 
   SlamSettings settings_;
   Rigid body_T_imu_, imu_T_body_;
+  std::vector<Eigen::Vector3d> lidars_;
   ImuBuffer imu_;
   std::deque<Scan> waiting_;
   std::uint64_t scans_seen_ = 0, skipped_scans_ = 0, refused_imu_samples_ = 0, recoveries_ = 0, map_restarts_ = 0;

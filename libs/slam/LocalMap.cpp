@@ -2,20 +2,6 @@
 
 namespace scanloom
 {
-namespace
-{
-std::vector<Eigen::Vector3f> movedBy(const Rigid& map_T_body, const PointCloud& points)
-{
-  // In double up to the map frame: far from the origin a float rotation alone would cost millimetres.
-  const Eigen::Matrix3d rotation = map_T_body.rotation.toRotationMatrix();
-  std::vector<Eigen::Vector3f> moved;
-  moved.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    moved.emplace_back((rotation * points.position(i).cast<double>() + map_T_body.translation).cast<float>());
-  return moved;
-}
-}  // namespace
-
 LocalMap::LocalMap(const LocalMapOptions& options, const NdtOptions& ndt) : options_(options), ndt_(ndt) {}
 
 bool LocalMap::wants(const Rigid& map_T_body) const
@@ -32,9 +18,11 @@ void LocalMap::clear()
   ndt_ = NdtMap(ndt_.options());
 }
 
-void LocalMap::add(const PointCloud& points_in_body, const Rigid& map_T_body)
+void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_body)
 {
-  keyframes_.push_back({map_T_body, NdtMap(movedBy(map_T_body, points_in_body), ndt_.options())});
+  std::vector<View> in_map;
+  for (const View& view : seen_from_body) in_map.push_back(movedBy(map_T_body, view));
+  keyframes_.push_back({map_T_body, NdtMap(in_map, ndt_.options())});
   ndt_.add(keyframes_.back().ndt);
   if (keyframes_.size() <= static_cast<std::size_t>(options_.keyframes)) return;
   ndt_.remove(keyframes_.front().ndt);

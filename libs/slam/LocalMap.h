@@ -1,7 +1,6 @@
 /** The last keyframes, as one NDT map in the map frame (paper, section 2.2). */
 #pragma once
 #include "core/Field.h"
-#include "core/PointCloud.h"
 #include "core/Rigid.h"
 #include "ndt/NdtMap.h"
 
@@ -37,8 +36,8 @@ class LocalMap
   /** Forgets all keyframes. */
   void clear();
 
-  /** Adds a keyframe, its points in the body frame, and forgets the oldest past the limit. */
-  void add(const PointCloud& points_in_body, const Rigid& map_T_body);
+  /** Adds a keyframe, its views in the body frame, and forgets the oldest past the limit. */
+  void add(const std::vector<View>& seen_from_body, const Rigid& map_T_body);
 
   bool empty() const { return keyframes_.empty(); }
   const NdtMap& ndt() const { return ndt_; }

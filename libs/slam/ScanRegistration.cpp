@@ -19,7 +19,7 @@ constexpr double kReachOfCells = 0.3;
 class Pyramid
 {
  public:
-  Pyramid(const NdtMap& map, const PointCloud& cloud, const NdtOptions& cells)
+  Pyramid(const NdtMap& map, const std::vector<View>& views, const NdtOptions& cells)
   {
     std::vector<double> sizes;
     for (const int factor : kFactors)
@@ -27,7 +27,7 @@ class Pyramid
       targets_.push_back(map.coarser(factor));
       sizes.push_back(factor * map.options().cell_size);
     }
-    sources_ = ndtLevels(positionsOf(cloud), sizes, cells);
+    sources_ = ndtLevels(views, sizes, cells);
   }
 
   RegistrationResult align(const PoseGuess& guess, const RegistrationOptions& options) const
@@ -36,14 +36,6 @@ class Pyramid
   }
 
  private:
-  static std::vector<Eigen::Vector3f> positionsOf(const PointCloud& cloud)
-  {
-    std::vector<Eigen::Vector3f> positions;
-    positions.reserve(cloud.size());
-    for (std::size_t i = 0; i < cloud.size(); ++i) positions.push_back(cloud.position(i));
-    return positions;
-  }
-
   std::vector<NdtMap> targets_, sources_;
 };
 
@@ -68,7 +60,7 @@ std::vector<Rigid> startsWithin(const SearchArea& area)
 }
 }  // namespace
 
-RegistrationResult registerScan(const NdtMap& map, const PointCloud& cloud, const PoseGuess& guess,
+RegistrationResult registerScan(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
                                 const SlamSettings& settings, StageTimes& times)
 {
   const bool unsure =
@@ -77,23 +69,23 @@ RegistrationResult registerScan(const NdtMap& map, const PointCloud& cloud, cons
   {
     if (unsure)
       return times.measure("rough_alignment",
-                           [&] { return Pyramid(map, cloud, settings.fine_cells).align(guess, settings.rough); });
-    const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(cloud, settings.scan_cells); });
+                           [&] { return Pyramid(map, views, settings.fine_cells).align(guess, settings.rough); });
+    const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, settings.scan_cells); });
     return times.measure("rough_alignment", [&] { return align(map, scan, guess.target_T_source, settings.rough); });
   }();
   if (!settings.slam.refine) return rough;
 
   const Rigid& start = rough.trustworthy() ? rough.target_T_source : guess.target_T_source;
-  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(cloud, settings.fine_cells); });
+  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, settings.fine_cells); });
   return times.measure("fine_alignment", [&] { return align(map, scan, start, settings.fine); });
 }
 
-std::optional<RegistrationResult> relocalise(const NdtMap& map, const PointCloud& cloud, const SearchArea& area,
+std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views, const SearchArea& area,
                                              const SlamSettings& settings)
 {
   constexpr double kRivals = 0.8;  // of the best score, at another place: no telling which
   constexpr double kGoodOverlap = 0.5;
-  const Pyramid pyramid(map, cloud, settings.fine_cells);
+  const Pyramid pyramid(map, views, settings.fine_cells);
   std::vector<RegistrationResult> found;
   for (const Rigid& start : startsWithin(area))
   {

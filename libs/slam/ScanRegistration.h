@@ -1,6 +1,5 @@
 /** A scan's pose in the local map. */
 #pragma once
-#include "core/PointCloud.h"
 #include "core/StageTimes.h"
 #include "slam/SlamSettings.h"
 
@@ -13,7 +12,7 @@ namespace scanloom
  * be off by more than those of [scan_cells] reach. What the result says is the lidar's alone: a guess that is surer
  * than that chooses where to begin and nothing else.
  */
-RegistrationResult registerScan(const NdtMap& map, const PointCloud& cloud_in_body, const PoseGuess& map_T_body,
+RegistrationResult registerScan(const NdtMap& map, const std::vector<View>& seen_from_body, const PoseGuess& map_T_body,
                                 const SlamSettings&, StageTimes&);
 
 /** Where a lost body may be: that far to each side (m), turned by any of so many headings, the pose's own among them.
@@ -26,6 +25,6 @@ struct SearchArea
 };
 
 /** Nothing if no pose in it is trustworthy, or if another one far from the best is nearly as good. */
-std::optional<RegistrationResult> relocalise(const NdtMap& map, const PointCloud& cloud_in_body, const SearchArea&,
-                                             const SlamSettings&);
+std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& seen_from_body,
+                                             const SearchArea&, const SlamSettings&);
 }  // namespace scanloom

@@ -19,6 +19,7 @@ struct SlamOptions
   double imu_wait_ms = 50;
   double lost_after = 2.0;
   bool refine = true;
+  bool stem_axes = true;
   bool relative = true;
   double correlation = 2.0;
   double gate = 40.0;
@@ -34,6 +35,8 @@ struct SlamOptions
               "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first lidar's"});
     visit(o.imu_wait_ms, Field{"imu_wait_ms", "ms", "how long a scan waits for the IMU to cover its end", atLeast(0)});
     visit(o.refine, Field{"refine", "", "align every scan again with [fine_cells] after the rough alignment"});
+    visit(o.stem_axes,
+          Field{"stem_axes", "", "stems and poles are registered by their axes, not by the side that the lidars see"});
     visit(o.relative, Field{"relative", "",
                             "a registration measures from the first keyframe, whose attitude gravity may still turn; "
                             "false: from the map, as the paper does"});

@@ -68,7 +68,7 @@ Driven runFor(
   settings.crop.max_y = 2;
   settings.crop.min_y = -2;
   const StandOfStems stand;
-  LidarInertialSlam slam(settings, kBodyTImu);
+  LidarInertialSlam slam(settings, kBodyTImu, {});
   Driven run;
   const auto keep = [&run](std::vector<StateEstimate> more)
   { std::move(more.begin(), more.end(), std::back_inserter(run.estimates)); };
@@ -290,7 +290,7 @@ TEST(LidarInertialSlam, theSameInputGivesTheSameBits)
 
 TEST(LidarInertialSlam, withoutImuThereIsNoEstimateAndNoCrash)
 {
-  LidarInertialSlam slam(SlamSettings{}, kBodyTImu);
+  LidarInertialSlam slam(SlamSettings{}, kBodyTImu, {});
   const Machine machine = gentleMachine(3s);
   EXPECT_TRUE(
       slam.addScan(StandOfStems().scanAt(Timestamp{100ms}, [&](Timestamp t) { return machine.bodyAt(t); })).empty());

@@ -7,7 +7,7 @@ using namespace scanloom;
 namespace
 {
 /** A full cube of points around the origin of the body, one cell of the map. */
-PointCloud cube()
+std::vector<View> cube()
 {
   PointCloud points;
   points.resize(27);
@@ -17,7 +17,7 @@ PointCloud cube()
     points.y[i] = 0.3f + 0.2f * static_cast<float>(i / 3 % 3);
     points.z[i] = 0.3f + 0.2f * static_cast<float>(i / 9);
   }
-  return points;
+  return viewsOf(points, {});
 }
 
 Rigid at(double x, double yaw_deg = 0) { return Rigid::fromXyzYawPitchRoll(x, 0, 0, yaw_deg * M_PI / 180, 0, 0); }

@@ -10,13 +10,13 @@ namespace
 {
 const Rigid kMapPose = Rigid::fromXyzYawPitchRoll(0, 0, 1.5, 0.2, 0, 0);
 
-PointCloud cloudAt(const Rigid& map_T_body, unsigned stand = 1)
+std::vector<View> viewsAt(const Rigid& map_T_body, unsigned stand = 1)
 {
-  return StandOfStems(stand).scanAt(Timestamp{0s}, [&](Timestamp) { return map_T_body; }).points;
+  return viewsOf(StandOfStems(stand).scanAt(Timestamp{0s}, [&](Timestamp) { return map_T_body; }).points, {});
 }
 
 /** Of a scan taken at kMapPose, in its frame. */
-NdtMap mapOfOneScan(const SlamSettings& settings) { return NdtMap(cloudAt(kMapPose), settings.map_cells); }
+NdtMap mapOfOneScan(const SlamSettings& settings) { return NdtMap(viewsAt(kMapPose), settings.map_cells); }
 
 PoseGuess guessWith(const Rigid& pose, double metres, double radians)
 {
@@ -35,7 +35,7 @@ TEST(ScanRegistration, findsAPoseFromWithinTheReachOfTheRoughCells)
   const Rigid truth = Rigid::fromXyzYawPitchRoll(1, -0.5, 0.1, 0.1, 0, 0.02);
   const Rigid off = truth * Rigid::fromXyzYawPitchRoll(0.3, -0.2, 0.1, 0.03, 0, 0);
   const auto result =
-      registerScan(mapOfOneScan(settings), cloudAt(kMapPose * truth), guessWith(off, 0.2, 0.02), settings, times);
+      registerScan(mapOfOneScan(settings), viewsAt(kMapPose * truth), guessWith(off, 0.2, 0.02), settings, times);
   EXPECT_LT(distance(result.target_T_source, truth), 0.02);
 }
 
@@ -46,7 +46,7 @@ TEST(ScanRegistration, goesThroughCoarserCellsWhenTheGuessIsUnsure)
   const Rigid truth = Rigid::fromXyzYawPitchRoll(1, -0.5, 0.1, 0.1, 0, 0.02);
   const Rigid off = truth * Rigid::fromXyzYawPitchRoll(1.5, -1.5, 0, 0.25, 0, 0);
   const NdtMap map = mapOfOneScan(settings);
-  const PointCloud cloud = cloudAt(kMapPose * truth);
+  const std::vector<View> cloud = viewsAt(kMapPose * truth);
   EXPECT_LT(distance(registerScan(map, cloud, guessWith(off, 1.2, 0.15), settings, times).target_T_source, truth),
             0.02);
 }
@@ -55,7 +55,7 @@ TEST(ScanRegistration, relocalisesFromAnywhereNearby)
 {
   const SlamSettings settings;
   const Rigid truth = Rigid::fromXyzYawPitchRoll(2, 1, 0, 0.3, 0, 0);
-  const auto found = relocalise(mapOfOneScan(settings), cloudAt(kMapPose * truth),
+  const auto found = relocalise(mapOfOneScan(settings), viewsAt(kMapPose * truth),
                                 SearchArea{Rigid::fromXyzYawPitchRoll(-2, 4, 0, 2.5, 0, 0), 5}, settings);
   ASSERT_TRUE(found);
   EXPECT_LT(distance(found->target_T_source, truth), 0.05);
@@ -64,5 +64,5 @@ TEST(ScanRegistration, relocalisesFromAnywhereNearby)
 TEST(ScanRegistration, doesNotRelocaliseInAnotherStand)
 {
   const SlamSettings settings;
-  EXPECT_FALSE(relocalise(mapOfOneScan(settings), cloudAt(kMapPose, 7), SearchArea{}, settings));
+  EXPECT_FALSE(relocalise(mapOfOneScan(settings), viewsAt(kMapPose, 7), SearchArea{}, settings));
 }

@@ -1,0 +1,52 @@
+#include "ndt/ThinBodies.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kMeanBeforeAxis = M_PI / 4;  // radii
+constexpr double kSlimness = 2;               // length over width, as standard deviations
+constexpr double kMostRadius = 0.3;           // m
+constexpr double kLeastAcross = 0.3;          // of the line of sight's unit vector, across the axis
+
+/** From the mean of the points to the axis, in m; zero where there is no thin body. */
+Eigen::Vector3d wayToAxis(const GaussianCell& cell, const Eigen::Vector3d& viewpoint)
+{
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect(cell.covariance);
+  const Eigen::Vector3d& variances = eigen.eigenvalues();
+  const Eigen::Vector3d axis = eigen.eigenvectors().col(2);
+  const Eigen::Vector3d sight = (cell.mean - viewpoint).normalized();
+  const Eigen::Vector3d across = sight - sight.dot(axis) * axis;
+  if (!(variances[2] > kSlimness * kSlimness * variances[1] && across.norm() > kLeastAcross))
+    return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d towards = across.normalized(), sideways = axis.cross(towards);
+  const double radius = std::sqrt(3 * std::max(0.0, sideways.dot(cell.covariance * sideways)));
+  return radius <= kMostRadius ? Eigen::Vector3d(kMeanBeforeAxis * radius * towards) : Eigen::Vector3d::Zero();
+}
+}  // namespace
+
+void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points)
+{
+  constexpr std::size_t kGrain = 128;
+  const double edge = static_cast<double>(cell_quanta) * Moments::kQuantum;
+  const auto move = [&](Bin& bin)
+  {
+    if (bin.moments.n < least_points) return;
+    const Eigen::Vector3d corner = edge * CellKey::indexOf(bin.key).cast<double>();
+    const Eigen::Vector3d way = wayToAxis(gaussianOf(bin.moments, corner, edge, 0), viewpoint);
+    bin.moments = bin.moments.about({quantaOf(way.x()), quantaOf(way.y()), quantaOf(way.z())});
+  };
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bins.size(), kGrain),
+                    [&](const auto& range)
+                    {
+                      for (std::size_t i = range.begin(); i != range.end(); ++i) move(bins[i]);
+                    });
+}
+}  // namespace scanloom

@@ -1,0 +1,25 @@
+/** Points together with where they were seen from. */
+#pragma once
+#include "core/PointCloud.h"
+#include "core/Rigid.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/** What one lidar saw, in one frame. */
+struct View
+{
+  std::vector<Eigen::Vector3f> points;
+  std::optional<Eigen::Vector3d> viewpoint;  // none: unknown, and nothing is derived from it
+};
+
+/** By sensor_id. Lidars without a viewpoint share the last view. */
+std::vector<View> viewsOf(const PointCloud&, const std::vector<Eigen::Vector3d>& viewpoints);
+
+/** In the target's frame. */
+View movedBy(const Rigid& target_T_view, const View&);
+}  // namespace scanloom

@@ -1,0 +1,123 @@
+#include "ndt/ThinBodies.h"
+
+#include "ndt/NdtMap.h"
+#include "ndt/Registration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace scanloom;
+
+namespace
+{
+struct Stem
+{
+  double x, y, radius;
+};
+
+/** Where rays from `eye`, evenly spread over the stem's width, meet it; rings 5 cm apart. */
+void look(const Eigen::Vector3d& eye, const Stem& stem, std::vector<Eigen::Vector3f>& points)
+{
+  const Eigen::Vector2d axis(stem.x, stem.y), sight = (axis - eye.head<2>()).normalized();
+  const Eigen::Vector2d side(-sight.y(), sight.x());
+  for (double z = 0.025; z < 4; z += 0.05)
+    for (double across = -0.95; across < 1; across += 0.1)
+    {
+      const Eigen::Vector2d p = axis + stem.radius * (across * side - std::sqrt(1 - across * across) * sight);
+      points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(z));
+    }
+}
+
+View viewOf(const Stem& stem, const Eigen::Vector3d& eye)
+{
+  View view{{}, eye};
+  look(eye, stem, view.points);
+  return view;
+}
+
+/** Stems around a lane of 6 m along x, all in the middle of a cell of 1 m. */
+std::vector<Stem> stand()
+{
+  std::vector<Stem> stems;
+  for (int i = -8; i <= 8; ++i)
+    for (int j = -8; j <= 8; ++j)
+      if (std::abs(j) > 3 && (7 * i + 3 * j) % 5 == 0) stems.push_back({i + 0.5, j + 0.5, 0.05 + 0.01 * ((i + j) & 7)});
+  return stems;
+}
+
+/** Of the stand, in the frame of the eye. */
+View viewFrom(const Eigen::Vector3d& eye)
+{
+  View view{{}, eye};
+  for (const Stem& stem : stand()) look(eye, stem, view.points);
+  return movedBy(Rigid::fromXyzYawPitchRoll(-eye.x(), -eye.y(), -eye.z(), 0, 0, 0), view);
+}
+
+double stepFound(const View& target, const View& source, double step)
+{
+  const Rigid guess = Rigid::fromXyzYawPitchRoll(step, 0, 0, 0, 0, 0);
+  return align(NdtMap({target}, {}), NdtMap({source}, {}), guess, {}).target_T_source.translation.x();
+}
+}  // namespace
+
+TEST(ThinBodies, aStemStandsAtItsAxisFromWhereverItIsSeen)
+{
+  for (const double radius : {0.04, 0.1, 0.2})
+    for (int bearing = 0; bearing < 360; bearing += 30)
+    {
+      const Stem stem{0.5, 0.5, radius};
+      const double angle = bearing * M_PI / 180;
+      const Eigen::Vector3d eye(0.5 + 8 * std::cos(angle), 0.5 + 8 * std::sin(angle), 2);
+      const NdtMap map({viewOf(stem, eye)}, {});
+      ASSERT_EQ(map.cells().size(), 4u);
+      for (const GaussianCell& cell : map.cells())
+        EXPECT_LT((cell.mean.head<2>() - Eigen::Vector2d(0.5, 0.5)).norm(), 0.1 * radius) << radius << ' ' << bearing;
+    }
+}
+
+TEST(ThinBodies, withoutAViewpointAStemStandsWhereItIsTouched)
+{
+  View view = viewOf({0.5, 0.5, 0.2}, {8.5, 0.5, 2});
+  view.viewpoint.reset();
+  const NdtMap map({view}, {});
+  for (const GaussianCell& cell : map.cells()) EXPECT_NEAR(cell.mean.x(), 0.5 + M_PI / 4 * 0.2, 1e-3);
+}
+
+TEST(ThinBodies, wallsAndFoliageStay)
+{
+  View seen{{}, Eigen::Vector3d(10, 0.5, 0.5)};
+  for (int i = 0; i < 400; ++i)
+  {
+    const float a = static_cast<float>(i % 20) / 20 + 0.02F, b = static_cast<float>(i / 20) / 20 + 0.02F;
+    seen.points.emplace_back(0.5F, a, b);                               // a wall
+    seen.points.emplace_back(3 + a, b, static_cast<float>(i % 7) / 7);  // a bush
+  }
+  View from_nowhere = seen;
+  from_nowhere.viewpoint.reset();
+  const NdtMap map({seen}, {}), plain({from_nowhere}, {});
+  ASSERT_EQ(map.cells().size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(map.cells()[i].mean, plain.cells()[i].mean);
+}
+
+TEST(ThinBodies, thePathPastStemsIsNotShortened)
+{
+  const View here = viewFrom({0, 0, 2}), there = viewFrom({3, 0, 2});
+  View here_plain = here, there_plain = there;
+  here_plain.viewpoint.reset(), there_plain.viewpoint.reset();
+  EXPECT_LT(stepFound(here_plain, there_plain, 3), 3 - 0.008) << "what this is about";
+  EXPECT_NEAR(stepFound(here, there, 3), 3, 0.001);
+}
+
+TEST(View, pointsAreToldApartBySensor)
+{
+  PointCloud cloud;
+  cloud.resize(3);
+  cloud.sensor_id[1] = 1;
+  cloud.sensor_id[2] = 7;
+  const auto views = viewsOf(cloud, {{1, 0, 0}, {2, 0, 0}});
+  ASSERT_EQ(views.size(), 3u);
+  for (const View& view : views) EXPECT_EQ(view.points.size(), 1u);
+  EXPECT_EQ(views[1].viewpoint->x(), 2);
+  EXPECT_FALSE(views[2].viewpoint);
+}
