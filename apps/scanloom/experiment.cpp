@@ -5,6 +5,7 @@
 #include "Settings.h"
 #include "Sweep.h"
 #include "Verb.h"
+#include "Version.h"
 #include "config/AtomicFile.h"
 #include "simulation/RecordingOptions.h"
 
@@ -54,8 +55,8 @@ std::vector<RunRecord> plannedRecords(const ExperimentPlan& plan)
   {
     RunRecord record;
     record.run = run;
-    record.version = SCANLOOM_VERSION;
-    record.configuration_hash = configurationHash(run, plan, SCANLOOM_VERSION);
+    record.version = programVersion();
+    record.configuration_hash = configurationHash(run, plan, record.version);
     records.push_back(std::move(record));
   }
   return records;

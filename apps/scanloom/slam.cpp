@@ -5,6 +5,7 @@
 #include "Settings.h"
 #include "SimulatedRig.h"
 #include "Verb.h"
+#include "Version.h"
 #include "config/AtomicFile.h"
 #include "mrpt_bridge/ImuDriver.h"
 #include "output/SlamRun.h"
@@ -180,7 +181,7 @@ int run(SlamArguments arguments)
                      });
   }
   result.summary.command = commandOf(arguments);
-  result.summary.versions = {{"scanloom", SCANLOOM_VERSION}};
+  result.summary.versions = {{"scanloom", programVersion()}};
   files.close(result.summary);
 
   report(result, arguments.output.folder);
