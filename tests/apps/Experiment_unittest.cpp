@@ -137,6 +137,17 @@ TEST(ExperimentVerb, aDryRunListsCommandsAndTimeAndWritesNothing)
   EXPECT_FALSE(std::filesystem::exists(folder / "sweep"));
 }
 
+TEST(ExperimentVerb, planSucceedsForEverySweepThatIsGiven)
+{
+  const TemporaryFolder folder;
+  for (const auto& entry : std::filesystem::directory_iterator(SCANLOOM_SOURCE_DIR "/params/experiments"))
+  {
+    const Ended ended =
+        scanloom("experiment -c " + entry.path().string() + " --dry-run --out-dir " + (folder / "sweep").string());
+    EXPECT_EQ(ended.status, 0) << entry.path() << ": " << ended.output.substr(0, 1000);
+  }
+}
+
 TEST(ExperimentVerb, refusesAParameterThatNoVerbHas)
 {
   const TemporaryFolder folder;
