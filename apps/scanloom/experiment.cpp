@@ -100,9 +100,10 @@ double durationOf(const PlannedDrive& drive)
 }
 
 /** Simulations, and runs that take as long as those before them, or a share of their drives. */
-double estimate(const std::vector<PlannedDrive>& drives, const Records& done, int jobs)
+double estimate(const std::vector<RunRecord>& planned, const std::vector<PlannedDrive>& drives, const Records& done,
+                int jobs)
 {
-  constexpr double kSimulation = 0.4, kRun = 0.1;  // of the drive, two lidars of 32 beams at 512x10 on one core
+  constexpr double kSimulation = 0.4, kEveryScan = 0.1;  // of the drive, two lidars of 32 beams at 512x10 on one core
   double spent = 0, count = 0;
   for (const auto& record : done)
     if (record && record->costs)
@@ -115,7 +116,8 @@ double estimate(const std::vector<PlannedDrive>& drives, const Records& done, in
   {
     const double duration = durationOf(drive);
     if (drive.simulated()) ahead += kSimulation * duration;
-    ahead += static_cast<double>(drive.runs.size()) * (count > 0 ? spent / count : kRun * duration);
+    for (const std::size_t run : drive.runs)
+      ahead += count > 0 ? spent / count : kEveryScan * duration / planned[run].run.every_nth;
   }
   return ahead / jobs;
 }
@@ -144,7 +146,7 @@ int listRuns(const std::vector<RunRecord>& planned, const std::vector<PlannedDri
                  toText(slamCommand(planned[run].run, folder, path, folder.of(planned[run]))));
   }
   fmt::print("# {} simulations, {} runs, about {} with {} jobs\n", simulations, planned.size(),
-             timeText(estimate(drives, done, jobs)), jobs);
+             timeText(estimate(planned, drives, done, jobs)), jobs);
   return kDone;
 }
 
