@@ -1,5 +1,6 @@
 #include "Command.h"
 
+#include "ExitCode.h"
 #include "Interruption.h"
 
 #include <fcntl.h>
@@ -11,6 +12,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <thread>
 
@@ -80,6 +82,15 @@ int statusOf(pid_t process)
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
+
+std::string lastLineOf(const std::filesystem::path& log)
+{
+  std::ifstream file(log);
+  std::string last;
+  for (std::string line; std::getline(file, line);)
+    if (!line.empty()) last = line;
+  return last;
+}
 }  // namespace
 
 std::string toText(const Command& command)
@@ -88,6 +99,15 @@ std::string toText(const Command& command)
   for (const auto* words : {&command.environment, &command.words})
     for (const std::string& word : *words) text += (text.empty() ? "" : " ") + quoted(word);
   return text;
+}
+
+void addSettings(std::vector<std::string>& words, const std::vector<std::pair<std::string, std::string>>& settings)
+{
+  for (const auto& [name, value] : settings)
+  {
+    words.emplace_back("--set");
+    words.push_back(name + '=' + value);
+  }
 }
 
 std::filesystem::path ownExecutable() { return std::filesystem::read_symlink("/proc/self/exe"); }
@@ -101,5 +121,12 @@ int runCommand(const Command& command, const std::filesystem::path& log)
                                    pointersTo(environment).data());
   if (error != 0) throw std::runtime_error(fmt::format("cannot start {}: {}", words.front(), std::strerror(error)));
   return statusOf(process);
+}
+
+void runVerb(const Command& command, const std::filesystem::path& log)
+{
+  const int status = runCommand(command, log);
+  if (status != kDone && status != kQualityGate)
+    throw std::runtime_error(fmt::format("{} ended with status {}: {}", command.words.at(1), status, lastLineOf(log)));
 }
 }  // namespace scanloom

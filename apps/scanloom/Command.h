@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace scanloom
@@ -15,6 +16,9 @@ struct Command
 /** As one would type it. */
 std::string toText(const Command&);
 
+/** `--set NAME=VALUE` for each. */
+void addSettings(std::vector<std::string>& words, const std::vector<std::pair<std::string, std::string>>& settings);
+
 /** The file that this program was started from. */
 std::filesystem::path ownExecutable();
 
@@ -23,4 +27,10 @@ std::filesystem::path ownExecutable();
  * @return its exit status, or 128 + the signal that ended it. Throws std::runtime_error if it cannot be started.
  */
 int runCommand(const Command&, const std::filesystem::path& log);
+
+/**
+ * For a verb of ours, a quality gate that it does not pass is no failure.
+ * Throws std::runtime_error with the last line of the log if it fails.
+ */
+void runVerb(const Command&, const std::filesystem::path& log);
 }  // namespace scanloom

@@ -1,6 +1,5 @@
 #include "ExperimentRun.h"
 
-#include "ExitCode.h"
 #include "Interruption.h"
 #include "config/AtomicFile.h"
 #include "evaluation/Evaluation.h"
@@ -29,40 +28,6 @@ std::string fileName(std::string label)
       label.begin(), label.end(),
       [](unsigned char c) { return !std::isalnum(c) && c != '+' && c != '-' && c != '.' && c != '='; }, '_');
   return label;
-}
-
-void addSettings(std::vector<std::string>& words, const PlannedRun& run)
-{
-  for (const auto& [name, value] : run.settings)
-  {
-    words.emplace_back("--set");
-    words.push_back(name + '=' + value);
-  }
-}
-
-Command truthCommand(const PlannedRun& run, const std::filesystem::path& out)
-{
-  std::vector<std::string> words{ownExecutable(),         "simulate", "-c", run.simulation, "--truth", "--seed",
-                                 std::to_string(run.seed)};
-  addSettings(words, run);
-  words.insert(words.end(), {"-w", "--out-dir", out});
-  return {words, {}};
-}
-
-std::string lastLineOf(const std::filesystem::path& log)
-{
-  std::ifstream file(log);
-  std::string last;
-  for (std::string line; std::getline(file, line);)
-    if (!line.empty()) last = line;
-  return last;
-}
-
-void runChecked(const Command& command, const std::filesystem::path& log)
-{
-  const int status = runCommand(command, log);
-  if (status != kDone && status != kQualityGate)
-    throw std::runtime_error(fmt::format("{} ended with status {}: {}", command.words.at(1), status, lastLineOf(log)));
 }
 
 nlohmann::json readJson(const std::filesystem::path& path)
@@ -121,29 +86,21 @@ RunCosts costsOf(const nlohmann::json& summary)
   return costs;
 }
 
-void removeMaps(const std::filesystem::path& out)
+void runAndEvaluate(RunRecord& record, const ExperimentFolder& folder, const DriveFolder& drive,
+                    const std::filesystem::path& out)
 {
-  for (const char* name : {"map.bt", "map.ot", "map.ply", "keyframes.simplemap"}) std::filesystem::remove(out / name);
-}
-
-void runAndEvaluate(RunRecord& record, const ExperimentFolder& folder, const std::filesystem::path& out)
-{
-  const auto log = out / "log.txt";
   std::filesystem::remove_all(out);  // what a failed or interrupted run left
   std::filesystem::create_directories(out);
-  const bool simulated = record.run.recording.empty();
-  const auto truth = simulated ? out / "truth" : record.run.recording;
-  if (simulated) runChecked(truthCommand(record.run, truth), log);
+  if (!drive.error.empty()) throw std::runtime_error(drive.error);
 
   const auto start = std::chrono::steady_clock::now();
-  runChecked(slamCommand(record.run, folder, out), log);
+  runVerb(slamCommand(record.run, folder, drive.path, out), out / "log.txt");
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const nlohmann::json summary = readJson(out / "summary.json");
   record.outcome = summary.at("outcome");
   record.costs = costsOf(summary);
   record.costs->elapsed = elapsed.count();
-  if (!folder.keep_maps) removeMaps(out);
-  record.figures = figuresOf(out, truth);
+  record.figures = figuresOf(out, drive.path);
 }
 }  // namespace
 
@@ -153,26 +110,35 @@ std::filesystem::path ExperimentFolder::of(const RunRecord& record) const
          fmt::format("{}_{}", fileName(record.run.label()), record.configuration_hash.substr(0, kHashDigits));
 }
 
-Command slamCommand(const PlannedRun& run, const ExperimentFolder& folder, const std::filesystem::path& out)
+std::filesystem::path ExperimentFolder::of(const PlannedDrive& drive) const
+{
+  if (!drive.simulated()) return drive.recording;
+  return root / "drives" / fmt::format("{}_{}", fileName(drive.label()), drive.hash.substr(0, kHashDigits));
+}
+
+Command slamCommand(const PlannedRun& run, const ExperimentFolder& folder, const std::filesystem::path& drive,
+                    const std::filesystem::path& out)
 {
   std::vector<std::string> words{ownExecutable(), "slam"};
   for (const auto& file : folder.configurations) words.insert(words.end(), {"-c", file});
-  if (!run.simulation.empty())
-    words.insert(words.end(), {"--simulate", run.simulation, "--seed", std::to_string(run.seed)});
+  if (!run.simulation.empty()) words.insert(words.end(), {"-c", run.simulation});  // what it says of slam
   words.insert(words.end(), {"--lidars", run.lidars, "--every-nth", std::to_string(run.every_nth)});
-  addSettings(words, run);
+  auto settings = run.settings;
+  settings.erase(std::remove_if(settings.begin(), settings.end(),
+                                [](const auto& setting) { return changesTheDrive(setting.first); }),
+                 settings.end());
+  addSettings(words, settings);
+  if (!folder.keep_maps) words.insert(words.end(), {"--set", "output.maps=false"});
   words.insert(words.end(), {"-w", "--out-dir", out});
-  Command command{words, {}};
-  if (!run.recording.empty()) command.environment.push_back("SCANLOOM_RECORDING=" + run.recording.string());
-  return command;
+  return {words, {"SCANLOOM_RECORDING=" + drive.string()}};
 }
 
-RunRecord execute(RunRecord record, const ExperimentFolder& folder)
+RunRecord execute(RunRecord record, const ExperimentFolder& folder, const DriveFolder& drive)
 {
   const auto out = folder.of(record);
   try
   {
-    runAndEvaluate(record, folder, out);
+    runAndEvaluate(record, folder, drive, out);
   }
   catch (const std::exception& e)
   {

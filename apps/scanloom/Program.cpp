@@ -1,6 +1,7 @@
 #include "Program.h"
 
 #include "Verb.h"
+#include "Version.h"
 #include "config/ConfigError.h"
 #include "config/Names.h"
 
@@ -102,7 +103,7 @@ int runProgram(int argc, const char* const* argv)
   keepStandardStreamsOpen();
 
   CLI::App app("Weaves the packets of several spinning lidars into one scan that is true in time.", "scanloom");
-  app.set_version_flag("--version", "scanloom " SCANLOOM_VERSION);
+  app.set_version_flag("--version", fmt::format("scanloom {}", programVersion()));
   app.require_subcommand(1);
 
   std::string name;

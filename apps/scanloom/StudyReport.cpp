@@ -15,7 +15,8 @@ constexpr const char* kStyle =
     "body{font:16px/1.5 sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222;background:#fff}"
     "table{border-collapse:collapse;font-size:.85rem}th,td{border:1px solid #bbb;padding:.2rem .5rem;text-align:right}"
     "th{background:#eee}td:first-child,td:nth-child(2),td:nth-child(3){text-align:left}"
-    "figure{margin:1rem 0}svg{max-width:100%;height:auto}pre{background:#f4f4f4;padding:.6rem;overflow-x:auto}"
+    "figure{margin:1rem "
+    "0}svg{max-width:100%;height:auto}pre{background:#f4f4f4;padding:.6rem;white-space:pre-wrap;overflow-wrap:anywhere}"
     ".wide{overflow-x:auto}";
 
 std::string escaped(const std::string& text)
@@ -136,14 +137,17 @@ std::string figuresOf(const std::string& stand, const std::vector<StudyCell>& ce
 {
   std::string html = fmt::format("<h2>{}</h2>\n", escaped(stand));
   for (const Quantity& quantity : drawn())
+  {
+    const std::string lost = "; crosses and hatched bars are lost runs and medians (beyond 10 m or 5 % of the path)";
     html += barsFigure(barsOf(cells, quantity), quantity.name,
-                       fmt::format("{}, {}: medians as bars, a dot per run; crosses and hatched bars are lost runs and "
-                                   "medians (beyond 10 m or 5 % of the path).",
-                                   stand, quantity.name),
+                       fmt::format("{}, {}: medians as bars, a dot per run{}.", stand, quantity.name,
+                                   quantity.lost == LostRuns::Apart ? lost : ""),
                        draw);
-  html += figureElement(
-      draw(driftOverDistanceScript(cells)), alternativeOverDistance(cells),
-      fmt::format("{}, drift over distance at the IMU's rate: medians of the runs that were not lost.", stand));
+  }
+  for (const auto& lines : byLines(cells))
+    html += figureElement(
+        draw(driftOverDistanceScript(lines)), alternativeOverDistance(lines),
+        fmt::format("{}, drift over distance at the IMU's rate: medians of the runs that were not lost.", stand));
   return html + barsFigure(stageBars(cells), "mean [ms]",
                            fmt::format("{}, {}: milliseconds per stage; medians as bars, a dot per run.", stand,
                                        cells.front().group),

@@ -1,12 +1,14 @@
 #include "Sweep.h"
 
+#include "DriveQueue.h"
+#include "DriveRecording.h"
 #include "Interruption.h"
 #include "Progress.h"
 
 #include <fmt/format.h>
 #include <sched.h>
 
-#include <atomic>
+#include <algorithm>
 #include <mutex>
 #include <thread>
 
@@ -79,14 +81,47 @@ class Results
   Progress progress_;
 };
 
-void work(Results& results, std::atomic<std::size_t>& next)
+/** Drives that have packets, or an error instead. Each is one thread's at a time. */
+class DriveFolders
 {
-  for (std::size_t i = next++; i < results.planned().size() && !interrupted(); i = next++)
+ public:
+  DriveFolders(std::vector<PlannedDrive> drives, const ExperimentFolder& folder)
+    : drives_(std::move(drives)), keep_packets_(folder.keep_packets)
   {
-    if (results.has(i)) continue;
-    RunRecord record = execute(results.planned()[i], results.folder());
+    for (const PlannedDrive& drive : drives_) folders_.push_back({folder.of(drive), ""});
+  }
+
+  const DriveFolder& operator[](std::size_t drive) const { return folders_[drive]; }
+  void simulate(std::size_t i) { folders_[i].error = simulateDrive(drives_[i], folders_[i].path); }
+  void release(std::size_t i) const
+  {
+    if (drives_[i].simulated() && !keep_packets_) removePackets(folders_[i].path);
+  }
+  void releaseAll() const
+  {
+    for (std::size_t i = 0; i < drives_.size(); ++i) release(i);
+  }
+
+ private:
+  std::vector<PlannedDrive> drives_;
+  std::vector<DriveFolder> folders_;
+  bool keep_packets_;
+};
+
+void work(Results& results, DriveQueue& queue, DriveFolders& drives)
+{
+  for (auto work = queue.next(); work && !interrupted(); work = queue.next())
+  {
+    if (!work->run)
+    {
+      drives.simulate(work->drive);
+      queue.simulated(work->drive);
+      continue;
+    }
+    RunRecord record = execute(results.planned()[*work->run], results.folder(), drives[work->drive]);
     if (interrupted()) return;  // half a run is none
-    results.add(i, std::move(record));
+    results.add(*work->run, std::move(record));
+    if (queue.finishedRun(work->drive)) drives.release(work->drive);
   }
 }
 
@@ -111,49 +146,79 @@ std::vector<int> ourCores()
   return cores;
 }
 
+std::vector<PlannedDrive> drivesAhead(std::vector<PlannedDrive> drives,
+                                      const std::vector<std::optional<RunRecord>>& done)
+{
+  for (PlannedDrive& drive : drives)
+    drive.runs.erase(
+        std::remove_if(drive.runs.begin(), drive.runs.end(), [&](std::size_t run) { return done[run].has_value(); }),
+        drive.runs.end());
+  drives.erase(
+      std::remove_if(drives.begin(), drives.end(), [](const PlannedDrive& drive) { return drive.runs.empty(); }),
+      drives.end());
+  return drives;
+}
+
 std::vector<RunRecord> runOnCores(Sweep sweep, int jobs)
 {
+  const std::vector<PlannedDrive> ahead = drivesAhead(std::move(sweep.drives), sweep.done);
+  DriveQueue queue(ahead);
+  DriveFolders drives(ahead, sweep.folder);
   Results results(std::move(sweep));
   const std::vector<int> cores = ourCores();
-  std::atomic<std::size_t> next = 0;
   std::vector<std::thread> threads;
   for (int job = 0; job < jobs; ++job)
     threads.emplace_back(
         [&, job]
         {
           keepToShare(job, jobs, cores);
-          work(results, next);
+          work(results, queue, drives);
         });
   for (std::thread& thread : threads) thread.join();
+  if (interrupted()) drives.releaseAll();
   return results.close();
 }
 
-std::vector<RunRecord> runOnSlurm(Sweep sweep, const Command& one_run, int jobs)
+std::vector<RunRecord> runDrive(const PlannedDrive& drive, const std::vector<RunRecord>& planned,
+                                const ExperimentFolder& folder)
 {
-  Results results(std::move(sweep));
+  DriveFolders drives({drive}, folder);
+  if (drive.simulated()) drives.simulate(0);
+  std::vector<RunRecord> records;
+  for (const std::size_t run : drive.runs)
+    if (!interrupted()) records.push_back(execute(planned[run], folder, drives[0]));
+  drives.release(0);
+  return records;
+}
+
+std::vector<RunRecord> runOnSlurm(Sweep sweep, const Command& one_drive, int jobs)
+{
   std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < results.planned().size(); ++i)
-    if (!results.has(i))
-    {
-      removeRecord(results.planned()[i],
-                   results.folder());  // or an old one would pass for that of a job that never ran
-      numbers.push_back(i + 1);
-    }
+  std::vector<std::pair<std::size_t, std::size_t>> runs;  // and the numbers of their jobs
+  for (std::size_t i = 0; i < sweep.drives.size(); ++i)
+  {
+    const auto ahead = drivesAhead({sweep.drives[i]}, sweep.done);
+    if (ahead.empty()) continue;
+    numbers.push_back(i + 1);
+    for (const std::size_t run : ahead.front().runs) runs.emplace_back(run, numbers.back());
+  }
+  Results results(std::move(sweep));
   if (numbers.empty()) return results.close();
 
+  // An old record would pass for that of a job that never ran.
+  for (const auto& [run, number] : runs) removeRecord(results.planned()[run], results.folder());
   const auto logs = std::filesystem::absolute(results.folder().root) / "slurm";
   std::filesystem::create_directories(logs);
   const std::string limit = jobs > 0 ? fmt::format("%{}", jobs) : "";
   const Command array{
       {"sbatch", "--wait", "--job-name=scanloom", fmt::format("--array={}{}", fmt::join(numbers, ","), limit),
        fmt::format("--output={}/%a.txt", logs.string()),
-       fmt::format("--wrap={} --only $SLURM_ARRAY_TASK_ID", toText(one_run))},
+       fmt::format("--wrap={} --only $SLURM_ARRAY_TASK_ID", toText(one_drive))},
       {}};
   runCommand(array, logs / "sbatch.txt");  // its status is that of the worst run, which records tell better
   if (interrupted()) return results.close();
-  for (const std::size_t number : numbers)
-    results.add(number - 1,
-                leftBehind(results.planned()[number - 1], results.folder(), logs / fmt::format("{}.txt", number)));
+  for (const auto& [run, number] : runs)
+    results.add(run, leftBehind(results.planned()[run], results.folder(), logs / fmt::format("{}.txt", number)));
   return results.close();
 }
 }  // namespace scanloom

@@ -1,10 +1,13 @@
-/** `scanloom experiment`: a sweep over stands, lidars, N, seeds and any parameter, a process per run. */
+/** `scanloom experiment`: a sweep over stands, lidars, N, seeds and any parameter, each drive simulated once, a process
+ * per run. */
 #include "Arguments.h"
+#include "DriveRecording.h"
 #include "Interruption.h"
 #include "Progress.h"
 #include "Settings.h"
 #include "Sweep.h"
 #include "Verb.h"
+#include "Version.h"
 #include "config/AtomicFile.h"
 #include "simulation/RecordingOptions.h"
 
@@ -54,8 +57,8 @@ std::vector<RunRecord> plannedRecords(const ExperimentPlan& plan)
   {
     RunRecord record;
     record.run = run;
-    record.version = SCANLOOM_VERSION;
-    record.configuration_hash = configurationHash(run, plan, SCANLOOM_VERSION);
+    record.version = programVersion();
+    record.configuration_hash = configurationHash(run, plan, record.version);
     records.push_back(std::move(record));
   }
   return records;
@@ -87,31 +90,36 @@ ExperimentOptions withAbsolutePaths(ExperimentOptions options, const ExperimentP
   return options;
 }
 
-double durationOf(const PlannedRun& run)
+double durationOf(const PlannedDrive& drive)
 {
   constexpr double kAssumed = 60;  // s, of a recording
-  if (run.simulation.empty()) return kAssumed;
-  Configuration configuration = Configuration::fromFiles({run.simulation});
-  for (const auto& [name, value] : run.settings) configuration.set(name + '=' + value);
+  if (!drive.simulated()) return kAssumed;
+  Configuration configuration = Configuration::fromFiles({drive.simulation});
+  for (const auto& [name, value] : drive.settings) configuration.set(name + '=' + value);
   return readSettings<SimulationSettings>(configuration, knownToAnyVerb()).drive.duration;
 }
 
-/** A run takes as long as those before it, or as its drive. */
-double estimate(const std::vector<RunRecord>& planned, const Records& done, int jobs)
+/** Simulations, and runs that take as long as those before them, or a share of their drives. */
+double estimate(const std::vector<RunRecord>& planned, const std::vector<PlannedDrive>& drives, const Records& done,
+                int jobs)
 {
-  double spent = 0, count = 0, ahead = 0, left = 0;
-  for (std::size_t i = 0; i < planned.size(); ++i)
-    if (done[i] && done[i]->costs)
+  constexpr double kSimulation = 0.4, kEveryScan = 0.1;  // of the drive, two lidars of 32 beams at 512x10 on one core
+  double spent = 0, count = 0;
+  for (const auto& record : done)
+    if (record && record->costs)
     {
-      spent += done[i]->costs->elapsed;
+      spent += record->costs->elapsed;
       ++count;
     }
-    else
-    {
-      ahead += durationOf(planned[i].run);
-      ++left;
-    }
-  return (count > 0 ? left * spent / count : ahead) / jobs;
+  double ahead = 0;
+  for (const PlannedDrive& drive : drivesAhead(drives, done))
+  {
+    const double duration = durationOf(drive);
+    if (drive.simulated()) ahead += kSimulation * duration;
+    for (const std::size_t run : drive.runs)
+      ahead += count > 0 ? spent / count : kEveryScan * duration / planned[run].run.every_nth;
+  }
+  return ahead / jobs;
 }
 
 std::optional<RunRecord> finishedBefore(const RunRecord& planned, const ExperimentFolder& folder)
@@ -121,11 +129,24 @@ std::optional<RunRecord> finishedBefore(const RunRecord& planned, const Experime
   return record;
 }
 
-int listRuns(const std::vector<RunRecord>& planned, const Records& done, const ExperimentFolder& folder, int jobs)
+int listRuns(const std::vector<RunRecord>& planned, const std::vector<PlannedDrive>& drives, const Records& done,
+             const ExperimentFolder& folder, int jobs)
 {
-  for (std::size_t i = 0; i < planned.size(); ++i)
-    fmt::print("{}{}\n", done[i] ? "# done: " : "", toText(slamCommand(planned[i].run, folder, folder.of(planned[i]))));
-  fmt::print("# {} runs, about {} with {} jobs\n", planned.size(), timeText(estimate(planned, done, jobs)), jobs);
+  std::size_t simulations = 0;
+  for (const PlannedDrive& drive : drives)
+  {
+    const auto path = folder.of(drive);
+    if (drive.simulated() && !drivesAhead({drive}, done).empty())
+    {
+      fmt::print("{}\n", toText(simulateCommand(drive, path)));
+      ++simulations;
+    }
+    for (const std::size_t run : drive.runs)
+      fmt::print("{}{}\n", done[run] ? "# done: " : "",
+                 toText(slamCommand(planned[run].run, folder, path, folder.of(planned[run]))));
+  }
+  fmt::print("# {} simulations, {} runs, about {} with {} jobs\n", simulations, planned.size(),
+             timeText(estimate(planned, drives, done, jobs)), jobs);
   return kDone;
 }
 
@@ -151,14 +172,22 @@ void pointLatestTo(const std::filesystem::path& folder)
   if (!std::filesystem::exists(link)) std::filesystem::create_directory_symlink(target.filename(), link, error);
 }
 
-/** A job of an array: its record is collected by who started the array. */
-int runOne(const std::vector<RunRecord>& planned, const ExperimentFolder& folder, std::size_t number)
+/** A job of an array: its records are collected by who started the array. */
+int runOne(const std::vector<RunRecord>& planned, const std::vector<PlannedDrive>& drives,
+           const ExperimentFolder& folder, std::size_t number)
 {
-  if (number > planned.size()) throw UsageError(fmt::format("--only {}: there are {} runs", number, planned.size()));
+  if (number > drives.size()) throw UsageError(fmt::format("--only {}: there are {} drives", number, drives.size()));
   catchInterruption();
-  const RunRecord record = execute(planned[number - 1], folder);
-  fmt::print("{}: {} {}\n", record.run.label(), record.outcome, record.error);
-  return record.finished() ? kDone : kSomeFailed;
+  Records done;
+  for (const RunRecord& record : planned) done.push_back(recordOf(record, folder));
+  bool all = true;
+  for (const PlannedDrive& drive : drivesAhead({drives[number - 1]}, done))
+    for (const RunRecord& record : runDrive(drive, planned, folder))
+    {
+      fmt::print("{}: {} {}\n", record.run.label(), record.outcome, record.error);
+      all &= record.finished();
+    }
+  return interrupted() ? kInterrupted : all ? kDone : kSomeFailed;
 }
 
 int run(const ExperimentArguments& arguments)
@@ -167,8 +196,10 @@ int run(const ExperimentArguments& arguments)
   const ExperimentPlan plan = planOf(loaded.settings, loaded.configuration);
   checkSettings(plan);
   const std::vector<RunRecord> planned = plannedRecords(plan);
-  const ExperimentFolder folder{arguments.output.folder, plan.configurations, loaded.settings.experiment.keep_maps};
-  if (arguments.only > 0) return runOne(planned, folder, arguments.only);
+  const std::vector<PlannedDrive> drives = drivesOf(plan.runs, programVersion());
+  const ExperimentOptions& options = loaded.settings.experiment;
+  const ExperimentFolder folder{arguments.output.folder, plan.configurations, options.keep_maps, options.keep_packets};
+  if (arguments.only > 0) return runOne(planned, drives, folder, arguments.only);
 
   OutputFolderArguments output = arguments.output;
   output.overwrite |= arguments.resume || arguments.configuration.dry_run;
@@ -179,14 +210,14 @@ int run(const ExperimentArguments& arguments)
     std::transform(planned.begin(), planned.end(), done.begin(),
                    [&](const RunRecord& record) { return finishedBefore(record, folder); });
   const int jobs = arguments.jobs > 0 ? arguments.jobs : std::max(1, static_cast<int>(ourCores().size()));
-  if (arguments.configuration.dry_run) return listRuns(planned, done, folder, jobs);
+  if (arguments.configuration.dry_run) return listRuns(planned, drives, done, folder, jobs);
 
   catchInterruption();
   std::filesystem::create_directories(output.folder);
   loaded.settings.experiment = withAbsolutePaths(loaded.settings.experiment, plan);
   writeAtomically(output.folder / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
   pointLatestTo(output.folder);
-  Sweep sweep{planned, std::move(done), folder, {toText(commandOf("scanloom", arguments)), thisMachine(), {}}};
+  Sweep sweep{planned, std::move(done), drives, folder, {toText(commandOf("scanloom", arguments)), thisMachine(), {}}};
   const std::vector<RunRecord> records =
       arguments.engine == "slurm" ? runOnSlurm(std::move(sweep), commandOf(ownExecutable(), arguments), arguments.jobs)
                                   : runOnCores(std::move(sweep), jobs);
@@ -204,7 +235,9 @@ std::function<int()> addOptions(CLI::App& app)
                  "local, or slurm: a job array by sbatch; the folder must be one that its nodes share")
       ->check(CLI::IsMember({"local", "slurm"}))
       ->capture_default_str();
-  app.add_option("--only", arguments->only, "the N-th run of the plan alone, without the tables: for job arrays")
+  app.add_option("--only", arguments->only,
+                 "the N-th drive of the plan with those of its runs that have no record, without the tables: for "
+                 "job arrays")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   return [arguments] { return run(*arguments); };

@@ -5,6 +5,7 @@
 #include "Settings.h"
 #include "SimulatedRig.h"
 #include "Verb.h"
+#include "Version.h"
 #include "config/AtomicFile.h"
 #include "mrpt_bridge/ImuDriver.h"
 #include "output/SlamRun.h"
@@ -34,12 +35,14 @@ struct SlamArguments
 
 struct SlamVerbSettings : SlamSettings
 {
+  OutputOptions output;
   OctoMapOptions octomap;
 
   template <typename Self, typename Visitor>
   static void sections(Self& s, Visitor&& visit)
   {
     SlamSettings::sections(s, visit);
+    visit(s.output, Section{"output", "the files of a run"});
     visit(s.octomap, Section{"octomap", "the occupancy map"});
   }
 };
@@ -162,14 +165,16 @@ int run(SlamArguments arguments)
   }
 
   catchInterruption();
-  SlamFiles files(arguments.output.folder, input.sensors->header().lidars, loaded.settings.octomap);
+  const SlamVerbSettings& settings = loaded.settings;
+  SlamFiles files(arguments.output.folder, input.sensors->header().lidars,
+                  settings.output.maps ? std::optional(settings.octomap) : std::nullopt);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   writeAtomically(arguments.output.folder / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
   SlamRunResult result;
   {
     InputDisplay display = displayOf(input);
-    result = runSlam(*input.sensors, loaded.settings, files,
+    result = runSlam(*input.sensors, settings, files,
                      [&](double share, std::uint64_t scans)
                      {
                        display.update(share, scans);
@@ -180,7 +185,7 @@ int run(SlamArguments arguments)
                      });
   }
   result.summary.command = commandOf(arguments);
-  result.summary.versions = {{"scanloom", SCANLOOM_VERSION}};
+  result.summary.versions = {{"scanloom", programVersion()}};
   files.close(result.summary);
 
   report(result, arguments.output.folder);

@@ -1,30 +1,33 @@
 /** The files of a localisation run, written while it goes: an interrupted run leaves what it had. */
 #pragma once
-#include "mrpt_bridge/RecordingHeader.h"
-#include "output/MapPicture.h"
-#include "output/OctoMapExport.h"
+#include "output/MapFiles.h"
 #include "output/OutputFile.h"
-#include "output/PlyWriter.h"
 #include "output/RunSummary.h"
-#include "output/SimpleMapFile.h"
 #include "output/Trajectory.h"
 #include "slam/StateEstimate.h"
 
-#include <condition_variable>
-#include <deque>
-#include <exception>
 #include <filesystem>
-#include <mutex>
+#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace scanloom
 {
+struct OutputOptions
+{
+  bool maps = true;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.maps,
+          Field{"maps", "", "false: trajectories and summary alone, no keyframes, clouds, occupancy or picture"});
+  }
+};
+
 /**
  * trajectory.tum (a pose per processed scan), trajectory_imu.tum (at the IMU's rate), trajectory.csv (health and
- * registration per pose), keyframes.simplemap, map.ply, map.bt, map.ot, map.png and summary.json, all in the map frame,
- * every pose at the instant of its stamp.
+ * registration per pose), summary.json and the maps, all in the map frame, every pose at the instant of its stamp.
  */
 class SlamFiles
 {
@@ -32,42 +35,21 @@ class SlamFiles
   /** All names that close() leaves in the folder. */
   static std::vector<std::string> names();
 
-  /** Creates the folder. Throws std::runtime_error if it cannot be written. */
-  SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OctoMapOptions&);
-  SlamFiles(const SlamFiles&) = delete;
-  SlamFiles& operator=(const SlamFiles&) = delete;
-  ~SlamFiles();
+  /** Creates the folder; no occupancy, no maps at all. Throws std::runtime_error if it cannot be written. */
+  SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&,
+            const std::optional<OctoMapOptions>&);
 
-  /**
-   * Poses are on disk when it returns. Keyframes join the maps in a thread of their own, in order, because an occupancy
-   * map takes seconds for one; when eight wait it waits, too.
-   */
+  /** Poses are on disk when it returns. */
   void add(const StateEstimate&);
 
   /** Writes the maps and the summary, completed by what was counted here, and gives every file its name. */
   void close(RunSummary);
 
  private:
-  void enqueue(Keyframe);
-  void drawMaps();
-  void finishMaps();
-  void addKeyframe(const Keyframe&);
-
   std::filesystem::path folder_;
   TumWriter trajectory_, trajectory_imu_;
   OutputFile csv_;
-  PlyWriter ply_;
-  SimpleMapBuilder simple_map_;
-  OctoMapBuilder octomap_;
-  MapPicture picture_;
   Trajectory poses_;
-  StageTimes times_;  // of the thread that draws
-
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Keyframe> keyframes_;
-  bool no_more_ = false;
-  std::exception_ptr error_;
-  std::thread thread_;  // draws
+  std::optional<MapFiles> maps_;
 };
 }  // namespace scanloom

@@ -1,5 +1,7 @@
 #include "output/SlamRun.h"
 
+#include "slam/ConstantMotion.h"
+
 #include <fmt/format.h>
 
 namespace scanloom
@@ -67,6 +69,8 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
   const auto start = std::chrono::steady_clock::now();
   const int imu = chooseImu(input, settings.slam.imu);
   LidarInertialSlam slam(settings, *input.body_T_imu(imu), positionsOf(input.header().lidars));
+  ConstantMotion motion(*input.body_T_imu(imu));
+  const bool coasts = settings.slam.constant_motion;
   StageTimes times;
   HealthCounts health;
   std::uint64_t scans = 0;
@@ -75,6 +79,7 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
     for (const StateEstimate& estimate : estimates)
     {
       health.add(estimate);
+      if (coasts) motion.update(estimate);
       files.add(estimate);
     }
   };
@@ -88,11 +93,12 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
       going = keepGoing(input.progress(), scans);
     else if (const auto* sample = std::get_if<SensorImu>(&*event))
     {
-      if (sample->sensor == imu) slam.addImu(sample->sample);
+      if (sample->sensor == imu && !motion.known()) slam.addImu(sample->sample);
     }
     else if (auto* scan = std::get_if<Scan>(&*event))
     {
       ++scans;
+      for (const ImuSample& imagined : motion.samplesUntil(scan->end())) slam.addImu(imagined);
       keep(slam.addScan(std::move(*scan)));
       going = keepGoing(input.progress(), scans);
     }

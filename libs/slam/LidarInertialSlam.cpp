@@ -5,6 +5,7 @@
 #include "slam/ScanRegistration.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace scanloom
 {
@@ -12,6 +13,18 @@ namespace
 {
 // Enough for a velocity, few enough that it is still that of the first scan.
 constexpr std::size_t kScansOfFirstPass = 4;
+
+/** Never beyond the ends of the way. */
+Rigid poseOn(const Trajectory& way, Timestamp stamp)
+{
+  const auto after = std::lower_bound(way.begin(), way.end(), stamp,
+                                      [](const StampedPose& pose, Timestamp t) { return pose.stamp < t; });
+  if (after == way.begin()) return way.front().map_T_body;
+  if (after == way.end()) return way.back().map_T_body;
+  const StampedPose& before = *std::prev(after);
+  const double share = seconds(stamp - before.stamp) / seconds(after->stamp - before.stamp);
+  return interpolate(before.map_T_body, after->map_T_body, share);
+}
 }  // namespace
 
 LidarInertialSlam::LidarInertialSlam(const SlamSettings& settings, const Rigid& body_T_imu,
@@ -31,12 +44,32 @@ void LidarInertialSlam::addImu(const ImuSample& sample)
 
 std::vector<StateEstimate> LidarInertialSlam::addScan(Scan scan)
 {
-  const bool wanted = scans_seen_++ % static_cast<std::uint64_t>(settings_.slam.every_nth) == 0;
-  if (wanted)
-    waiting_.push_back(std::move(scan));
-  else
+  if (isCutStart(scan))
+  {
     ++skipped_scans_;
+    return {};
+  }
+  const bool wanted = scans_seen_++ % static_cast<std::uint64_t>(settings_.slam.every_nth) == 0;
+  // A whole turn that found no other in time may end before those that did: there is no way back to it.
+  const bool late = last_end_ && scan.end() <= *last_end_;
+  if (!wanted || late)
+  {
+    ++skipped_scans_;
+    return processWaiting(false);
+  }
+  last_end_ = scan.end();
+  waiting_.push_back(std::move(scan));
   return processWaiting(false);
+}
+
+/** Whole turns begin amid a turn of each lidar: a map that begins with a piece of one finds little of the next scans.
+ */
+bool LidarInertialSlam::isCutStart(const Scan& scan)
+{
+  constexpr Duration kPatience = 1s;  // then a lidar may be silent for good
+  if (last_end_ || scan.complete()) return false;
+  if (!first_start_) first_start_ = scan.start;
+  return scan.start - *first_start_ < kPatience;
 }
 
 std::vector<StateEstimate> LidarInertialSlam::finish() { return processWaiting(true); }
@@ -123,6 +156,7 @@ StateEstimate LidarInertialSlam::track(Scan scan)
   estimate.since_last = posesBetween(before, state, samples);
   estimate.health = healthOf(estimate);
   if (estimate.health == Health::Lost && recover(views, estimate)) estimate.health = healthOf(estimate);
+  way_to_last_ = estimate.recovered ? Trajectory{} : estimate.since_last;
   updateMap(std::move(cloud), views, estimate);
   imu_.forgetBefore(state.stamp);
   return estimate;
@@ -131,15 +165,35 @@ StateEstimate LidarInertialSlam::track(Scan scan)
 /** Cropped, and moved to where the body is at the end of the scan. */
 PointCloud LidarInertialSlam::preprocess(Scan scan, const NavState& before, const std::vector<ImuSample>& samples) const
 {
+  const std::vector<Rigid> map_T_column = bodyAtColumns(scan, before, samples);
+  const Rigid end_T_map = bodyAt(predictAt(before, samples, {scan.end()}).front()).inverse();
+  std::vector<Rigid> end_T_column;
+  for (const Rigid& pose : map_T_column) end_T_column.push_back(end_T_map * pose);
+  return deskew(cropOut(std::move(scan), settings_.crop), end_T_column);
+}
+
+/** Whole turns come lidar by lidar, not in order of time, and begin before the scan before them has ended. */
+std::vector<Rigid> LidarInertialSlam::bodyAtColumns(const Scan& scan, const NavState& before,
+                                                    const std::vector<ImuSample>& samples) const
+{
   std::vector<Timestamp> stamps;
   for (const Column& column : scan.columns) stamps.push_back(std::max(column.stamp, before.stamp));
-  stamps.push_back(scan.end());
+  std::sort(stamps.begin(), stamps.end());
+  stamps.erase(std::unique(stamps.begin(), stamps.end()), stamps.end());
   const std::vector<NavState> states = predictAt(before, samples, stamps);
 
-  const Rigid end_T_map = bodyAt(states.back()).inverse();
-  std::vector<Rigid> end_T_column;
-  for (std::size_t i = 0; i < scan.columns.size(); ++i) end_T_column.push_back(end_T_map * bodyAt(states[i]));
-  return deskew(cropOut(std::move(scan), settings_.crop), end_T_column);
+  std::vector<Rigid> poses;
+  for (const Column& column : scan.columns)
+  {
+    if (column.stamp < before.stamp && !way_to_last_.empty())
+    {
+      poses.push_back(poseOn(way_to_last_, column.stamp));
+      continue;
+    }
+    const auto stamp = std::lower_bound(stamps.begin(), stamps.end(), std::max(column.stamp, before.stamp));
+    poses.push_back(bodyAt(states[static_cast<std::size_t>(stamp - stamps.begin())]));
+  }
+  return poses;
 }
 
 /**

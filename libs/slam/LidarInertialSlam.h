@@ -44,12 +44,14 @@ class LidarInertialSlam
 
  private:
   std::vector<StateEstimate> processWaiting(bool input_ended);
+  bool isCutStart(const Scan&);
   bool start(bool input_ended);
   void begin(const ImuInitialisation&);
   Eigen::Vector3d velocityOfFirstScans(const ImuInitialisation& at_rest) const;
   bool covered(const Scan&) const;
   StateEstimate track(Scan);
   PointCloud preprocess(Scan, const NavState& at_end, const std::vector<ImuSample>&) const;
+  std::vector<Rigid> bodyAtColumns(const Scan&, const NavState& before, const std::vector<ImuSample>&) const;
   void locate(const std::vector<View>&, StateEstimate&);
   void addToSmoother(const RegistrationResult&);
   bool recover(const std::vector<View>&, StateEstimate&);
@@ -67,6 +69,7 @@ class LidarInertialSlam
   std::vector<Eigen::Vector3d> lidars_;
   ImuBuffer imu_;
   std::deque<Scan> waiting_;
+  std::optional<Timestamp> first_start_, last_end_;  // of cut scans before the first whole one; of those that waited
   std::uint64_t scans_seen_ = 0, skipped_scans_ = 0, refused_imu_samples_ = 0, recoveries_ = 0, map_restarts_ = 0;
   std::optional<FixedLagSmoother> smoother_;     // none before the start
   LocalMap local_map_;                           // rigid, in a frame of its own
@@ -77,6 +80,7 @@ class LidarInertialSlam
   bool tried_all_around_ = false;
   std::optional<Timestamp> initialising_until_;
   Timestamp last_trusted_;
+  Trajectory way_to_last_;  // from the state before
   StageTimes times_;
 };
 }  // namespace scanloom

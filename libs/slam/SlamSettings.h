@@ -16,6 +16,7 @@ struct SlamOptions
 {
   int every_nth = 1;
   std::string imu = "auto";
+  bool constant_motion = false;
   double imu_wait_ms = 50;
   double lost_after = 2.0;
   bool refine = true;
@@ -33,6 +34,11 @@ struct SlamOptions
         o.imu,
         Field{"imu", "",
               "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first lidar's"});
+    visit(
+        o.constant_motion,
+        Field{"constant_motion", "",
+              "for comparison: the IMU serves the start alone, then velocity and turn rate are taken to stay what they "
+              "were, as surely as [imu_noise] says"});
     visit(o.imu_wait_ms, Field{"imu_wait_ms", "ms", "how long a scan waits for the IMU to cover its end", atLeast(0)});
     visit(o.refine, Field{"refine", "", "align every scan again with [fine_cells] after the rough alignment"});
     visit(o.stem_axes,

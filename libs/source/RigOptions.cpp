@@ -46,7 +46,7 @@ Schema rigSchema(const std::string& section)
   merge(schema, describe<DriverOptions>({section, meaning}));
   merge(schema, describe<RigOptions>({section, meaning}));
   merge(schema, describe<BatcherOptions>({section, meaning}));
-  merge(schema, describe<LidarOptions>({section, meaning, prefixOf(0)}));
+  merge(schema, describe({section, meaning, "lidar"}, std::vector<LidarOptions>(1)));
   return schema;
 }
 

@@ -1,12 +1,11 @@
 #include "study/ExperimentPlan.h"
 
-#include "lidar/Digest.h"
+#include "study/ContentHash.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -139,11 +138,12 @@ std::vector<PlannedRun> timesSeeds(const std::vector<PlannedRun>& runs, const st
   return product;
 }
 
-std::string contentOf(const std::filesystem::path& path)
+/** Else every run would read the same packets, or wait for lidars. */
+bool readsTheDrive(const std::vector<std::filesystem::path>& configurations)
 {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(fmt::format("cannot read {}", path.string()));
-  return {std::istreambuf_iterator<char>(file), {}};
+  return std::any_of(configurations.begin(), configurations.end(),
+                     [](const auto& file)
+                     { return contentOf(file).find("$env{SCANLOOM_RECORDING}") != std::string::npos; });
 }
 
 std::string namesAndSizes(const std::filesystem::path& folder)
@@ -178,6 +178,8 @@ ExperimentPlan planOf(const ExperimentSettings& settings, const Configuration& c
 
   ExperimentPlan plan;
   plan.configurations = paths("configurations", options.configurations);
+  if (!readsTheDrive(plan.configurations))
+    throw complain("configurations", "must find the drive by $env{SCANLOOM_RECORDING}, as dual_os0_recording.ini does");
   plan.simulations = paths("simulations", options.simulations);
   plan.recordings = paths("recordings", options.recordings);
   auto& runs = plan.runs;
@@ -209,6 +211,6 @@ std::string configurationHash(const PlannedRun& run, const ExperimentPlan& plan,
   for (const auto& [name, value] : run.settings) all += fmt::format("{}={}\n", name, value);
   for (const auto& file : plan.configurations) all += contentOf(file) + '\n';
   all += run.recording.empty() ? contentOf(run.simulation) : namesAndSizes(run.recording);
-  return md5({reinterpret_cast<const std::uint8_t*>(all.data()), all.size()});
+  return hashOf(all);
 }
 }  // namespace scanloom

@@ -30,7 +30,7 @@ struct RunCosts
   std::map<std::string, double> stage_ms;  // means
   double real_time_factor = 0;
   double peak_memory_mb = 0;
-  double elapsed = 0;  // s, all of the run with its simulation
+  double elapsed = 0;  // s, of slam
 };
 
 struct RunRecord

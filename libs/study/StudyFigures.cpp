@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <string_view>
 
 namespace scanloom
 {
@@ -75,13 +77,39 @@ double largestWithin(double begin, double end, const std::vector<ErrorAtDistance
   return largest;
 }
 
+/** Of "N = 5, cell_size = 1", where names stand once below the axis, "5, 1"; of any other name the name. */
+struct GroupLabel
+{
+  std::string names, values;
+};
+
+GroupLabel labelOf(const std::string& group)
+{
+  constexpr std::string_view kIs = " = ", kNext = ", ";
+  std::vector<std::string> names, values;
+  for (std::size_t begin = 0; begin < group.size();)
+  {
+    const std::size_t end = std::min(group.find(kNext, begin), group.size());
+    const std::string part = group.substr(begin, end - begin);
+    const std::size_t is = part.find(kIs);
+    if (is == std::string::npos) return {"", group};
+    names.push_back(part.substr(0, is));
+    values.push_back(part.substr(is + kIs.size()));
+    begin = end + kNext.size();
+  }
+  if (names.size() < 2) return {"", group};
+  return {fmt::format("{}", fmt::join(names, kNext)), fmt::format("{}", fmt::join(values, kNext))};
+}
+
 std::string ticks(const std::vector<std::string>& groups, std::size_t bars)
 {
   std::vector<std::string> labels;
   for (std::size_t g = 0; g < groups.size(); ++g)
-    labels.push_back(fmt::format("\"{}\" {:.2f}", groups[g],
+    labels.push_back(fmt::format("\"{}\" {:.2f}", labelOf(groups[g]).values,
                                  static_cast<double>(g * (bars + 1)) + 0.5 * static_cast<double>(bars - 1)));
-  return fmt::format("{}", fmt::join(labels, ", "));
+  const std::string names = groups.empty() ? "" : labelOf(groups.front()).names;
+  return fmt::format("set xtics ({}) scale 0 rotate by {}\nset xlabel \"{}\"\n", fmt::join(labels, ", "),
+                     groups.size() > kLevelLabels ? -25 : 0, names);
 }
 }  // namespace
 
@@ -125,10 +153,9 @@ std::string barsScript(const std::vector<Bar>& bars, const std::string& axis)
   }
   const double width = static_cast<double>(groups.size() * (series.size() + 1));
   script += fmt::format(
-      "set boxwidth {}\nset xrange [-1:{}]\nset yrange [0:{:.6g}]\nset xtics ({}) scale 0 rotate by {}\nset ylabel "
-      "\"{}\"\n"
+      "set boxwidth {}\nset xrange [-1:{}]\nset yrange [0:{:.6g}]\n{}set ylabel \"{}\"\n"
       "set key outside top center horizontal\nset grid ytics\n",
-      kBar, width - 1, top * 1.05, ticks(groups, series.size()), groups.size() > kLevelLabels ? -25 : 0, axis);
+      kBar, width - 1, top * 1.05, ticks(groups, series.size()), axis);
   if (any_lost) script += fmt::format("set label \"lost\" at graph 1.005, first {:.6g}\n", top);
   return script + "plot " + plots + "\n";
 }
@@ -157,6 +184,20 @@ std::vector<ErrorAtDistance> medianOverDistance(const StudyCell& cell)
   return medians;
 }
 
+std::vector<std::vector<StudyCell>> byLines(const std::vector<StudyCell>& cells)
+{
+  constexpr std::size_t kMostLines = 12, kDashes = 5;
+  if (cells.size() <= kMostLines && distinct(cells, &StudyCell::group).size() <= kDashes) return {cells};
+  std::vector<std::vector<StudyCell>> figures;
+  for (const std::string& lidars : distinct(cells, &StudyCell::lidars))
+  {
+    figures.emplace_back();
+    std::copy_if(cells.begin(), cells.end(), std::back_inserter(figures.back()),
+                 [&](const StudyCell& cell) { return cell.lidars == lidars; });
+  }
+  return figures;
+}
+
 std::string driftOverDistanceScript(const std::vector<StudyCell>& cells)
 {
   const auto groups = distinct(cells, &StudyCell::group), series = distinct(cells, &StudyCell::lidars);
@@ -171,13 +212,18 @@ std::string driftOverDistanceScript(const std::vector<StudyCell>& cells)
       farthest = std::max(farthest, distance);
     }
     script += block(fmt::format("cell{}", c), rows);
-    plots += fmt::format("{}$cell{} using 1:2 with lines lw 1.5 dt {} lc rgb \"{}\" title \"{}, {}\"",
-                         c > 0 ? ", " : "", c, indexOf(groups, cells[c].group) + 1,
-                         colour(indexOf(series, cells[c].lidars)), cells[c].lidars, cells[c].group);
+    const std::size_t group = indexOf(groups, cells[c].group);
+    const std::size_t hue = series.size() > 1 ? indexOf(series, cells[c].lidars) : group;
+    const std::size_t dashes = series.size() > 1 ? group : group / kColours.size();
+    plots +=
+        fmt::format("{}$cell{} using 1:2 with lines lw 1.5 dt {} lc rgb \"{}\" title \"{}, {}\"", c > 0 ? ", " : "", c,
+                    dashes + 1, colour(hue), cells[c].lidars, labelOf(cells[c].group).values);
   }
   // gnuplot finds no range by itself where all runs were lost.
   script += farthest > 0 ? fmt::format("set xrange [0:{:.6g}]\nset yrange [0:*]\n", farthest)
                          : "set xrange [0:1]\nset yrange [0:1]\n";
+  const std::string names = cells.empty() ? "" : labelOf(cells.front().group).names;
+  if (!names.empty()) script += fmt::format("set key title \"lidars, {}\"\n", names);
   return script +
          "set xlabel \"distance [m]\"\nset ylabel \"error [m], median\"\nset grid\nset key outside right\nplot " +
          plots + "\n";

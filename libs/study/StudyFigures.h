@@ -19,6 +19,9 @@ std::vector<Bar> barsOf(const std::vector<StudyCell>& of_one_stand, const Quanti
 /** Bars of medians with a dot per run. Lost runs are crosses above all others, a lost median is hatched up to there. */
 std::string barsScript(const std::vector<Bar>&, const std::string& axis);
 
+/** One figure's worth of cells if their lines can be told apart, otherwise one for each set of lidars. */
+std::vector<std::vector<StudyCell>> byLines(const std::vector<StudyCell>& of_one_stand);
+
 /** Of one stand: the median error over the distance, a line per cell; runs that were lost or failed are left out. */
 std::string driftOverDistanceScript(const std::vector<StudyCell>& of_one_stand);
 

@@ -73,7 +73,55 @@ TEST(ExperimentVerb, aFailedRunIsARowAndStatusFour)
 
   EXPECT_EQ(ended.status, 4);
   EXPECT_THAT(outcomesOf(folder), ElementsAre("middle FAILED ", HasSubstr("left OK")));
-  EXPECT_THAT(contentOf(folder / "sweep/results.csv"), HasSubstr("no simulated lidar is called 'middle'"));
+  EXPECT_THAT(contentOf(folder / "sweep/results.csv"), HasSubstr("no lidar is called 'middle'"));
+}
+
+TEST(ExperimentVerb, aDriveThatCannotBeSimulatedIsARowForEachOfItsRuns)
+{
+  const TemporaryFolder folder;
+
+  const Ended ended =
+      experiment(folder, "--set 'experiment.axis2_values=OS0-16 | OS9-16' --set experiment.lidars=left");
+
+  EXPECT_EQ(ended.status, 4);
+  EXPECT_THAT(outcomesOf(folder), ElementsAre(HasSubstr("left OK"), "left FAILED "));
+  EXPECT_THAT(contentOf(folder / "sweep/results.csv"), HasSubstr("simulate ended with status 2: "));
+}
+
+/** What lies in the folders of drives. */
+std::vector<std::filesystem::path> packetsIn(const TemporaryFolder& folder)
+{
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "sweep/drives"))
+    if (entry.path().filename() == "recording.pcap") found.push_back(entry.path());
+  return found;
+}
+
+TEST(ExperimentVerb, keepsPacketsOnlyIfAsked)
+{
+  const TemporaryFolder folder;
+
+  ASSERT_EQ(experiment(folder, "--set experiment.lidars=left").status, 0);
+  EXPECT_TRUE(packetsIn(folder).empty());
+  ASSERT_EQ(experiment(folder, "-w --set experiment.lidars=left --set experiment.keep_packets=true").status, 0);
+  EXPECT_EQ(packetsIn(folder).size(), 1U);
+}
+
+TEST(ExperimentVerb, aRunOnTheSharedPacketsEqualsSlamThatSimulatesOnTheWay)
+{
+  const TemporaryFolder folder;
+  ASSERT_EQ(experiment(folder, "--set experiment.lidars=left,right").status, 0);
+  ASSERT_EQ(scanloom("slam -c " SCANLOOM_SOURCE_DIR "/params/simulated_rig.ini --simulate " SCANLOOM_SOURCE_DIR
+                     "/params/simulation/sparse.ini --set simulated_drive.duration=20 --set "
+                     "simulated_lidars.lidar1_model=OS0-16 --set output.maps=false --out-dir " +
+                     (folder / "alone").string())
+                .status,
+            0);
+
+  const std::filesystem::path run = *std::filesystem::directory_iterator(folder / "sweep/runs");
+  for (const char* name : {"trajectory.tum", "trajectory_imu.tum", "trajectory.csv"})
+    EXPECT_EQ(contentOf(run / name), contentOf(folder / "alone" / name)) << name;
+  EXPECT_FALSE(std::filesystem::exists(folder / "alone/map.ply"));
 }
 
 TEST(ExperimentVerb, aDryRunListsCommandsAndTimeAndWritesNothing)
@@ -83,16 +131,28 @@ TEST(ExperimentVerb, aDryRunListsCommandsAndTimeAndWritesNothing)
   const Ended ended = experiment(folder, "--dry-run --jobs 1 --set experiment.seeds=1:3");
 
   EXPECT_EQ(ended.status, 0);
-  EXPECT_THAT(ended.output, HasSubstr("--seed 3 --lidars left,right --every-nth 1"));
-  EXPECT_THAT(ended.output, HasSubstr("# 6 runs, about 2:00 min with 1 jobs"));  // six drives of 20 s
+  EXPECT_THAT(ended.output, HasSubstr("simulate -c " SCANLOOM_SOURCE_DIR "/params/simulation/sparse.ini --seed 3"));
+  EXPECT_THAT(ended.output, HasSubstr("--lidars left,right --every-nth 1"));
+  EXPECT_THAT(ended.output, HasSubstr("# 3 simulations, 6 runs, about "));
   EXPECT_FALSE(std::filesystem::exists(folder / "sweep"));
+}
+
+TEST(ExperimentVerb, planSucceedsForEverySweepThatIsGiven)
+{
+  const TemporaryFolder folder;
+  for (const auto& entry : std::filesystem::directory_iterator(SCANLOOM_SOURCE_DIR "/params/experiments"))
+  {
+    const Ended ended =
+        scanloom("experiment -c " + entry.path().string() + " --dry-run --out-dir " + (folder / "sweep").string());
+    EXPECT_EQ(ended.status, 0) << entry.path() << ": " << ended.output.substr(0, 1000);
+  }
 }
 
 TEST(ExperimentVerb, refusesAParameterThatNoVerbHas)
 {
   const TemporaryFolder folder;
 
-  const Ended ended = experiment(folder, "--set experiment.axis3_name=octomap.resolutoin");
+  const Ended ended = experiment(folder, "--set experiment.axis2_name=octomap.resolutoin");
 
   EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.output, HasSubstr("did you mean 'resolution'"));

@@ -288,6 +288,68 @@ TEST(LidarInertialSlam, theSameInputGivesTheSameBits)
   }
 }
 
+/** What was measured last stands first, as where one lidar's turn follows that of another. */
+void swapHalves(Scan& scan)
+{
+  const auto middle = scan.columns.begin() + static_cast<std::ptrdiff_t>(scan.columns.size() / 2);
+  PointCloud points;
+  for (std::size_t i = middle->first_point; i < scan.points.size(); ++i) points.append(scan.points, i);
+  for (std::size_t i = 0; i < middle->first_point; ++i) points.append(scan.points, i);
+  scan.points = std::move(points);
+  std::rotate(scan.columns.begin(), middle, scan.columns.end());
+  std::uint32_t next = 0;
+  for (Column& column : scan.columns)
+  {
+    column.first_point = next;
+    next += column.count;
+  }
+}
+
+TEST(LidarInertialSlam, followsWhereColumnsAreOutOfOrder)
+{
+  const Machine machine = gentleMachine(3s);
+  const Driven run = runFor(machine, 8s, {}, swapHalves);
+  ASSERT_EQ(run.estimates.size(), 79u);
+  EXPECT_LT(largestError(run, machine), 0.03);
+}
+
+TEST(LidarInertialSlam, columnsOlderThanTheLastEstimateArePlacedOnTheWayToIt)
+{
+  // The first half of each scan was measured before the end of the one before.
+  const auto endLater = [](Scan& scan) { scan.period += 50ms; };
+  const Machine machine = gentleMachine(3s);
+  const Driven run = runFor(machine, 8s, {}, endLater);
+  EXPECT_LT(largestError(run, machine), 0.03);
+}
+
+TEST(LidarInertialSlam, theMapBeginsWithAWholeScanIfThereIsOneWithinASecond)
+{
+  const auto cutBefore = [](Timestamp end)
+  {
+    return [end](Scan& scan)
+    {
+      if (scan.start < end) scan.missing.set(0);
+    };
+  };
+  const Driven soon = runFor(gentleMachine(3s), 4s, {}, cutBefore(Timestamp{300ms}));
+  EXPECT_EQ(soon.skipped, 2u);
+  EXPECT_EQ(soon.estimates.front().stamp, Timestamp{400ms});
+
+  const Driven never = runFor(gentleMachine(3s), 4s, {}, cutBefore(Timestamp{1h}));
+  EXPECT_EQ(never.skipped, 10u);
+}
+
+TEST(LidarInertialSlam, aScanThatEndsBeforeAnEarlierOneIsLeftOut)
+{
+  const auto shorten = [](Scan& scan)
+  {
+    if (scan.start == Timestamp{2s}) scan.period = 0ms;
+  };
+  const Driven run = runFor(gentleMachine(3s), 4s, {}, shorten);
+  EXPECT_EQ(run.skipped, 1u);
+  EXPECT_EQ(run.estimates.size(), 38u);
+}
+
 TEST(LidarInertialSlam, withoutImuThereIsNoEstimateAndNoCrash)
 {
   LidarInertialSlam slam(SlamSettings{}, kBodyTImu, {});

@@ -14,6 +14,8 @@ namespace
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+constexpr const char* kSlam = "[lidars]\npcap_input = $env{SCANLOOM_RECORDING}/recording.pcap\n";
+
 class ExperimentPlanOf : public testing::Test
 {
  protected:
@@ -23,7 +25,7 @@ class ExperimentPlanOf : public testing::Test
     std::filesystem::create_directories(folder_ / "drive");
     std::ofstream(folder_ / "stands/easy.ini") << "[simulated_drive]\nduration = 1\n";
     std::ofstream(folder_ / "stands/hard.ini") << "[simulated_drive]\nduration = 2\n";
-    std::ofstream(folder_ / "slam.ini") << "[slam]\n";
+    std::ofstream(folder_ / "slam.ini") << kSlam;
     std::ofstream(folder_ / "drive/recording.pcap") << "packets";
   }
 
@@ -101,6 +103,8 @@ TEST_F(ExperimentPlanOf, namesFileLineAndWhatIsWrong)
   EXPECT_THAT(complaintAbout(easy + "every_nth = 1 2.5\n"), HasSubstr("every_nth"));
   EXPECT_THAT(complaintAbout(easy + "axis1_name = a.b\n"), HasSubstr("axis1_name"));
   EXPECT_THAT(complaintAbout("lidars = left\n"), HasSubstr("recordings must name what runs"));
+  std::ofstream(folder_ / "slam.ini") << "[lidars]\npcap_input = always_the_same.pcap\n";
+  EXPECT_THAT(complaintAbout(easy), HasSubstr("configurations"));
 }
 
 TEST_F(ExperimentPlanOf, hashesDifferWithAnythingThatTheResultDependsOn)
@@ -114,9 +118,9 @@ TEST_F(ExperimentPlanOf, hashesDifferWithAnythingThatTheResultDependsOn)
   EXPECT_NE(hash(plan(lines), 1), before);
   EXPECT_NE(hash(plan(lines), 0, "1.1"), before);
   EXPECT_NE(hash(plan(lines + "axis1_name = slam.imu\naxis1_values = left\n"), 0), before);
-  std::ofstream(folder_ / "slam.ini") << "[slam]\nrefine = false\n";
+  std::ofstream(folder_ / "slam.ini") << kSlam << "[slam]\nrefine = false\n";
   EXPECT_NE(hash(plan(lines), 0), before);
-  std::ofstream(folder_ / "slam.ini") << "[slam]\n";
+  std::ofstream(folder_ / "slam.ini") << kSlam;
   EXPECT_EQ(hash(plan(lines), 0), before);
   std::ofstream(folder_ / "stands/easy.ini") << "[simulated_drive]\nduration = 3\n";
   EXPECT_NE(hash(plan(lines), 0), before);

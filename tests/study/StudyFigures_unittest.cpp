@@ -28,6 +28,38 @@ TEST(StudyFigures, barsStandSideBySideInGroupsOfN)
   EXPECT_THAT(script, Not(HasSubstr("\"lost\"")));
 }
 
+RunRecord runWithCellSize(const std::string& size, const std::string& lidars)
+{
+  RunRecord record = runWithDrift(1, lidars);
+  record.run.settings = {{"map_cells.cell_size", size}};
+  return record;
+}
+
+TEST(StudyFigures, namesOfSettingsStandOnceBelowTheirValues)
+{
+  const std::vector<RunRecord> records{runWithCellSize("0.5", "left"), runWithCellSize("1", "left")};
+
+  const std::string script = barsScript(barsOf(cellsOf(records), kDrift), "drift [m]");
+
+  EXPECT_THAT(script, HasSubstr("set xtics (\"1, 0.5\" 0.00, \"1, 1\" 2.00)"));
+  EXPECT_THAT(script, HasSubstr("set xlabel \"N, cell_size\""));
+}
+
+TEST(StudyFigures, moreLinesThanDashesAreSplitByLidars)
+{
+  std::vector<RunRecord> records;
+  for (const char* lidars : {"left", "right"})
+    for (const char* size : {"1", "2", "3", "4", "5"}) records.push_back(runWithCellSize(size, lidars));
+  EXPECT_EQ(byLines(cellsOf(records)).size(), 1U);
+
+  for (const char* lidars : {"left", "right"}) records.push_back(runWithCellSize("6", lidars));
+  const std::vector<StudyCell> cells = cellsOf(records);
+  const auto figures = byLines(cells);
+  ASSERT_EQ(figures.size(), 2U);
+  EXPECT_EQ(figures[1].size(), 6U);
+  EXPECT_EQ(figures[1].front().lidars, "right");
+}
+
 TEST(StudyFigures, lostRunsAreAboveAllOthersAndALostMedianIsHatched)
 {
   const std::vector<RunRecord> records{runWithDrift(5, "left", 1, 1), runWithDrift(50, "left", 1, 2),
