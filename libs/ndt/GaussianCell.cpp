@@ -44,7 +44,7 @@ Moments& Moments::operator-=(const Moments& other)
   return *this;
 }
 
-GaussianCell gaussianOf(const Moments& m, const Eigen::Vector3d& corner, double edge, double min_deviation)
+MeanAndCovariance meanAndCovariance(const Moments& m, const Eigen::Vector3d& corner)
 {
   const double n = static_cast<double>(m.n);
   const Eigen::Vector3d mean =
@@ -53,9 +53,13 @@ GaussianCell gaussianOf(const Moments& m, const Eigen::Vector3d& corner, double 
   products << static_cast<double>(m.xx), static_cast<double>(m.xy), static_cast<double>(m.xz),  //
       static_cast<double>(m.xy), static_cast<double>(m.yy), static_cast<double>(m.yz),          //
       static_cast<double>(m.xz), static_cast<double>(m.yz), static_cast<double>(m.zz);
-  const Eigen::Matrix3d covariance =
-      (products - n * mean * mean.transpose()) * (Moments::kQuantum * Moments::kQuantum / (n - 1));
+  return {corner + Moments::kQuantum * mean,
+          (products - n * mean * mean.transpose()) * (Moments::kQuantum * Moments::kQuantum / (n - 1))};
+}
 
+GaussianCell gaussianOf(const Moments& m, const Eigen::Vector3d& corner, double edge, double min_deviation)
+{
+  const auto [mean, covariance] = meanAndCovariance(m, corner);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(covariance);
   const Eigen::Array3d variances = eigen.eigenvalues().array().max(min_deviation * min_deviation);
@@ -63,6 +67,6 @@ GaussianCell gaussianOf(const Moments& m, const Eigen::Vector3d& corner, double 
   const Eigen::Vector3d thin = (1 - variances / (edge * edge / 12)).max(0.0).sqrt();
   const auto along = [&](const Eigen::Vector3d& v) -> Eigen::Matrix3d
   { return eigen.eigenvectors() * v.asDiagonal() * eigen.eigenvectors().transpose(); };
-  return {corner + Moments::kQuantum * mean, covariance + along(missing), static_cast<std::uint32_t>(m.n), along(thin)};
+  return {mean, covariance + along(missing), static_cast<std::uint32_t>(m.n), along(thin)};
 }
 }  // namespace scanloom

@@ -48,6 +48,15 @@ struct Moments
   Moments& operator-=(const Moments&);
 };
 
+struct MeanAndCovariance
+{
+  Eigen::Vector3d mean;        // m
+  Eigen::Matrix3d covariance;  // m^2
+};
+
+/** Of at least two points whose sums are about `corner`. */
+MeanAndCovariance meanAndCovariance(const Moments&, const Eigen::Vector3d& corner);
+
 /**
  * The Gaussian of at least two points in a cell of `edge` m whose sums are about its `corner`. Eigenvalues below
  * min_deviation^2 are raised to it: walls and stems are thinner than the noise of their cells is known.

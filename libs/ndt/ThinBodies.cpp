@@ -15,19 +15,30 @@ constexpr double kSlimness = 2;               // length over width, as standard 
 constexpr double kMostRadius = 0.3;           // m
 constexpr double kLeastAcross = 0.3;          // of the line of sight's unit vector, across the axis
 
-/** From the mean of the points to the axis, in m; zero where there is no thin body. */
-Eigen::Vector3d wayToAxis(const GaussianCell& cell, const Eigen::Vector3d& viewpoint)
+/** A cheap one that lets all thin ones pass, and few others. */
+bool mayBeThin(const Eigen::Matrix3d& c)
 {
+  constexpr double kSlim = kSlimness * kSlimness;
+  const double minors = c(0, 0) * c(1, 1) - c(0, 1) * c(0, 1) + c(0, 0) * c(2, 2) - c(0, 2) * c(0, 2) +
+                        c(1, 1) * c(2, 2) - c(1, 2) * c(1, 2);
+  const double sum = c.trace();
+  return minors * (kSlim + 2) * (kSlim + 2) <= sum * sum * (2 * kSlim + 1);  // equal where both widths are the largest
+}
+
+/** From the mean of the points to the axis, in m; zero where there is no thin body. */
+Eigen::Vector3d wayToAxis(const MeanAndCovariance& seen, const Eigen::Vector3d& viewpoint)
+{
+  if (!mayBeThin(seen.covariance)) return Eigen::Vector3d::Zero();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(cell.covariance);
+  eigen.computeDirect(seen.covariance);
   const Eigen::Vector3d& variances = eigen.eigenvalues();
   const Eigen::Vector3d axis = eigen.eigenvectors().col(2);
-  const Eigen::Vector3d sight = (cell.mean - viewpoint).normalized();
+  const Eigen::Vector3d sight = (seen.mean - viewpoint).normalized();
   const Eigen::Vector3d across = sight - sight.dot(axis) * axis;
   if (!(variances[2] > kSlimness * kSlimness * variances[1] && across.norm() > kLeastAcross))
     return Eigen::Vector3d::Zero();
   const Eigen::Vector3d towards = across.normalized(), sideways = axis.cross(towards);
-  const double radius = std::sqrt(3 * std::max(0.0, sideways.dot(cell.covariance * sideways)));
+  const double radius = std::sqrt(3 * std::max(0.0, sideways.dot(seen.covariance * sideways)));
   return radius <= kMostRadius ? Eigen::Vector3d(kMeanBeforeAxis * radius * towards) : Eigen::Vector3d::Zero();
 }
 }  // namespace
@@ -40,7 +51,7 @@ void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::V
   {
     if (bin.moments.n < least_points) return;
     const Eigen::Vector3d corner = edge * CellKey::indexOf(bin.key).cast<double>();
-    const Eigen::Vector3d way = wayToAxis(gaussianOf(bin.moments, corner, edge, 0), viewpoint);
+    const Eigen::Vector3d way = wayToAxis(meanAndCovariance(bin.moments, corner), viewpoint);
     bin.moments = bin.moments.about({quantaOf(way.x()), quantaOf(way.y()), quantaOf(way.z())});
   };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bins.size(), kGrain),

@@ -146,7 +146,7 @@ StateEstimate LidarInertialSlam::track(Scan scan)
       times_.measure("preintegration", [&] { return preintegrate(samples, before.bias, settings_.imu); }));
 
   PointCloud cloud = times_.measure("preprocessing", [&] { return preprocess(std::move(scan), before, samples); });
-  const std::vector<View> views = viewsOf(cloud, lidars_);
+  const std::vector<View> views = times_.measure("preprocessing", [&] { return viewsOf(cloud, lidars_); });
   estimate.points = cloud.size();
   locate(views, estimate);
   const NavState state = times_.measure("smoother", [&] { return smoother_->optimise(); });
