@@ -12,6 +12,7 @@
 #include "output/OctoMapFile.h"
 #include "output/SceneFile.h"
 #include "output/SimpleMapReader.h"
+#include "output/TrajectoryReader.h"
 #include "output/VoxelPly.h"
 
 #include <fmt/format.h>
@@ -132,7 +133,7 @@ DriveSize driveSize(const Trajectory& path, double keyframe_distance, const Reco
 int mapRawlog(const MapArguments& arguments)
 {
   if (arguments.trajectory.empty()) throw UsageError("a rawlog needs --trajectory FILE.tum: scanloom slam makes one");
-  const KeyframeOptions options{readTum(arguments.trajectory), arguments.keyframe_distance};
+  const KeyframeOptions options{readTrajectory(arguments.trajectory), arguments.keyframe_distance};
   const RecordingHeader header = required(headerOf(arguments.input));
   announce(arguments, driveSize(options.trajectory, arguments.keyframe_distance, header));
   if (arguments.dry_run) return kDone;
@@ -230,7 +231,9 @@ std::function<int()> addOptions(CLI::App& app)
       ->allow_extra_args(false)
       ->type_name("FILE");
   addOverwrite(app, arguments->overwrite);
-  app.add_option("--trajectory", arguments->trajectory, "TUM file of the body's poses")->type_name("FILE");
+  app.add_option("--trajectory", arguments->trajectory,
+                 "of a rawlog: the body's poses as TUM, EuRoC (.csv) or KITTI (times.txt beside it)")
+      ->type_name("FILE");
   app.add_option("--keyframe-distance", arguments->keyframe_distance, "of a rawlog: travel between keyframes, in m")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
