@@ -58,6 +58,18 @@ TEST_F(OctoMapFile, refusesWhatIsCutOrForeign)
   EXPECT_THROW(readOctoMap(folder / "nowhere.bt"), std::runtime_error);
 }
 
+TEST_F(OctoMapFile, refusesEveryBeginningOfAFile)
+{
+  writeFullOctoMap(folder / "m.ot", tree);
+  writeBinaryOctoMap(folder / "m.bt", tree);
+  for (const char* name : {"m.ot", "m.bt"})
+    for (std::uintmax_t size = std::filesystem::file_size(folder / name); size-- > 0;)
+    {
+      std::filesystem::resize_file(folder / name, size);
+      ASSERT_THROW(readOctoMap(folder / name), std::runtime_error) << name << ' ' << size;
+    }
+}
+
 TEST_F(OctoMapFile, refusesABranchWithoutEnd)
 {
   std::ofstream file(folder / "deep.bt", std::ios::binary);

@@ -57,7 +57,14 @@ TEST(SimpleMapReader, givesBackWhatTheBuilderWasGiven)
   builder.add(written);
   builder.write(folder / "keyframes.simplemap");
 
-  const Keyframe read = SimpleMapReader(folder / "keyframes.simplemap").keyframe(0);
+  const SimpleMapReader reader(folder / "keyframes.simplemap");
+  ASSERT_EQ(reader.lidars().size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    EXPECT_EQ(reader.lidars()[i].name, lidars[i].name);
+    EXPECT_LT(boxMinus(reader.lidars()[i].body_T_sensor, lidars[i].body_T_sensor).norm(), 1e-9) << "where rays start";
+  }
+  const Keyframe read = reader.keyframe(0);
   EXPECT_EQ(read.stamp, written.stamp);
   EXPECT_EQ(read.points.sensor_id, written.points.sensor_id);
   EXPECT_EQ(read.points.intensity, written.points.intensity);

@@ -81,21 +81,24 @@ TEST_F(StockMaps, observations2mapReadsEveryPointOfBothLidars)
   EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), static_cast<long>(3 * kPoints)) << log;
 }
 
-TEST_F(StockMaps, sceneViewerShowsThePoints)
+bool isColoured(Color8 c) { return std::max({c.red, c.green, c.blue}) - std::min({c.red, c.green, c.blue}) > 150; }
+
+TEST_F(StockMaps, sceneViewerAndOurOwnWindowShowThePoints)
 {
   SCANLOOM_NEEDS_PROGRAM("SceneViewer3D");
   if (!isInstalled("Xvfb")) GTEST_SKIP() << "Xvfb is not installed (package xvfb)";
   const TemporaryFolder screen_folder;
   VirtualScreen screen(screen_folder);
-  ChildProcess viewer(
-      "env LIBGL_ALWAYS_SOFTWARE=1 DISPLAY=" + screen.name() + " SceneViewer3D " + (folder / "m.3Dscene").string(),
-      folder / "log.txt");
-  const auto coloured = [](Color8 c) {
-    return std::max({c.red, c.green, c.blue}) - std::min({c.red, c.green, c.blue}) > 150;
-  };
-  EXPECT_GE(screen.waitForPixels(coloured, 100), 100u) << viewer.log();
-  viewer.send(SIGKILL);
-  viewer.wait();
+  for (const std::string& command : {"SceneViewer3D " + (folder / "m.3Dscene").string(),
+                                     SCANLOOM_BIN_DIR "/scanloom view " + (folder / "m.simplemap").string()})
+  {
+    ASSERT_EQ(screen.waitForPixels([](Color8 c) { return !isColoured(c); }, kPixelsOfTheScreen), kPixelsOfTheScreen)
+        << "nothing there yet";
+    ChildProcess viewer("env LIBGL_ALWAYS_SOFTWARE=1 DISPLAY=" + screen.name() + " " + command, folder / "log.txt");
+    EXPECT_GE(screen.waitForPixels(&isColoured, 100), 100u) << command << viewer.log();
+    viewer.send(SIGKILL);
+    viewer.wait();
+  }
 }
 }  // namespace
 }  // namespace scanloom

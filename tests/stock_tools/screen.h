@@ -12,6 +12,8 @@
 
 namespace scanloom
 {
+inline constexpr std::size_t kPixelsOfTheScreen = 1280 * 960;
+
 struct Color8
 {
   std::uint8_t red, green, blue;
