@@ -4,7 +4,7 @@
 #include "Verb.h"
 #include "evaluation/Evaluation.h"
 #include "evaluation/PositionError.h"
-#include "output/Trajectory.h"
+#include "output/TrajectoryReader.h"
 #include "source/Extrinsics.h"
 
 #include <fmt/format.h>
@@ -38,12 +38,15 @@ struct EvaluateArguments
   bool json = false;
 };
 
-bool isTotalStation(const std::filesystem::path& reference) { return reference.extension() == ".csv"; }
+bool isTotalStation(const std::filesystem::path& reference)
+{
+  return reference.extension() == ".csv" && !isEuroc(reference);
+}
 
 std::optional<Trajectory> readIfGiven(const std::filesystem::path& path)
 {
   if (path.empty()) return std::nullopt;
-  return readTum(path);
+  return readTrajectory(path);
 }
 
 Eigen::Vector3d leverArmOf(const std::string& text)
@@ -76,7 +79,8 @@ int compareFromFirstPose(const EvaluateArguments& arguments)
 {
   if (isTotalStation(arguments.reference))
     throw UsageError("--align first: a total station gives no first rotation; use yaw or se3");
-  const PositionError error = positionErrorFromFirstPose(readTum(arguments.trajectory), readTum(arguments.reference));
+  const PositionError error =
+      positionErrorFromFirstPose(readTrajectory(arguments.trajectory), readTrajectory(arguments.reference));
   print(error, arguments.json);
   return judge(error.largest, arguments.drift_limit);
 }
@@ -92,13 +96,13 @@ int run(const EvaluateArguments& arguments)
   options.delta = arguments.delta;
 
   EvaluationInput input;
-  input.scans = readTum(arguments.trajectory);
+  input.scans = readTrajectory(arguments.trajectory);
   input.imu_rate = readIfGiven(arguments.imu_trajectory);
   input.truth = readIfGiven(arguments.truth);
   if (isTotalStation(arguments.reference))
     input.reference = readTotalStation(arguments.reference);
   else
-    input.reference = readTum(arguments.reference);
+    input.reference = readTrajectory(arguments.reference);
 
   const Evaluation evaluation = evaluate(input, options);
   print(evaluation, arguments.json);
@@ -132,10 +136,14 @@ void addComparison(CLI::App& app, EvaluateArguments& arguments)
 std::function<int()> addOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<EvaluateArguments>();
-  app.add_option("--trajectory", arguments->trajectory, "the estimate, TUM")->required()->type_name("FILE");
+  app.add_option("--trajectory", arguments->trajectory,
+                 "the estimate: TUM, EuRoC (.csv) or KITTI (times.txt beside it)")
+      ->required()
+      ->type_name("FILE");
   app.add_option("--imu-trajectory", arguments->imu_trajectory, "the same run at the IMU's rate, TUM")
       ->type_name("FILE");
-  app.add_option("--reference", arguments->reference, "a total station's positions (.csv), or poses, TUM")
+  app.add_option("--reference", arguments->reference,
+                 "a total station's positions (.csv), or poses: TUM, EuRoC or KITTI")
       ->required()
       ->type_name("FILE");
   app.add_option(

@@ -9,17 +9,19 @@ Verb editVerb();
 Verb evaluateVerb();
 Verb experimentVerb();
 Verb infoVerb();
+Verb mapVerb();
 Verb recordVerb();
 Verb registerVerb();
 Verb reportVerb();
 Verb simulateVerb();
 Verb slamVerb();
+Verb viewVerb();
 
 const std::vector<Verb>& verbs()
 {
   static const std::vector<Verb> table{
-      recordVerb(),   infoVerb(),     editVerb(),     doctorVerb(),     configVerb(), slamVerb(),
-      evaluateVerb(), registerVerb(), simulateVerb(), experimentVerb(), reportVerb(),
+      recordVerb(),   infoVerb(), editVerb(), doctorVerb(),   configVerb(),     slamVerb(),   evaluateVerb(),
+      registerVerb(), mapVerb(),  viewVerb(), simulateVerb(), experimentVerb(), reportVerb(),
   };
   return table;
 }

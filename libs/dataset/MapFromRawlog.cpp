@@ -4,7 +4,6 @@
 #include "dataset/DeskewClouds.h"
 #include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
-#include "output/SimpleMapFile.h"
 #include "preprocessing/Thin.h"
 
 #include <memory>
@@ -48,11 +47,13 @@ class KeyframeChoice
   std::optional<Eigen::Vector3d> latest_;
 };
 
-/** `close` is called at the end of input. */
+}  // namespace
+
 RawlogOperation overKeyframes(const KeyframeOptions& options, const RecordingHeader& header,
-                              const std::function<void(Keyframe)>& add, const std::function<void()>& close)
+                              std::function<void(Keyframe)> add, std::function<void()> close)
 {
-  return [choice = KeyframeChoice(options, header), add, close](const ObservationPtr& observation) mutable
+  return [choice = KeyframeChoice(options, header), add = std::move(add),
+          close = std::move(close)](const ObservationPtr& observation) mutable
   {
     if (!observation)
     {
@@ -64,14 +65,18 @@ RawlogOperation overKeyframes(const KeyframeOptions& options, const RecordingHea
     return Observations{};
   };
 }
-}  // namespace
+
+std::vector<MountedLidar> mountedLidars(const RecordingHeader& header)
+{
+  std::vector<MountedLidar> lidars;
+  for (const RecordedLidar& lidar : header.lidars) lidars.push_back({lidar.name, lidar.body_T_sensor});
+  return lidars;
+}
 
 RawlogOperation toSimpleMap(const std::filesystem::path& path, const KeyframeOptions& options,
                             const RecordingHeader& header)
 {
-  std::vector<MountedLidar> lidars;
-  for (const RecordedLidar& lidar : header.lidars) lidars.push_back({lidar.name, lidar.body_T_sensor});
-  auto map = std::make_shared<SimpleMapBuilder>(std::move(lidars));
+  auto map = std::make_shared<SimpleMapBuilder>(mountedLidars(header));
   return overKeyframes(
       options, header, [map](const Keyframe& keyframe) { map->add(keyframe); }, [map, path] { map->write(path); });
 }

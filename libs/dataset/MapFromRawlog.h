@@ -4,10 +4,12 @@
 #include "dataset/RawlogEdit.h"
 #include "mrpt_bridge/RecordingHeader.h"
 #include "output/OctoMapExport.h"
+#include "output/SimpleMapFile.h"
 #include "output/Trajectory.h"
 
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 namespace scanloom
 {
@@ -16,6 +18,16 @@ struct KeyframeOptions
   Trajectory trajectory;
   double distance = 4;  // m of travel between keyframes
 };
+
+/**
+ * Whole scans, deskewed, one each time the body has moved on, to `add`; `close` at the end of input, which throws
+ * std::runtime_error before if there was none. Passes nothing on.
+ */
+RawlogOperation overKeyframes(const KeyframeOptions&, const RecordingHeader&, std::function<void(Keyframe)> add,
+                              std::function<void()> close);
+
+/** Of a header, by sensor id. */
+std::vector<MountedLidar> mountedLidars(const RecordingHeader&);
 
 /** As .simplemap (SimpleMapBuilder): memory grows with the number of keyframes. Passes nothing on. */
 RawlogOperation toSimpleMap(const std::filesystem::path&, const KeyframeOptions&, const RecordingHeader&);

@@ -1,10 +1,9 @@
 #include "output/OctoMapExport.h"
 
-#include "config/AtomicFile.h"
+#include "output/OctoMapFile.h"
 #include "output/RayInsertion.h"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 #include <octomap/octomap.h>
 
 #include <array>
@@ -45,19 +44,6 @@ std::vector<octomap::Pointcloud> splitByLidar(const Keyframe& keyframe, std::siz
   }
   return clouds;
 }
-
-/** As OcTree::writeBinaryConst() writes it, which would also chat on stderr. */
-void writeBinary(std::ostream& file, const octomap::OcTree& tree)
-{
-  fmt::print(file, "# Octomap OcTree binary file\nid {}\nsize {}\nres {}\ndata\n", tree.getTreeType(), tree.size(),
-             tree.getResolution());
-  tree.writeBinaryData(file);
-}
-
-void requireWritten(bool written, const std::filesystem::path& path)
-{
-  if (!written) throw std::runtime_error(fmt::format("cannot write the OctoMap '{}'", path.string()));
-}
 }  // namespace
 
 OctoMapOptions octoMapPreset(const std::string& name)
@@ -90,10 +76,7 @@ void OctoMapBuilder::write(const std::filesystem::path& binary, const std::files
 {
   tree_->updateInnerOccupancy();
   tree_->prune();
-  writeAtomically(full, [&](std::ostream& file) { requireWritten(tree_->write(file), full); });
-
-  tree_->toMaxLikelihood();
-  tree_->prune();
-  writeAtomically(binary, [&](std::ostream& file) { writeBinary(file, *tree_); });
+  if (!full.empty()) writeFullOctoMap(full, *tree_);
+  if (!binary.empty()) writeBinaryOctoMap(binary, *tree_);
 }
 }  // namespace scanloom

@@ -42,8 +42,8 @@ class OctoMapBuilder
   ~OctoMapBuilder();
 
   /**
-   * Points farther from the map's origin than 32768 voxels are left out: the tree ends there. Costs about 0.6 s and
-   * 100 MB for a keyframe of 18k points in a sparse stand at 0.1 m / 20 m: keyframes only. Throws
+   * Points farther from the map's origin than 32768 voxels are left out: the tree ends there. Takes seconds
+   * and hundreds of MB for a keyframe of full scans (OctoMapEstimate.h): keyframes only. Throws
    * std::invalid_argument if a point's sensor_id has no pose.
    */
   void add(const Keyframe&);
@@ -52,8 +52,8 @@ class OctoMapBuilder
   const octomap::OcTree& tree() const { return *tree_; }
 
   /**
-   * .bt (occupied or free) and .ot (log odds). Ends the building: a copy of a large tree would not fit into memory
-   * beside it. Throws std::runtime_error if a file cannot be written.
+   * .bt (occupied or free) and .ot (log odds); an empty path is left out. Ends the building: a copy of a large tree
+   * would not fit into memory beside it. Throws std::runtime_error if a file cannot be written.
    */
   void write(const std::filesystem::path& binary, const std::filesystem::path& full) &&;
 

@@ -1,72 +1,158 @@
 #include "output/RayInsertion.h"
 
+#include "output/RayWalk.h"
+#include "output/VoxelMarks.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
-#include <cstdint>
-#include <iterator>
 #include <vector>
 
 namespace scanloom
 {
 namespace
 {
-/** A voxel's key with the bits of x, y and z interleaved: sorted codes walk the tree branch by branch. */
-using MortonCode = std::uint64_t;
-
-/** The 16 bits of a key's coordinate, moved to every third place. */
-constexpr MortonCode spread(std::uint64_t bits)
+/** Of the voxels that hold points, in the tree's order: many share one near the lidar, and one ray does for them. */
+std::vector<MortonCode> endsOf(const octomap::OcTree& tree, const octomap::Pointcloud& points)
 {
-  bits = (bits | bits << 16) & 0x001F0000FF0000FF;
-  bits = (bits | bits << 8) & 0x100F00F00F00F00F;
-  bits = (bits | bits << 4) & 0x10C30C30C30C30C3;
-  return (bits | bits << 2) & 0x1249249249249249;
+  std::vector<MortonCode> ends;
+  for (const octomap::point3d& point : points)
+    if (octomap::OcTreeKey key; tree.coordToKeyChecked(point, key)) ends.push_back(codeOf(key));
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  return ends;
 }
 
-constexpr std::uint16_t gather(MortonCode code)
+void markRay(VoxelMarks& marks, const octomap::OcTree& tree, const octomap::point3d& origin, MortonCode end_voxel,
+             double max_range)
 {
-  code &= 0x1249249249249249;
-  code = (code | code >> 2) & 0x10C30C30C30C30C3;
-  code = (code | code >> 4) & 0x100F00F00F00F00F;
-  code = (code | code >> 8) & 0x001F0000FF0000FF;
-  return static_cast<std::uint16_t>(code | code >> 16);
+  octomap::point3d end = tree.keyToCoord(keyOf(end_voxel));
+  const bool in_reach = (end - origin).norm() <= max_range;
+  if (in_reach) marks.occupy(end_voxel);
+  if (!in_reach) end = origin + (end - origin).normalized() * static_cast<float>(max_range);
+  forEachVoxelBefore(tree, origin, end, [&](MortonCode voxel) { marks.touch(voxel); });
 }
-static_assert(gather(spread(0xA5C3)) == 0xA5C3 && spread(0x8001) == (1ULL << 45 | 1));
 
-MortonCode codeOf(const octomap::OcTreeKey& key) { return spread(key[0]) | spread(key[1]) << 1 | spread(key[2]) << 2; }
-
-octomap::OcTreeKey keyOf(MortonCode code) { return {gather(code), gather(code >> 1), gather(code >> 2)}; }
-
-void sortUnique(std::vector<MortonCode>& codes)
+VoxelMarks marksOf(const octomap::OcTree& tree, const octomap::Pointcloud& points, const octomap::point3d& origin,
+                   double max_range)
 {
-  std::sort(codes.begin(), codes.end());
-  codes.erase(std::unique(codes.begin(), codes.end()), codes.end());
+  constexpr std::size_t kGrain = 4096;  // rays
+  const std::vector<MortonCode> ends = endsOf(tree, points);
+  tbb::enumerable_thread_specific<VoxelMarks> by_thread;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, ends.size(), kGrain),
+                    [&](const auto& range)
+                    {
+                      VoxelMarks& marks = by_thread.local();
+                      for (std::size_t i = range.begin(); i < range.end(); ++i)
+                        markRay(marks, tree, origin, ends[i], max_range);
+                    });
+  VoxelMarks all;
+  for (VoxelMarks& marks : by_thread) all.merge(std::move(marks));
+  return all;
+}
+
+/** Updates the voxels of a block, each once, on one way through the branches that lead to them. */
+class BlockUpdate
+{
+ public:
+  BlockUpdate(octomap::OcTree& tree, const VoxelMarks::NumberedBlock& marks) : tree_(tree), marks_(marks) {}
+
+  void run()
+  {
+    Branch branch{tree_.getRoot(), false};
+    const int levels_above = static_cast<int>(tree_.getTreeDepth()) - VoxelBlock::kLevels;
+    for (int level = levels_above - 1; level >= 0; --level)
+    {
+      if (isFinal(branch, 0, VoxelBlock::kVoxels)) return;
+      branch = child(branch, static_cast<unsigned>(marks_.number >> (3 * level) & 7));
+    }
+    update(branch, 0, VoxelBlock::kVoxels);
+  }
+
+ private:
+  struct Branch
+  {
+    octomap::OcTreeNode* node;
+    bool is_new;
+  };
+
+  /** A leaf above the voxels stands for all of them (it was pruned); at its bounds it may stay one. */
+  bool isFinal(const Branch& branch, std::size_t first, std::size_t count)
+  {
+    if (branch.is_new || tree_.nodeHasChildren(branch.node)) return false;
+    const float log_odds = branch.node->getLogOdds();
+    if (stays(log_odds, first, count)) return true;
+    tree_.expandNode(branch.node);
+    return false;
+  }
+
+  bool stays(float log_odds, std::size_t first, std::size_t count) const
+  {
+    for (std::size_t voxel = first; voxel < first + count; ++voxel)
+      if (isSet(marks_.block->touched, voxel))
+        if (isSet(marks_.block->occupied, voxel) ? log_odds < tree_.getClampingThresMaxLog()
+                                                 : log_odds > tree_.getClampingThresMinLog())
+          return false;
+    return true;
+  }
+
+  Branch child(const Branch& branch, unsigned index)
+  {
+    if (tree_.nodeChildExists(branch.node, index)) return {tree_.getNodeChild(branch.node, index), false};
+    return {tree_.createNodeChild(branch.node, index), true};
+  }
+
+  void update(const Branch& branch, std::size_t first, std::size_t count)
+  {
+    if (count == 1) return updateLeaf(*branch.node, isSet(marks_.block->occupied, first));
+    if (isFinal(branch, first, count)) return;
+    const std::size_t part = count / 8;
+    for (unsigned index = 0; index < 8; ++index)
+      if (const std::size_t from = first + index * part; anyTouched(from, part))
+        update(child(branch, index), from, part);
+  }
+
+  void updateLeaf(octomap::OcTreeNode& leaf, bool hit)
+  {
+    const float change = hit ? tree_.getProbHitLog() : tree_.getProbMissLog();
+    leaf.setLogOdds(
+        std::clamp(leaf.getLogOdds() + change, tree_.getClampingThresMinLog(), tree_.getClampingThresMaxLog()));
+  }
+
+  bool anyTouched(std::size_t first, std::size_t count) const
+  {
+    const VoxelBlock::Bits& bits = marks_.block->touched;
+    if (count < 64) return bits[first / 64] >> (first % 64) & ((std::uint64_t{1} << count) - 1);
+    const auto word = bits.begin() + static_cast<std::ptrdiff_t>(first / 64);
+    return std::any_of(word, word + static_cast<std::ptrdiff_t>(count / 64), [](std::uint64_t w) { return w != 0; });
+  }
+
+  static bool isSet(const VoxelBlock::Bits& bits, std::size_t voxel) { return bits[voxel / 64] >> (voxel % 64) & 1; }
+
+  octomap::OcTree& tree_;
+  const VoxelMarks::NumberedBlock& marks_;
+};
+
+/** The way to some voxel that is about to be updated: only the tree itself can make its root. */
+void makeRoot(octomap::OcTree& tree, const VoxelMarks::NumberedBlock& marks)
+{
+  std::size_t voxel = 0;
+  while (!(marks.block->touched[voxel / 64] >> (voxel % 64) & 1)) ++voxel;
+  constexpr bool kInnerNodesLater = true;
+  tree.setNodeValue(keyOf(marks.number * VoxelBlock::kVoxels + voxel), 0.0F, kInnerNodesLater);
 }
 }  // namespace
 
 void insertRays(octomap::OcTree& tree, const octomap::Pointcloud& points, const octomap::point3d& origin,
                 double max_range)
 {
-  std::vector<MortonCode> ends;  // many points share a voxel near the lidar: one ray for all of them
-  for (const octomap::point3d& point : points)
-    if (octomap::OcTreeKey key; tree.coordToKeyChecked(point, key)) ends.push_back(codeOf(key));
-  sortUnique(ends);
-
-  std::vector<MortonCode> occupied, passed;
-  octomap::KeyRay ray;
-  for (const MortonCode code : ends)
+  const VoxelMarks marks = marksOf(tree, points, origin, max_range);
+  for (const VoxelMarks::NumberedBlock& block : marks.blocks())
   {
-    octomap::point3d end = tree.keyToCoord(keyOf(code));
-    const bool in_reach = (end - origin).norm() <= max_range;
-    if (in_reach) occupied.push_back(code);
-    if (!in_reach) end = origin + (end - origin).normalized() * static_cast<float>(max_range);
-    if (!tree.computeRayKeys(origin, end, ray)) continue;
-    std::transform(ray.begin(), ray.end(), std::back_inserter(passed), codeOf);
+    if (!tree.getRoot()) makeRoot(tree, block);
+    BlockUpdate(tree, block).run();
   }
-  sortUnique(passed);
-  std::vector<MortonCode> free;  // within one scan a hit outweighs every ray that grazes the same voxel
-  std::set_difference(passed.begin(), passed.end(), occupied.begin(), occupied.end(), std::back_inserter(free));
-
-  constexpr bool kInnerNodesLater = true;
-  for (const MortonCode code : free) tree.updateNode(keyOf(code), false, kInnerNodesLater);
-  for (const MortonCode code : occupied) tree.updateNode(keyOf(code), true, kInnerNodesLater);
 }
 }  // namespace scanloom

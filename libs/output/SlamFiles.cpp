@@ -26,7 +26,7 @@ double lengthOf(const Trajectory& poses)
 std::vector<std::string> SlamFiles::names()
 {
   std::vector<std::string> names{"trajectory.tum", "trajectory_imu.tum", "trajectory.csv", "summary.json"};
-  for (std::string& name : MapFiles::names()) names.push_back(std::move(name));
+  for (std::string& name : SlamMaps::names()) names.push_back(std::move(name));
   return names;
 }
 

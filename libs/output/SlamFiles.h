@@ -1,6 +1,6 @@
 /** The files of a localisation run, written while it goes: an interrupted run leaves what it had. */
 #pragma once
-#include "output/MapFiles.h"
+#include "output/SlamMaps.h"
 #include "output/OutputFile.h"
 #include "output/RunSummary.h"
 #include "output/Trajectory.h"
@@ -50,6 +50,6 @@ class SlamFiles
   TumWriter trajectory_, trajectory_imu_;
   OutputFile csv_;
   Trajectory poses_;
-  std::optional<MapFiles> maps_;
+  std::optional<SlamMaps> maps_;
 };
 }  // namespace scanloom

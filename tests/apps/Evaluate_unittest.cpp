@@ -57,6 +57,27 @@ TEST_F(EvaluateVerb, tellsTheDriftAgainstAStationAndAgainstPoses)
   }
 }
 
+TEST_F(EvaluateVerb, readsReferencesOfEurocAndKitti)
+{
+  std::ofstream estimate(folder_ / "estimate.tum"), euroc(folder_ / "euroc.csv"), kitti(folder_ / "kitti.txt"),
+      times(folder_ / "kitti_times.txt");
+  euroc << "#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []\n";
+  for (int t = 2000; t <= 2010; ++t)
+  {
+    estimate << t << ' ' << t << " 0 " << (t == 2007 ? 0.3 : 0) << " 0 0 0 1\n";
+    euroc << t << "000000000," << t << ",0,0,1,0,0,0\n";
+    kitti << "1 0 0 " << t << " 0 1 0 0 0 0 1 0\n";
+    times << t << '\n';
+  }
+  for (std::ofstream* file : {&estimate, &euroc, &kitti, &times}) file->close();
+  for (const char* reference : {"euroc.csv", "kitti.txt"})
+  {
+    const Ended ended = evaluate(std::string("--json --reference ") + reference);
+    ASSERT_EQ(ended.status, 0) << ended.output;
+    EXPECT_NEAR(nlohmann::json::parse(ended.output).at("drift_m"), 0.3, 1e-12) << reference;
+  }
+}
+
 TEST_F(EvaluateVerb, endsWithThreeAboveTheLimitAndStillTellsAll)
 {
   EXPECT_EQ(evaluate("--reference truth.tum --fail-if-drift-above 0.31").status, 0);

@@ -1,4 +1,4 @@
-#include "output/MapFiles.h"
+#include "output/SlamMaps.h"
 
 namespace scanloom
 {
@@ -19,9 +19,9 @@ std::vector<Rigid> originsOf(const std::vector<RecordedLidar>& lidars)
 }
 }  // namespace
 
-std::vector<std::string> MapFiles::names() { return {"keyframes.simplemap", "map.ply", "map.bt", "map.ot", "map.png"}; }
+std::vector<std::string> SlamMaps::names() { return {"keyframes.simplemap", "map.ply", "map.bt", "map.ot", "map.png"}; }
 
-MapFiles::MapFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>& lidars,
+SlamMaps::SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>& lidars,
                    const OctoMapOptions& octomap)
   : folder_(folder),
     ply_(folder / "map.ply"),
@@ -32,7 +32,7 @@ MapFiles::MapFiles(const std::filesystem::path& folder, const std::vector<Record
 {
 }
 
-void MapFiles::add(Keyframe keyframe)
+void SlamMaps::add(Keyframe keyframe)
 {
   constexpr std::size_t kMostWaiting = 8;
   std::unique_lock lock(mutex_);
@@ -42,7 +42,7 @@ void MapFiles::add(Keyframe keyframe)
   changed_.notify_all();
 }
 
-void MapFiles::draw()
+void SlamMaps::draw()
 {
   try
   {
@@ -66,7 +66,7 @@ void MapFiles::draw()
   }
 }
 
-void MapFiles::finish()
+void SlamMaps::finish()
 {
   {
     const std::lock_guard lock(mutex_);
@@ -76,9 +76,9 @@ void MapFiles::finish()
   if (thread_.joinable()) thread_.join();
 }
 
-MapFiles::~MapFiles() { finish(); }
+SlamMaps::~SlamMaps() { finish(); }
 
-void MapFiles::addToAll(const Keyframe& keyframe)
+void SlamMaps::addToAll(const Keyframe& keyframe)
 {
   times_.measure("output.ply", [&] { ply_.add(keyframe.points, keyframe.stamp, keyframe.map_T_body); });
   times_.measure("output.simplemap", [&] { simple_map_.add(keyframe); });
@@ -86,7 +86,7 @@ void MapFiles::addToAll(const Keyframe& keyframe)
   times_.measure("output.picture", [&] { picture_.add(keyframe); });
 }
 
-void MapFiles::close(const Trajectory& path, RunSummary& summary)
+void SlamMaps::close(const Trajectory& path, RunSummary& summary)
 {
   finish();
   if (error_) std::rethrow_exception(error_);

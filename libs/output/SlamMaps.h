@@ -20,17 +20,17 @@
 namespace scanloom
 {
 /** keyframes.simplemap, map.ply, map.bt, map.ot and map.png, all in the map frame. */
-class MapFiles
+class SlamMaps
 {
  public:
   /** All names that close() leaves in the folder. */
   static std::vector<std::string> names();
 
   /** Throws std::runtime_error if the folder cannot be written. */
-  MapFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OctoMapOptions&);
-  MapFiles(const MapFiles&) = delete;
-  MapFiles& operator=(const MapFiles&) = delete;
-  ~MapFiles();
+  SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OctoMapOptions&);
+  SlamMaps(const SlamMaps&) = delete;
+  SlamMaps& operator=(const SlamMaps&) = delete;
+  ~SlamMaps();
 
   /**
    * Keyframes join the maps in a thread of their own, in order, because an occupancy map takes seconds for one; when

@@ -1,0 +1,69 @@
+/** Which voxels the rays of one scan met: a bit each, in blocks that exist only where a ray came by. */
+#pragma once
+#include "output/Morton.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace scanloom
+{
+/** A cube of 32 voxels an edge; bits in the tree's order. */
+struct VoxelBlock
+{
+  static constexpr int kLevels = 5;  // of the tree below it
+  static constexpr std::size_t kVoxels = std::size_t{1} << (3 * kLevels);
+  using Bits = std::array<std::uint64_t, kVoxels / 64>;
+
+  Bits touched{};   // by a ray or its end
+  Bits occupied{};  // by its end
+};
+
+class VoxelMarks
+{
+ public:
+  void touch(MortonCode code) { set(blockOf(code).touched, code); }
+  void occupy(MortonCode code)
+  {
+    touch(code);
+    set(latest_block_->occupied, code);
+  }
+
+  /** Takes what either has marked. */
+  void merge(VoxelMarks&& other);
+
+  struct NumberedBlock
+  {
+    MortonCode number;  // the code of its voxels without their last 3 * kLevels bits
+    const VoxelBlock* block;
+  };
+  /** In the tree's order. */
+  std::vector<NumberedBlock> blocks() const;
+
+ private:
+  static void set(VoxelBlock::Bits& bits, MortonCode code)
+  {
+    const MortonCode place = code % VoxelBlock::kVoxels;
+    bits[place / 64] |= std::uint64_t{1} << (place % 64);
+  }
+
+  VoxelBlock& blockOf(MortonCode code)
+  {
+    const MortonCode number = code / VoxelBlock::kVoxels;
+    if (!latest_block_ || number != latest_number_)
+    {
+      std::unique_ptr<VoxelBlock>& block = blocks_[number];
+      if (!block) block = std::make_unique<VoxelBlock>();
+      latest_block_ = block.get();
+      latest_number_ = number;
+    }
+    return *latest_block_;
+  }
+
+  std::unordered_map<MortonCode, std::unique_ptr<VoxelBlock>> blocks_;
+  MortonCode latest_number_ = 0;  // a ray stays in a block for dozens of voxels
+  VoxelBlock* latest_block_ = nullptr;
+};
+}  // namespace scanloom

@@ -1,0 +1,81 @@
+#include "output/VoxelPly.h"
+
+#include "core/Bytes.h"
+#include "output/OctoMapFile.h"
+#include "output/OutputFile.h"
+
+#include <fmt/ostream.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::int32_t kCorners = 8, kFaces = 6, kCornersOfFace = 4;
+
+/** Corner i has x, y, z at the upper end where bits 0, 1, 2 of i are set; counterclockwise seen from outside. */
+constexpr std::array<std::array<std::int32_t, kCornersOfFace>, kFaces> kFacesOfCube{
+    {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+
+template <typename T>
+void put(std::ostream& file, T value)
+{
+  file.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+void put(std::ostream& file, const octomap::point3d& p)
+{
+  for (unsigned axis = 0; axis < 3; ++axis) put(file, p(axis));
+}
+
+void putCorners(std::ostream& file, const octomap::point3d& centre, float half)
+{
+  for (int corner = 0; corner < kCorners; ++corner)
+    put(file,
+        centre + octomap::point3d(corner & 1 ? half : -half, corner & 2 ? half : -half, corner & 4 ? half : -half));
+}
+
+void putFaces(std::ostream& file, std::int32_t first_corner)
+{
+  for (const auto& face : kFacesOfCube)
+  {
+    put(file, static_cast<std::uint8_t>(kCornersOfFace));
+    for (const std::int32_t corner : face) put(file, first_corner + corner);
+  }
+}
+
+std::size_t occupiedVoxels(const octomap::OcTree& tree)
+{
+  std::size_t count = 0;
+  forEachOccupiedVoxel(tree, [&](const octomap::point3d&) { ++count; });
+  return count;
+}
+}  // namespace
+
+std::size_t writeVoxelPly(const std::filesystem::path& path, const octomap::OcTree& tree, VoxelShape shape)
+{
+  const bool cubes = shape == VoxelShape::Cubes;
+  const std::size_t voxels = occupiedVoxels(tree);
+  if (cubes && voxels > std::numeric_limits<std::int32_t>::max() / kCorners)
+    throw std::runtime_error("too many voxels for faces, whose corners PLY counts with 32 bits: write their centres");
+
+  OutputFile file(path);
+  fmt::print(file.stream(),
+             "ply\nformat binary_little_endian 1.0\ncomment occupied voxels of {} m\nelement vertex {}\n"
+             "property float x\nproperty float y\nproperty float z\n",
+             tree.getResolution(), cubes ? voxels * kCorners : voxels);
+  if (cubes) fmt::print(file.stream(), "element face {}\nproperty list uchar int vertex_indices\n", voxels * kFaces);
+  file.stream() << "end_header\n";
+
+  const auto half = static_cast<float>(tree.getResolution() / 2);
+  forEachOccupiedVoxel(tree, [&](const octomap::point3d& centre)
+                       { cubes ? putCorners(file.stream(), centre, half) : put(file.stream(), centre); });
+  for (std::size_t i = 0; cubes && i < voxels; ++i) putFaces(file.stream(), static_cast<std::int32_t>(i * kCorners));
+  file.commit();
+  return voxels;
+}
+}  // namespace scanloom

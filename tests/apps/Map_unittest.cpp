@@ -1,0 +1,156 @@
+/** `scanloom map` and `scanloom view` as a person meets them. */
+#include "cloud/PlyReader.h"
+#include "dataset/smallRawlog.h"
+#include "output/OctoMapFile.h"
+#include "output/SimpleMapReader.h"
+#include "output/Trajectory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/opengl/COpenGLScene.h>
+
+#include <set>
+
+namespace scanloom
+{
+namespace
+{
+using testing::HasSubstr;
+
+Ended scanloomRuns(const std::string& arguments)
+{
+  return runProgram(SCANLOOM_BIN_DIR "/scanloom " + arguments + " 2>&1");
+}
+
+struct Map : testing::Test
+{
+  TemporaryFolder folder;
+  std::string rawlog = writeSmallRawlog(folder / "in.rawlog").string();
+  std::string path = (folder / "path.tum").string();
+
+  Map()
+  {
+    Trajectory poses;  // 1 m per scan
+    for (int i = 0; i < 10; ++i) poses.push_back({kSmallStart + i * 50ms, {{1, 0, 0, 0}, {0.5 * i, 0, 0}}});
+    writeTum(path, poses);
+  }
+  std::string name(const std::string& file) const { return (folder / file).string(); }
+  Ended map(const std::string& options) const
+  {
+    return scanloomRuns("map -q -i " + rawlog + " --trajectory " + path + " --keyframe-distance 0.9 " + options);
+  }
+};
+
+TEST_F(Map, makesEveryKindOfARawlogAndItsTrajectory)
+{
+  const Ended ended = map("-o " + name("m.bt") + " -o " + name("m.ot") + " -o " + name("m.ply") + " -o " +
+                          name("m.simplemap") + " -o " + name("m.3Dscene"));
+  ASSERT_EQ(ended.status, 0) << ended.output;
+  EXPECT_THAT(ended.output, HasSubstr("estimate: "));
+
+  EXPECT_EQ(SimpleMapReader(name("m.simplemap")).size(), 4U);
+  EXPECT_EQ(readPly(name("m.ply")).points.size(), 360U);
+  octomap::OcTree stock(name("m.bt"));
+  EXPECT_GT(stock.size(), 100U);
+  EXPECT_DOUBLE_EQ(stock.getResolution(), 0.1);
+  mrpt::opengl::COpenGLScene scene;
+  EXPECT_TRUE(scene.loadFromFile(name("m.3Dscene")));
+  EXPECT_TRUE(scene.getByClass<mrpt::opengl::CRenderizable>());
+}
+
+TEST_F(Map, ofKeyframesIsThatOfTheRawlog)
+{
+  ASSERT_EQ(map("-o " + name("m.ot") + " -o " + name("m.simplemap")).status, 0);
+  ASSERT_EQ(scanloomRuns("map -q -i " + name("m.simplemap") + " -o " + name("again.ot")).status, 0);
+  // Coordinates went through floats in another frame: voxels at a border may differ.
+  const auto first = readOctoMap(name("m.ot")), again = readOctoMap(name("again.ot"));
+  EXPECT_NEAR(static_cast<double>(again->size()), static_cast<double>(first->size()),
+              0.03 * static_cast<double>(first->size()));
+}
+
+TEST_F(Map, convertsOccupancyToPoints)
+{
+  ASSERT_EQ(map("--preset preview -o " + name("m.bt")).status, 0);
+  ASSERT_EQ(scanloomRuns("map -i " + name("m.bt") + " -o " + name("m.ply")).status, 0);
+  const auto cloud = readPly(name("m.ply"));
+  const octomap::OcTree stock(name("m.bt"));
+  ASSERT_GT(cloud.points.size(), 0U);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+  {
+    const auto* node = stock.search(cloud.points.x[i], cloud.points.y[i], cloud.points.z[i]);
+    ASSERT_TRUE(node && stock.isNodeOccupied(node));
+  }
+}
+
+TEST_F(Map, whatMakesNoSenseIsStatus2)
+{
+  EXPECT_EQ(map("-o " + name("m.las")).status, 2);
+  EXPECT_EQ(map("-o " + name("a.bt") + " -o " + name("b.bt")).status, 2);
+  EXPECT_EQ(map("-o " + name("m.bt") + " --preset coarse").status, 2);
+  EXPECT_EQ(map("-o " + name("m.ply") + " --cubes").status, 2);
+  EXPECT_EQ(scanloomRuns("map -i " + rawlog + " -o " + name("m.bt")).status, 2) << "no trajectory";
+  ASSERT_EQ(map("-o " + name("m.bt")).status, 0);
+  EXPECT_EQ(map("-o " + name("m.bt")).status, 2) << "exists";
+  EXPECT_EQ(map("-w -o " + name("m.bt")).status, 0);
+  EXPECT_EQ(scanloomRuns("map -i " + name("m.bt") + " -o " + name("m.simplemap")).status, 2);
+}
+
+TEST_F(Map, aDryRunEstimatesAndWritesNothing)
+{
+  const Ended ended = map("--dry-run -o " + name("m.bt"));
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_THAT(ended.output, HasSubstr("0.1 m / 20 m"));
+  EXPECT_FALSE(std::filesystem::exists(name("m.bt")));
+}
+
+TEST_F(Map, aTrajectoryOfAnotherDayIsStatus1)
+{
+  writeTum(path, {{kSmallStart + 3600s, Rigid::identity()}, {kSmallStart + 3601s, Rigid::identity()}});
+  const Ended ended = map("-o " + name("m.bt"));
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_THAT(ended.output, HasSubstr("no scan lies within the trajectory"));
+  EXPECT_FALSE(std::filesystem::exists(name("m.bt")));
+}
+
+std::size_t colorsOf(const std::string& png)
+{
+  mrpt::img::CImage image;
+  if (!image.loadFromFile(png)) return 0;
+  std::set<std::uint32_t> colors;
+  for (int y = 0; y < static_cast<int>(image.getHeight()); ++y)
+    for (int x = 0; x < static_cast<int>(image.getWidth()); ++x)
+    {
+      const auto* pixel = image.ptr<std::uint8_t>(static_cast<unsigned>(x), static_cast<unsigned>(y));
+      colors.insert(pixel[0] | pixel[1] << 8 | pixel[2] << 16);
+    }
+  return colors.size();
+}
+
+TEST_F(Map, viewDrawsAPictureOfEachWithoutADisplay)
+{
+  ASSERT_EQ(map("-o " + name("m.bt") + " -o " + name("m.ply") + " -o " + name("m.simplemap")).status, 0);
+  for (const std::string& file : {rawlog, path, name("m.bt"), name("m.ply"), name("m.simplemap")})
+  {
+    const Ended ended = runProgram("env -u DISPLAY " SCANLOOM_BIN_DIR "/scanloom view " + file + " --png " + file +
+                                   ".png --width 320 --height 240 2>&1");
+    ASSERT_EQ(ended.status, 0) << ended.output;
+    EXPECT_GE(colorsOf(file + ".png"), file == path ? 3U : 10U) << file << ": not only the background";
+  }
+}
+
+TEST_F(Map, viewSaysWhatItCannotShow)
+{
+  std::ofstream(name("m.las")) << "las";
+  EXPECT_EQ(scanloomRuns("view " + name("m.las") + " --png " + name("m.png")).status, 2);
+  EXPECT_EQ(scanloomRuns("view " + rawlog + " --png " + name("m.jpg")).status, 2);
+  const Ended beyond = scanloomRuns("view " + rawlog + " --scan 9 --png " + name("m.png"));
+  EXPECT_EQ(beyond.status, 1);
+  EXPECT_THAT(beyond.output, HasSubstr("has 4 clouds, no number 9"));
+  const Ended blind =
+      runProgram("env -u DISPLAY -u WAYLAND_DISPLAY " SCANLOOM_BIN_DIR "/scanloom view " + path + " 2>&1");
+  EXPECT_EQ(blind.status, 1);
+  EXPECT_THAT(blind.output, HasSubstr("--png"));
+}
+}  // namespace
+}  // namespace scanloom
