@@ -174,15 +174,16 @@ int run(SlamArguments arguments)
   SlamRunResult result;
   {
     InputDisplay display = displayOf(input);
-    result = runSlam(*input.sensors, settings, files,
-                     [&](double share, std::uint64_t scans)
-                     {
-                       display.update(share, scans);
-                       const bool over =
-                           arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
-                       if (input.live && (over || interrupted())) input.live->stop();
-                       return input.live || !interrupted();
-                     });
+    result = runSlam(
+        *input.sensors, settings, files,
+        [&](double share, std::uint64_t scans)
+        {
+          display.update(share, scans);
+          const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
+          if (input.live && (over || interrupted())) input.live->stop();
+          return input.live || !interrupted();
+        },
+        [](const std::string& warning) { fmt::print(stderr, "warning: {}\n", warning); });
   }
   result.summary.command = commandOf(arguments);
   result.summary.versions = {{"scanloom", programVersion()}};

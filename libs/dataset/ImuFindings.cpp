@@ -49,29 +49,18 @@ Finding gravityFinding(const ImuExamination& imu, const ImuLimits& limits)
 {
   const double magnitude = imu.force_in_body.norm();
   Finding finding{imu.name, "gravity", Verdict::Ok, fmt::format("mean specific force {:.3f} m/s2", magnitude), ""};
-  switch (forceUnitOf(magnitude))
+  const ForceUnit unit = forceUnitOf(magnitude);
+  if (unit != ForceUnit::MetresPerSecondSquared)
   {
-    case ForceUnit::MetresPerSecondSquared:
-      if (std::abs(magnitude - kStandardGravity) <= limits.gravity_warning) return finding;
-      finding.verdict = Verdict::NotMeasured;
-      if (imu.timing.last - imu.timing.first < kMotionAveragesOut) return finding;
-      finding.verdict = Verdict::Warning;
-      finding.mend = "calibrate the accelerometer (six positions), or record a standstill to tell bias from motion";
-      return finding;
-    case ForceUnit::StandardGravity:
-      finding.mend = "the values are in g: multiply them by 9.80665";
-      break;
-    case ForceUnit::MilliGravity:
-      finding.mend = "the values are in mg (or cm/s2): multiply them by 0.00980665 (or 0.01)";
-      break;
-    case ForceUnit::GravityTakenOut:
-      finding.mend = "gravity was taken out by the IMU: record its raw accelerometer, not 'linear acceleration'";
-      break;
-    case ForceUnit::Unclear:
-      finding.mend = "at rest it must be 9.81 m/s2: check the unit and the full-scale setting";
-      break;
+    finding.verdict = Verdict::NotFit;
+    finding.mend = adviceFor(unit);
+    return finding;
   }
-  finding.verdict = Verdict::NotFit;
+  if (std::abs(magnitude - kStandardGravity) <= limits.gravity_warning) return finding;
+  finding.verdict = Verdict::NotMeasured;
+  if (imu.timing.last - imu.timing.first < kMotionAveragesOut) return finding;
+  finding.verdict = Verdict::Warning;
+  finding.mend = "calibrate the accelerometer (six positions), or record a standstill to tell bias from motion";
   return finding;
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace scanloom
 {
@@ -25,6 +26,15 @@ void to_json(nlohmann::json& json, const StageTime& stage)
           {"max_ms", stage.longest_ms}};
 }
 
+void to_json(nlohmann::json& json, const GyroAgreement& imu)
+{
+  json = {{"late_ms", 1e3 * seconds(imu.lag)},
+          {"late_sigma_ms", 1e3 * imu.lag_sigma},
+          {"turned_deg", imu.rotation.norm() * 180 / M_PI},
+          {"turned_sigma_deg", imu.sigma * 180 / M_PI},
+          {"scale", imu.scale}};
+}
+
 void to_json(nlohmann::json& json, const RunSummary& run)
 {
   json = {{"command", run.command},
@@ -38,6 +48,7 @@ void to_json(nlohmann::json& json, const RunSummary& run)
           {"real_time_factor", run.realTimeFactor()},
           {"path_length_m", run.path_length},
           {"peak_memory_bytes", run.peak_memory}};
+  if (run.imu) json["imu"] = *run.imu;
 }
 
 void writeSummary(const std::filesystem::path& path, const RunSummary& run)

@@ -1,12 +1,14 @@
 /** summary.json: what a run did, how long it took and how it ended. */
 #pragma once
 #include "core/StageTimes.h"
+#include "imu/GyroAgreement.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 namespace scanloom
@@ -19,10 +21,11 @@ struct RunSummary
   std::uint64_t seed = 0;                       // 0: nothing was drawn
   std::map<std::string, std::uint64_t> counts;  // "scans", "keyframes", "packets.left", ...
   std::map<std::string, StageTime> stages;
-  double recorded = 0;            // s of recording that were worked on
-  double elapsed = 0;             // s of wall-clock time
-  double path_length = 0;         // m
-  std::uint64_t peak_memory = 0;  // bytes
+  std::optional<GyroAgreement> imu;  // against the turns that the lidars saw, over the last minute
+  double recorded = 0;               // s of recording that were worked on
+  double elapsed = 0;                // s of wall-clock time
+  double path_length = 0;            // m
+  std::uint64_t peak_memory = 0;     // bytes
 
   /** Above 1 is faster than real time; 0 if nothing was measured. */
   double realTimeFactor() const { return elapsed > 0 ? recorded / elapsed : 0; }
@@ -32,6 +35,7 @@ struct RunSummary
 std::uint64_t peakMemory();
 
 void to_json(nlohmann::json&, const StageTime&);
+void to_json(nlohmann::json&, const GyroAgreement&);
 void to_json(nlohmann::json&, const RunSummary&);
 
 void writeSummary(const std::filesystem::path&, const RunSummary&);

@@ -1,6 +1,7 @@
 #include "output/SlamRun.h"
 
 #include "slam/ConstantMotion.h"
+#include "slam/ImuWatch.h"
 
 #include <fmt/format.h>
 
@@ -29,6 +30,44 @@ std::vector<Eigen::Vector3d> positionsOf(const std::vector<RecordedLidar>& lidar
   for (const RecordedLidar& lidar : lidars) positions.push_back(lidar.body_T_sensor.translation);
   return positions;
 }
+
+/** Looks once a minute and at the end; says a thing once. */
+class WatchedImu
+{
+ public:
+  WatchedImu(const Rigid& body_T_imu, const Warn& warn) : watch_(body_T_imu), warn_(warn) {}
+
+  void add(const ImuSample& sample) { watch_.add(sample); }
+
+  void add(const StateEstimate& estimate)
+  {
+    watch_.add(estimate);
+    if (!next_look_) next_look_ = estimate.stamp + kBetweenLooks;
+    if (estimate.stamp < *next_look_) return;
+    next_look_ = estimate.stamp + kBetweenLooks;
+    look();
+  }
+
+  void look()
+  {
+    if (complained_) return;
+    const std::optional<std::string> complaint = watch_.complaint();
+    if (!complaint) return;
+    warn_("the IMU: " + *complaint);
+    complained_ = true;
+  }
+
+  bool complained() const { return complained_; }
+  std::optional<GyroAgreement> agreement() const { return watch_.agreement(); }
+
+ private:
+  static constexpr Duration kBetweenLooks = 60s;
+
+  ImuWatch watch_;
+  const Warn& warn_;
+  std::optional<Timestamp> next_look_;
+  bool complained_ = false;
+};
 
 struct HealthCounts
 {
@@ -64,13 +103,16 @@ struct HealthCounts
 };
 }  // namespace
 
-SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFiles& files, const KeepGoing& keepGoing)
+SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFiles& files, const KeepGoing& keepGoing,
+                      const Warn& warn)
 {
   const auto start = std::chrono::steady_clock::now();
   const int imu = chooseImu(input, settings.slam.imu);
   LidarInertialSlam slam(settings, *input.body_T_imu(imu), positionsOf(input.header().lidars));
   ConstantMotion motion(*input.body_T_imu(imu));
   const bool coasts = settings.slam.constant_motion;
+  const Duration delay = fromSeconds(1e-3 * settings.slam.imu_delay_ms);
+  WatchedImu watch(*input.body_T_imu(imu), warn);
   StageTimes times;
   HealthCounts health;
   std::uint64_t scans = 0;
@@ -80,6 +122,7 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
     {
       health.add(estimate);
       if (coasts) motion.update(estimate);
+      watch.add(estimate);
       files.add(estimate);
     }
   };
@@ -91,9 +134,12 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
     std::optional<SensorEvent> event = times.measure("input", [&] { return input.next(kPatience); });
     if (!event)
       going = keepGoing(input.progress(), scans);
-    else if (const auto* sample = std::get_if<SensorImu>(&*event))
+    else if (auto* sample = std::get_if<SensorImu>(&*event))
     {
-      if (sample->sensor == imu && !motion.known()) slam.addImu(sample->sample);
+      if (sample->sensor != imu) continue;
+      sample->sample.stamp -= delay;
+      watch.add(sample->sample);
+      if (!motion.known()) slam.addImu(sample->sample);
     }
     else if (auto* scan = std::get_if<Scan>(&*event))
     {
@@ -107,7 +153,9 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
 
   SlamRunResult result;
   RunSummary& summary = result.summary;
-  result.passed = health.passed();
+  watch.look();
+  result.passed = health.passed() && !watch.complained();
+  summary.imu = watch.agreement();
   summary.outcome = going ? health.outcome() : "INTERRUPTED";
   summary.counts = input.counts();
   summary.counts["scans"] = scans;

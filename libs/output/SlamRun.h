@@ -8,6 +8,9 @@
 
 namespace scanloom
 {
+/** Called with what a person should know at once. */
+using Warn = std::function<void(const std::string&)>;
+
 /** Called after each event with the share of the input that was read; false stops the run, keeping what there is. */
 using KeepGoing = std::function<bool(double progress, std::uint64_t scans)>;
 
@@ -20,7 +23,7 @@ struct SlamRunResult
 
 /**
  * Runs to the end of input and hands every estimate to `files`, which the caller closes with the summary.
- * Throws ConfigError if settings.slam.imu names an IMU that the input does not have.
+ * Throws ConfigError if settings.slam.imu names an IMU that the input does not have, and what requireGravity() does.
  */
-SlamRunResult runSlam(SensorInput&, const SlamSettings&, SlamFiles& files, const KeepGoing&);
+SlamRunResult runSlam(SensorInput&, const SlamSettings&, SlamFiles& files, const KeepGoing&, const Warn&);
 }  // namespace scanloom

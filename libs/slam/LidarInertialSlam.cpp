@@ -2,6 +2,7 @@
 
 #include "ndt/Rivals.h"
 #include "preprocessing/Deskew.h"
+#include "slam/ImuWatch.h"
 #include "slam/ScanRegistration.h"
 
 #include <algorithm>
@@ -103,6 +104,7 @@ bool LidarInertialSlam::start(bool input_ended)
 
   const Timestamp to = std::min(enough, std::max(imu_.samples().back().stamp, waiting_.front().end()));
   const std::vector<ImuSample> samples = imu_.between(first, to);
+  requireGravity(samples, body_T_imu_);
   std::optional<ImuInitialisation> initial = initialiseAtRest(samples, body_T_imu_, settings_.start);
   if (!initial)
   {

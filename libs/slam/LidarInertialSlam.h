@@ -29,7 +29,7 @@ class LidarInertialSlam
   /** In time order; a sample out of order or not finite is refused and counted. */
   void addImu(const ImuSample&);
 
-  /** The estimates that became possible: a scan waits until the IMU covers it, the first ones until the start is known.
+  /** The estimates that became possible (throws what requireGravity() does at the start): a scan waits until the IMU covers it, the first ones until the start is known.
    */
   std::vector<StateEstimate> addScan(Scan);
 

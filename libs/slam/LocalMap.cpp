@@ -23,9 +23,21 @@ void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_b
   std::vector<View> in_map;
   for (const View& view : seen_from_body) in_map.push_back(movedBy(map_T_body, view));
   keyframes_.push_back({map_T_body, NdtMap(in_map, ndt_.options())});
-  ndt_.add(keyframes_.back().ndt);
-  if (keyframes_.size() <= static_cast<std::size_t>(options_.keyframes)) return;
-  ndt_.remove(keyframes_.front().ndt);
-  keyframes_.pop_front();
+  for (std::size_t i = 0; i < keyframes_.size(); ++i)
+  {
+    Keyframe& keyframe = keyframes_[i];
+    const bool belongs = this->belongs(keyframe, keyframes_.size() - 1 - i);
+    if (belongs && !keyframe.in_map) ndt_.add(keyframe.ndt);
+    if (!belongs && keyframe.in_map) ndt_.remove(keyframe.ndt);
+    keyframe.in_map = belongs;
+  }
+  if (options_.radius == 0 && !keyframes_.front().in_map) keyframes_.pop_front();
+}
+
+/** `age`: keyframes that came after it. */
+bool LocalMap::belongs(const Keyframe& keyframe, std::size_t age) const
+{
+  if (options_.radius == 0) return age < static_cast<std::size_t>(options_.keyframes);
+  return (keyframe.map_T_body.translation - keyframes_.back().map_T_body.translation).norm() <= options_.radius;
 }
 }  // namespace scanloom

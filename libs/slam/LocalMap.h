@@ -1,4 +1,4 @@
-/** The last keyframes, as one NDT map in the map frame (paper, section 2.2). */
+/** The last keyframes (paper, section 2.2), or those nearby, as one NDT map in the map frame. */
 #pragma once
 #include "core/Field.h"
 #include "core/Rigid.h"
@@ -14,6 +14,7 @@ struct LocalMapOptions
   double keyframe_distance = 4.0;
   double keyframe_turn_deg = 20.0;
   int keyframes = 3;
+  double radius = 0;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -22,6 +23,10 @@ struct LocalMapOptions
     visit(o.keyframe_turn_deg,
           Field{"keyframe_turn_deg", "deg", "turn before a new keyframe; 180: never", between(1, 180)});
     visit(o.keyframes, Field{"keyframes", "", "how many are kept", atLeast(1)});
+    visit(o.radius, Field{"radius", "m",
+                          "all keyframes so near to the newest are the map, also those of earlier passes, in place of "
+                          "the last ones; 0: the last ones",
+                          atLeast(0)});
   }
 };
 
@@ -47,7 +52,10 @@ class LocalMap
   {
     Rigid map_T_body;
     NdtMap ndt;  // of this keyframe alone, in the map frame
+    bool in_map = false;
   };
+
+  bool belongs(const Keyframe&, std::size_t age) const;
 
   LocalMapOptions options_;
   std::deque<Keyframe> keyframes_;

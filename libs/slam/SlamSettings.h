@@ -17,6 +17,7 @@ struct SlamOptions
   int every_nth = 1;
   std::string imu = "auto";
   bool constant_motion = false;
+  double imu_delay_ms = 0;
   double imu_wait_ms = 50;
   double lost_after = 2.0;
   bool refine = true;
@@ -39,6 +40,9 @@ struct SlamOptions
         Field{"constant_motion", "",
               "for comparison: the IMU serves the start alone, then velocity and turn rate are taken to stay what they "
               "were, as surely as [imu_noise] says"});
+    visit(o.imu_delay_ms, Field{"imu_delay_ms", "ms",
+                                "by how much the IMU's stamps are later than the lidars', which slam tells at its end",
+                                between(-500, 500)});
     visit(o.imu_wait_ms, Field{"imu_wait_ms", "ms", "how long a scan waits for the IMU to cover its end", atLeast(0)});
     visit(o.refine, Field{"refine", "", "align every scan again with [fine_cells] after the rough alignment"});
     visit(o.stem_axes,

@@ -7,7 +7,7 @@
 #include "core/So3.h"
 #include "dataset/CloudAgreement.h"
 #include "dataset/CommonView.h"
-#include "dataset/MeanForce.h"
+#include "imu/MeanForce.h"
 #include "dataset/OwnParts.h"
 #include "ndt/RayWorld.h"
 

@@ -5,10 +5,10 @@
 #include <random>
 
 #include "core/So3.h"
-#include "dataset/GyroAgreement.h"
-#include "dataset/GyroScale.h"
+#include "imu/GyroAgreement.h"
+#include "imu/GyroScale.h"
 #include "dataset/ImuTiming.h"
-#include "dataset/MeanForce.h"
+#include "imu/MeanForce.h"
 
 using namespace scanloom;
 

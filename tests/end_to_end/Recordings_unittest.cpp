@@ -30,7 +30,9 @@ RunSummary localise(SensorInput& input, const std::filesystem::path& folder, con
   coarse.resolution = 1;
   coarse.max_range = 5;
   SlamFiles files(folder, input.header().lidars, coarse);
-  SlamRunResult result = runSlam(input, settings, files, [](double, std::uint64_t) { return true; });
+  SlamRunResult result = runSlam(
+      input, settings, files, [](double, std::uint64_t) { return true; },
+      [](const std::string& warning) { ADD_FAILURE() << warning; });
   EXPECT_TRUE(result.passed);
   files.close(result.summary);
   return result.summary;

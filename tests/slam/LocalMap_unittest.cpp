@@ -44,6 +44,19 @@ TEST(LocalMap, keepsTheLastThreeKeyframes)
   EXPECT_NEAR(map.ndt().cellAt({40, 0, 0})->mean.x(), 40.5, 1e-4);
 }
 
+TEST(LocalMap, keepsAllWithinTheRadiusAndTakesUpThoseOfAnEarlierPass)
+{
+  LocalMapOptions options;
+  options.radius = 15;
+  LocalMap map(options, {});
+  for (const double x : {0, 10, 20, 30}) map.add(cube(), at(x));
+  EXPECT_EQ(map.ndt().cellAt({0, 0, 0}), nullptr);
+  EXPECT_EQ(map.ndt().points(), 2u * 27u);
+  map.add(cube(), at(5));
+  EXPECT_EQ(map.ndt().points(), 4u * 27u) << "0, 5, 10 and 20";
+  ASSERT_NE(map.ndt().cellAt({0, 0, 0}), nullptr);
+}
+
 TEST(LocalMap, keyframesThatOverlapShareCells)
 {
   LocalMap map({}, {});

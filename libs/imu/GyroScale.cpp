@@ -1,4 +1,4 @@
-#include "dataset/GyroScale.h"
+#include "imu/GyroScale.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -24,6 +24,9 @@ enum class ForceUnit
 };
 ForceUnit forceUnitOf(double magnitude);
 
+/** How to mend it; empty for m/s2. */
+std::string adviceFor(ForceUnit);
+
 /** "+y" */
 std::string nearestAxis(const Eigen::Vector3d&);
 

@@ -1,4 +1,4 @@
-#include "dataset/MeanForce.h"
+#include "imu/MeanForce.h"
 
 #include <fmt/format.h>
 
@@ -30,6 +30,24 @@ ForceUnit forceUnitOf(double magnitude)
   if (isAbout(magnitude, 1)) return ForceUnit::StandardGravity;
   if (isAbout(magnitude, 1000)) return ForceUnit::MilliGravity;
   return magnitude < 0.5 ? ForceUnit::GravityTakenOut : ForceUnit::Unclear;
+}
+
+std::string adviceFor(ForceUnit unit)
+{
+  switch (unit)
+  {
+    case ForceUnit::MetresPerSecondSquared:
+      return "";
+    case ForceUnit::StandardGravity:
+      return "the values are in g: multiply them by 9.80665";
+    case ForceUnit::MilliGravity:
+      return "the values are in mg (or cm/s2): multiply them by 0.00980665 (or 0.01)";
+    case ForceUnit::GravityTakenOut:
+      return "gravity was taken out by the IMU: record its raw accelerometer, not 'linear acceleration'";
+    case ForceUnit::Unclear:
+      break;
+  }
+  return "at rest it must be 9.81 m/s2: check the unit and the full-scale setting";
 }
 
 std::string nearestAxis(const Eigen::Vector3d& direction)

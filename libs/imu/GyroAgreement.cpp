@@ -1,0 +1,169 @@
+#include "imu/GyroAgreement.h"
+
+#include "core/So3.h"
+
+#include <Eigen/SVD>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+constexpr Duration kStep = 10ms;  // of the lag
+constexpr int kMostLagSteps = 50;
+constexpr Duration kReach = (kMostLagSteps + 1) * kStep;
+constexpr std::size_t kFewestTurns = 30;
+constexpr Duration kLeastTime = 5s;
+constexpr double kWorstSigma = 5 * M_PI / 180;
+
+/** The attitude that a gyroscope alone tells, from its first sample on. */
+class GyroAttitude
+{
+ public:
+  explicit GyroAttitude(const PlacedGyro& gyro)
+    : samples_(gyro.samples), body_R_imu_(gyro.body_T_imu.rotation.toRotationMatrix())
+  {
+    attitudes_.push_back(Eigen::Quaterniond::Identity());
+    for (std::size_t i = 1; i < samples_.size(); ++i)
+      attitudes_.push_back(after(i - 1, samples_[i].stamp).normalized());
+  }
+
+  Timestamp begin() const { return samples_.front().stamp; }
+  Timestamp end() const { return samples_.back().stamp; }
+
+  /** Both instants within the samples; in the body's frame. */
+  Eigen::Vector3d turnBetween(Timestamp from, Timestamp to) const
+  {
+    return body_R_imu_ * logSo3(at(from).conjugate() * at(to));
+  }
+
+ private:
+  Eigen::Quaterniond at(Timestamp stamp) const
+  {
+    const auto next = std::upper_bound(samples_.begin() + 1, samples_.end() - 1, stamp,
+                                       [](Timestamp t, const ImuSample& s) { return t < s.stamp; });
+    return after(static_cast<std::size_t>(next - samples_.begin()) - 1, stamp);
+  }
+
+  Eigen::Quaterniond after(std::size_t i, Timestamp stamp) const
+  {
+    return attitudes_[i] * expSo3(0.5 * seconds(stamp - samples_[i].stamp) * (samples_[i].gyro + samples_[i + 1].gyro));
+  }
+
+  const std::vector<ImuSample>& samples_;
+  Eigen::Matrix3d body_R_imu_;
+  std::vector<Eigen::Quaterniond> attitudes_;
+};
+
+Eigen::Matrix3Xd withoutMean(Eigen::Matrix3Xd rates)
+{
+  rates.colwise() -= rates.rowwise().mean().eval();
+  return rates;
+}
+
+Eigen::Matrix3Xd ratesOf(const std::vector<Turn>& turns)
+{
+  Eigen::Matrix3Xd rates(3, static_cast<Eigen::Index>(turns.size()));
+  Eigen::Index k = 0;
+  for (const Turn& turn : turns) rates.col(k++) = turn.rotation / seconds(turn.to - turn.from);
+  return withoutMean(std::move(rates));
+}
+
+/** What the gyroscope tells of the same turns if its stamps are late by so much. */
+Eigen::Matrix3Xd ratesOf(const std::vector<Turn>& turns, const GyroAttitude& gyro, Duration lag)
+{
+  Eigen::Matrix3Xd rates(3, static_cast<Eigen::Index>(turns.size()));
+  Eigen::Index k = 0;
+  for (const Turn& turn : turns)
+    rates.col(k++) = gyro.turnBetween(turn.from + lag, turn.to + lag) / seconds(turn.to - turn.from);
+  return withoutMean(std::move(rates));
+}
+
+std::vector<Turn> within(const std::vector<Turn>& turns, const GyroAttitude& gyro)
+{
+  std::vector<Turn> inside;
+  for (const Turn& turn : turns)
+    if (turn.from - kReach >= gyro.begin() && turn.to + kReach <= gyro.end()) inside.push_back(turn);
+  return inside;
+}
+
+Duration timeOf(const std::vector<Turn>& turns)
+{
+  Duration sum{0};
+  for (const Turn& turn : turns) sum += turn.to - turn.from;
+  return sum;
+}
+
+/** The rotation with the largest tr(R' a b'), and how well two axes are known by it. */
+struct Alignment
+{
+  Eigen::Matrix3d a_R_b;
+  double correlation;  // sum of singular values
+  double second;       // singular value
+};
+
+Alignment alignmentOf(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(a * b.transpose(), Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+  return {svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose(), svd.singularValues().dot(sign),
+          svd.singularValues()[1]};
+}
+
+/** Where between its neighbours a maximum lies, by the parabola through the three: -0.5 to 0.5. */
+double peakBeside(const std::vector<double>& values, std::size_t maximum)
+{
+  if (maximum == 0 || maximum + 1 == values.size()) return 0;
+  const double left = values[maximum - 1], right = values[maximum + 1];
+  const double bend = left - 2 * values[maximum] + right;
+  return bend < 0 ? 0.5 * (left - right) / bend : 0;
+}
+}  // namespace
+
+std::optional<GyroAgreement> gyroAgreement(const std::vector<Turn>& a, const PlacedGyro& b)
+{
+  if (b.samples.size() < 3) return std::nullopt;
+  const GyroAttitude gyro(b);
+  const std::vector<Turn> turns = within(a, gyro);
+  if (turns.size() < kFewestTurns || timeOf(turns) < kLeastTime) return std::nullopt;
+
+  const Eigen::Matrix3Xd rates_a = ratesOf(turns);
+  std::vector<double> correlations;
+  for (int lag = -kMostLagSteps; lag <= kMostLagSteps; ++lag)
+  {
+    const Eigen::Matrix3Xd rates_b = ratesOf(turns, gyro, lag * kStep);
+    correlations.push_back(alignmentOf(rates_a, rates_b).correlation / rates_b.norm());
+  }
+  const auto best = std::max_element(correlations.begin(), correlations.end()) - correlations.begin();
+
+  GyroAgreement agreement;
+  agreement.lag = (best - kMostLagSteps) * kStep +
+                  fromSeconds(seconds(kStep) * peakBeside(correlations, static_cast<std::size_t>(best)));
+  const Eigen::Matrix3Xd rates_b = ratesOf(turns, gyro, agreement.lag);
+  const Alignment alignment = alignmentOf(rates_a, rates_b);
+  agreement.rotation = logSo3(Eigen::Quaterniond(alignment.a_R_b));
+  agreement.scale = rates_b.norm() / rates_a.norm();
+  const Eigen::Matrix3Xd residual = rates_a - alignment.a_R_b * rates_b / agreement.scale;
+  const double noise = residual.norm() / std::sqrt(3.0 * static_cast<double>(residual.cols()));
+  // Only the two axes with the most motion: the third follows from them.
+  agreement.sigma = noise / std::sqrt(alignment.second / agreement.scale);
+  if (!(agreement.sigma < kWorstSigma)) return std::nullopt;
+  const double by_lag =
+      (ratesOf(turns, gyro, agreement.lag + kStep / 2) - ratesOf(turns, gyro, agreement.lag - kStep / 2)).norm();
+  agreement.lag_sigma = noise * agreement.scale * seconds(kStep) / by_lag;
+  return agreement;
+}
+
+std::optional<GyroAgreement> gyroAgreement(const PlacedGyro& a, const PlacedGyro& b)
+{
+  constexpr Duration kTurn = 100ms;
+  if (a.samples.size() < 3) return std::nullopt;
+  const GyroAttitude gyro(a);
+  std::vector<Turn> turns;
+  for (Timestamp from = gyro.begin(); from + kTurn <= gyro.end(); from += kTurn)
+    turns.push_back({from, from + kTurn, gyro.turnBetween(from, from + kTurn)});
+  return gyroAgreement(turns, b);
+}
+}  // namespace scanloom
