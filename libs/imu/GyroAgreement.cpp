@@ -63,36 +63,36 @@ Eigen::Matrix3Xd withoutMean(Eigen::Matrix3Xd rates)
   return rates;
 }
 
-Eigen::Matrix3Xd ratesOf(const std::vector<Turn>& turns)
+Eigen::Matrix3Xd ratesOf(const std::vector<BodyTurn>& turns)
 {
   Eigen::Matrix3Xd rates(3, static_cast<Eigen::Index>(turns.size()));
   Eigen::Index k = 0;
-  for (const Turn& turn : turns) rates.col(k++) = turn.rotation / seconds(turn.to - turn.from);
+  for (const BodyTurn& turn : turns) rates.col(k++) = turn.rotation / seconds(turn.to - turn.from);
   return withoutMean(std::move(rates));
 }
 
 /** What the gyroscope tells of the same turns if its stamps are late by so much. */
-Eigen::Matrix3Xd ratesOf(const std::vector<Turn>& turns, const GyroAttitude& gyro, Duration lag)
+Eigen::Matrix3Xd ratesOf(const std::vector<BodyTurn>& turns, const GyroAttitude& gyro, Duration lag)
 {
   Eigen::Matrix3Xd rates(3, static_cast<Eigen::Index>(turns.size()));
   Eigen::Index k = 0;
-  for (const Turn& turn : turns)
+  for (const BodyTurn& turn : turns)
     rates.col(k++) = gyro.turnBetween(turn.from + lag, turn.to + lag) / seconds(turn.to - turn.from);
   return withoutMean(std::move(rates));
 }
 
-std::vector<Turn> within(const std::vector<Turn>& turns, const GyroAttitude& gyro)
+std::vector<BodyTurn> within(const std::vector<BodyTurn>& turns, const GyroAttitude& gyro)
 {
-  std::vector<Turn> inside;
-  for (const Turn& turn : turns)
+  std::vector<BodyTurn> inside;
+  for (const BodyTurn& turn : turns)
     if (turn.from - kReach >= gyro.begin() && turn.to + kReach <= gyro.end()) inside.push_back(turn);
   return inside;
 }
 
-Duration timeOf(const std::vector<Turn>& turns)
+Duration timeOf(const std::vector<BodyTurn>& turns)
 {
   Duration sum{0};
-  for (const Turn& turn : turns) sum += turn.to - turn.from;
+  for (const BodyTurn& turn : turns) sum += turn.to - turn.from;
   return sum;
 }
 
@@ -122,11 +122,11 @@ double peakBeside(const std::vector<double>& values, std::size_t maximum)
 }
 }  // namespace
 
-std::optional<GyroAgreement> gyroAgreement(const std::vector<Turn>& a, const PlacedGyro& b)
+std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const PlacedGyro& b)
 {
   if (b.samples.size() < 3) return std::nullopt;
   const GyroAttitude gyro(b);
-  const std::vector<Turn> turns = within(a, gyro);
+  const std::vector<BodyTurn> turns = within(a, gyro);
   if (turns.size() < kFewestTurns || timeOf(turns) < kLeastTime) return std::nullopt;
 
   const Eigen::Matrix3Xd rates_a = ratesOf(turns);
@@ -161,7 +161,7 @@ std::optional<GyroAgreement> gyroAgreement(const PlacedGyro& a, const PlacedGyro
   constexpr Duration kTurn = 100ms;
   if (a.samples.size() < 3) return std::nullopt;
   const GyroAttitude gyro(a);
-  std::vector<Turn> turns;
+  std::vector<BodyTurn> turns;
   for (Timestamp from = gyro.begin(); from + kTurn <= gyro.end(); from += kTurn)
     turns.push_back({from, from + kTurn, gyro.turnBetween(from, from + kTurn)});
   return gyroAgreement(turns, b);

@@ -16,7 +16,7 @@ struct PlacedGyro
 };
 
 /** How the body turned from one instant to another: exp(rotation) is body(from)_R_body(to). */
-struct Turn
+struct BodyTurn
 {
   Timestamp from, to;
   Eigen::Vector3d rotation;  // rad
@@ -36,7 +36,7 @@ struct GyroAgreement
  * +-0.5 s. None if fewer than 30 turns or less than 5 s of them lie within b's samples and that lag, or if the body
  * turned about one axis only or too little for sigma < 5 deg.
  */
-std::optional<GyroAgreement> gyroAgreement(const std::vector<Turn>& a, const PlacedGyro& b);
+std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const PlacedGyro& b);
 
 /** Of a's turns over 0.1 s each. */
 std::optional<GyroAgreement> gyroAgreement(const PlacedGyro& a, const PlacedGyro& b);

@@ -32,7 +32,7 @@ class ImuWatch
 
   Rigid body_T_imu_;
   std::deque<ImuSample> samples_;
-  std::deque<Turn> turns_;
+  std::deque<BodyTurn> turns_;
   std::optional<StampedPose> last_;  // as it was registered
 };
 

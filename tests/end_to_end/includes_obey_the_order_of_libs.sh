@@ -21,4 +21,7 @@ grep -n '# *include "slam/' simulation/* 2>/dev/null && { echo "simulation must 
 for folder in */; do
   case " $(echo $order) " in *" ${folder%/} "*) ;; *) echo "libs/$folder is no lib"; failed=1 ;; esac
 done
+# Two types of one name, each in a header of its own, are one to the linker: it keeps the functions of either.
+twice=$(sed -nE 's/^(struct|class|enum class) ([A-Za-z0-9]+)( final)?( *:.*)?$/\2/p' */*.h | sort | uniq -d)
+[ -z "$twice" ] || { echo "defined in two headers: $twice"; failed=1; }
 exit $failed
