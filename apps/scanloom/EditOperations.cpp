@@ -6,9 +6,11 @@
 #include "dataset/CloudObservation.h"
 #include "dataset/ConvertClouds.h"
 #include "dataset/CropClouds.h"
+#include "dataset/DeskewByGyro.h"
 #include "dataset/DeskewClouds.h"
 #include "dataset/ExportClouds.h"
 #include "dataset/ExportTables.h"
+#include "dataset/GyroBias.h"
 #include "dataset/KeepEvery.h"
 #include "dataset/KeepLidars.h"
 #include "dataset/MapFromRawlog.h"
@@ -19,7 +21,9 @@
 #include "dataset/SplitLidars.h"
 #include "dataset/ThinClouds.h"
 #include "dataset/TimeOffset.h"
+#include "mrpt_bridge/Observations.h"
 #include "output/SecondsText.h"
+#include "output/TrajectoryReader.h"
 
 #include <fmt/format.h>
 
@@ -108,8 +112,34 @@ CloudClass cloudClassOf(const std::string& name)
 
 KeyframeOptions keyframesOf(const EditOptions& options)
 {
-  if (options.trajectory.empty()) throw UsageError("--to-simplemap and --to-octomap need --trajectory FILE.tum");
-  return {readTum(options.trajectory), options.keyframe_distance};
+  if (options.trajectory.empty()) throw UsageError("--to-simplemap and --to-octomap need --trajectory FILE");
+  return {readTrajectory(options.trajectory), options.keyframe_distance};
+}
+
+RawlogOperation deskewingByGyro(const std::filesystem::path& input, const std::string& label, const Header& header)
+{
+  const auto rest = gyroBiasIn(input, label);
+  if (!rest)
+  {
+    fmt::print(stderr,
+               "warning: '{}' is never at rest for long enough: the bias of its gyroscope is not known, and stays in\n",
+               label);
+    return deskewByGyro({label}, header);
+  }
+  const Eigen::Vector3d deg_per_s = rest->bias * 180 / M_PI;
+  fmt::print(stderr, "gyroscope of '{}' at rest up to {} s: {:.4f} {:.4f} {:.4f} deg/s, taken away\n", label,
+             secondsText(rest->until), deg_per_s.x(), deg_per_s.y(), deg_per_s.z());
+  return deskewByGyro({label, rest->bias}, header);
+}
+
+/** By a trajectory, or by the word `imu`. */
+std::function<RawlogOperation(const Header&)> deskewing(const EditOptions& options, const std::filesystem::path& input)
+{
+  if (options.deskew == "imu")
+    return [input, label = options.imu.empty() ? kImuLabel : options.imu](const Header& header)
+    { return deskewingByGyro(input, label, header); };
+  return [trajectory = readTrajectory(options.deskew)](const Header& header)
+  { return deskewClouds(trajectory, header); };
 }
 
 std::set<std::string> asSet(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
@@ -172,9 +202,13 @@ void addChangesOfPoints(CLI::App& app, EditOptions& options)
       ->type_name("FILE");
   in(app.add_option("--convert-clouds", options.convert_clouds, "CGenericPointsMap or CPointsMapXYZI"), kOne)
       ->type_name("CLASS");
-  in(app.add_option("--deskew", options.deskew, "clouds as seen at their stamps, by the motion of a TUM trajectory"),
+  in(app.add_option("--deskew", options.deskew,
+                    "clouds as seen at their stamps, by the motion of a trajectory (TUM, EuRoC or KITTI), or by the "
+                    "rawlog's own IMU: its rotation only"),
      kOne)
-      ->type_name("FILE");
+      ->type_name("FILE|imu");
+  in(app.add_option("--imu", options.imu, "for '--deskew imu': label of the IMU, if not imu; e.g. imu_left"), kOne)
+      ->type_name("LABEL");
 }
 
 void addFiles(CLI::App& app, EditOptions& options)
@@ -191,7 +225,10 @@ void addFiles(CLI::App& app, EditOptions& options)
   in(app.add_option("--to-octomap", options.to_octomap, "occupancy along --trajectory: this .bt, and .ot beside it"),
      kOne)
       ->type_name("FILE");
-  in(app.add_option("--trajectory", options.trajectory, "TUM file of the body's poses"), kMaps)->type_name("FILE");
+  in(app.add_option("--trajectory", options.trajectory,
+                    "the body's poses as TUM, EuRoC (.csv) or KITTI (times.txt beside it)"),
+     kMaps)
+      ->type_name("FILE");
   in(app.add_option("--keyframe-distance", options.keyframe_distance, "travel between keyframes, in m"), kMaps)
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str()
@@ -231,8 +268,9 @@ void chooseObservations(const EditOptions& o, Chosen& chosen)
     add(chosen, "--rebatch", [rate = *o.rebatch](const Header& header) { return rebatch(rate, required(header)); });
 }
 
-void choosePoints(const EditOptions& o, Chosen& chosen)
+void choosePoints(const EditOptions& o, const std::filesystem::path& input, Chosen& chosen)
 {
+  if (!o.imu.empty() && o.deskew != "imu") throw UsageError("--imu names the IMU for '--deskew imu'");
   if (!o.crop_box.empty())
     add(chosen, "--crop-box", [box = parseBox(o.crop_box)](const Header&) { return cropOut(box); });
   if (o.min_range || o.max_range)
@@ -246,9 +284,7 @@ void choosePoints(const EditOptions& o, Chosen& chosen)
   if (!o.convert_clouds.empty())
     add(chosen, "--convert-clouds",
         [target = cloudClassOf(o.convert_clouds)](const Header&) { return convertClouds(target); });
-  if (!o.deskew.empty())
-    add(chosen, "--deskew",
-        [trajectory = readTum(o.deskew)](const Header& header) { return deskewClouds(trajectory, header); });
+  if (!o.deskew.empty()) add(chosen, "--deskew", deskewing(o, input));
 }
 
 void chooseFiles(const EditOptions& o, Chosen& chosen)
@@ -289,11 +325,11 @@ void addEditOptions(CLI::App& app, EditOptions& options)
   addFiles(app, options);
 }
 
-std::vector<EditOperation> chosenOperations(const EditOptions& options)
+std::vector<EditOperation> chosenOperations(const EditOptions& options, const std::filesystem::path& input)
 {
   Chosen chosen;
   chooseObservations(options, chosen);
-  choosePoints(options, chosen);
+  choosePoints(options, input, chosen);
   chooseFiles(options, chosen);
   return chosen;
 }

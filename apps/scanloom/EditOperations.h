@@ -26,7 +26,8 @@ struct EditOptions
   std::filesystem::path apply_extrinsics;
   std::string convert_clouds;
   std::filesystem::path export_ply, export_pcd, export_kitti, export_csv, export_tum;
-  std::filesystem::path deskew, to_simplemap, to_octomap, trajectory;
+  std::string deskew, imu;
+  std::filesystem::path to_simplemap, to_octomap, trajectory;
   double keyframe_distance = 4;
   std::string octomap_preset = "inventory";
 };
@@ -41,5 +42,5 @@ struct EditOperation
 };
 
 /** The cut comes first. Throws UsageError for values that are none, and what the readers of files throw. */
-std::vector<EditOperation> chosenOperations(const EditOptions&);
+std::vector<EditOperation> chosenOperations(const EditOptions&, const std::filesystem::path& input);
 }  // namespace scanloom

@@ -225,7 +225,7 @@ int batchCaptures(const EditArguments& arguments)
 
 int run(const EditArguments& arguments)
 {
-  const std::vector<EditOperation> operations = chosenOperations(arguments.options);
+  const std::vector<EditOperation> operations = chosenOperations(arguments.options, arguments.input);
   requireOne(arguments, operations);
   if (arguments.info) return info(arguments);
   if (arguments.check) return check(arguments);

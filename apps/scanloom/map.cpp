@@ -1,4 +1,4 @@
-/** `scanloom map`: maps of keyframes, of a rawlog along its trajectory, or of an occupancy tree. */
+/** `scanloom map`: maps of keyframes, of a rawlog along its trajectory, of an occupancy tree; or a trajectory alone. */
 #include "Arguments.h"
 #include "Interruption.h"
 #include "Progress.h"
@@ -12,6 +12,7 @@
 #include "output/OctoMapFile.h"
 #include "output/SceneFile.h"
 #include "output/SimpleMapReader.h"
+#include "output/TrajectoryFile.h"
 #include "output/TrajectoryReader.h"
 #include "output/VoxelPly.h"
 
@@ -199,8 +200,29 @@ int convertOctoMap(const MapArguments& arguments)
   return kDone;
 }
 
+int convertTrajectory(const MapArguments& arguments)
+{
+  for (const Path& output : arguments.outputs)
+  {
+    if (!isTrajectoryName(output))
+      throw UsageError(
+          fmt::format("-o {}: of a trajectory can be made .tum, .csv (EuRoC) and .txt (KITTI)", output.string()));
+    refuseExisting(trajectoryFiles(output), arguments.overwrite);
+  }
+  const Trajectory trajectory = readTrajectory(arguments.input);
+  if (trajectory.empty()) throw std::runtime_error(arguments.input.string() + ": holds no pose");
+  if (arguments.dry_run) return kDone;
+  for (const Path& output : arguments.outputs)
+  {
+    writeTrajectory(output, trajectory);
+    for (const Path& file : trajectoryFiles(output)) fmt::print("{}\n", file.string());
+  }
+  return kDone;
+}
+
 int run(const MapArguments& arguments)
 {
+  if (isTrajectoryName(arguments.input)) return convertTrajectory(arguments);
   requireMapEndings(arguments.outputs);
   refuseExisting(arguments.outputs, arguments.overwrite);
   const std::string ending = arguments.input.extension().string();
@@ -215,18 +237,21 @@ int run(const MapArguments& arguments)
   if (ending == ".rawlog") return mapRawlog(arguments);
   if (ending == ".simplemap") return mapKeyframes(arguments);
   if (isOctoMap(arguments.input)) return convertOctoMap(arguments);
-  throw UsageError(fmt::format("-i {}: must be a .rawlog, .simplemap, .bt or .ot", arguments.input.string()));
+  throw UsageError(
+      fmt::format("-i {}: must be a .rawlog, .simplemap, .bt, .ot or a trajectory", arguments.input.string()));
 }
 
 std::function<int()> addOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<MapArguments>();
-  app.add_option("-i,--input", arguments->input, "a .rawlog with its --trajectory, a .simplemap, a .bt or a .ot")
+  app.add_option("-i,--input", arguments->input,
+                 "a .rawlog with its --trajectory, a .simplemap, a .bt or a .ot; or a trajectory (.tum, .csv, .txt)")
       ->required()
       ->check(CLI::ExistingFile)
       ->type_name("FILE");
   app.add_option("-o,--output", arguments->outputs,
-                 "a map, by its ending .bt, .ot, .ply, .simplemap or .3Dscene (repeatable)")
+                 "a map, by its ending .bt, .ot, .ply, .simplemap or .3Dscene; of a trajectory .tum, .csv (EuRoC) or "
+                 ".txt (KITTI, stamps in <name>_times.txt) (repeatable)")
       ->required()
       ->allow_extra_args(false)
       ->type_name("FILE");

@@ -10,6 +10,8 @@
 #include "output/OctoMapFile.h"
 #include "output/SceneFile.h"
 #include "output/SimpleMapReader.h"
+#include "output/TrajectoryFile.h"
+#include "output/TrajectoryReader.h"
 
 #include <fmt/format.h>
 #include <mrpt/gui/CDisplayWindow3D.h>
@@ -68,13 +70,14 @@ SceneBuilder sceneOf(const ViewArguments& arguments)
     addKeyframes(scene, arguments.file);
   else if (ending == ".bt" || ending == ".ot")
     scene.addOccupied(*readOctoMap(arguments.file));
-  else if (ending == ".tum")
-    scene.addPath(readTum(arguments.file));
+  else if (isTrajectoryName(arguments.file))
+    scene.addPath(readTrajectory(arguments.file));
   else if (ending == ".ply" || ending == ".pcd" || ending == ".bin" || ending == ".gz")
     scene.addPoints(readCloud(arguments.file).points);
   else
-    throw UsageError(fmt::format("{}: can be shown are .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin and .tum",
-                                 arguments.file.string()));
+    throw UsageError(
+        fmt::format("{}: can be shown are .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin and trajectories",
+                    arguments.file.string()));
   return scene;
 }
 

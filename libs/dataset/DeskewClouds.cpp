@@ -10,12 +10,27 @@
 
 namespace scanloom
 {
-std::optional<PointCloud> deskewed(const mrpt::obs::CObservationPointCloud& cloud, const Trajectory& trajectory,
-                                   const std::optional<RecordingHeader>& header)
+Scan timedScanOf(const mrpt::obs::CObservationPointCloud& cloud, const std::optional<RecordingHeader>& header)
 {
   if (!genericCloudOf(cloud).getPointsBufferRef_float_field("t"))
     throw std::invalid_argument(fmt::format("cloud '{}' has no field t: its points have no times", cloud.sensorLabel));
-  Scan scan = fromObservation(cloud, header);
+  return fromObservation(cloud, header);
+}
+
+ObservationPtr withPositions(const mrpt::obs::CObservationPointCloud& cloud, const PointCloud& points)
+{
+  auto result = withPoints(cloud, cloud.pointcloud);
+  result->sensorPose = {};
+  for (std::size_t i = 0; i < points.size(); ++i)
+    result->pointcloud->setPointFast(i, points.x[i], points.y[i], points.z[i]);
+  result->pointcloud->mark_as_modified();
+  return result;
+}
+
+std::optional<PointCloud> deskewed(const mrpt::obs::CObservationPointCloud& cloud, const Trajectory& trajectory,
+                                   const std::optional<RecordingHeader>& header)
+{
+  Scan scan = timedScanOf(cloud, header);
   const auto map_T_start = poseAt(trajectory, scan.start);
   if (!map_T_start) return std::nullopt;
   const Rigid start_T_map = map_T_start->inverse();
@@ -37,13 +52,7 @@ RawlogOperation deskewClouds(const Trajectory& trajectory, const std::optional<R
     const auto cloud = cloudIn(observation);
     if (!cloud) return {observation};
     const auto points = deskewed(*cloud, trajectory, header);
-    if (!points) return {};
-    auto result = withPoints(*cloud, cloud->pointcloud);
-    result->sensorPose = {};
-    for (std::size_t i = 0; i < points->size(); ++i)
-      result->pointcloud->setPointFast(i, points->x[i], points->y[i], points->z[i]);
-    result->pointcloud->mark_as_modified();
-    return {result};
+    return points ? Observations{withPositions(*cloud, *points)} : Observations{};
   };
 }
 }  // namespace scanloom

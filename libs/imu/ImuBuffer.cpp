@@ -33,6 +33,18 @@ bool ImuBuffer::covers(Timestamp from, Timestamp to) const
   return !samples_.empty() && samples_.front().stamp <= from && to <= samples_.back().stamp;
 }
 
+bool ImuBuffer::coversDensely(Timestamp from, Timestamp to, Duration widest) const
+{
+  auto next = std::upper_bound(samples_.begin(), samples_.end(), from, isAfter);
+  Timestamp reached = next == samples_.begin() ? from : std::prev(next)->stamp;
+  for (; next != samples_.end() && reached < to; ++next)
+  {
+    if (next->stamp - reached > widest) return false;
+    reached = next->stamp;
+  }
+  return !samples_.empty() && to - reached <= widest;
+}
+
 std::vector<ImuSample> ImuBuffer::between(Timestamp from, Timestamp to) const
 {
   if (samples_.empty() || to <= from) return {};

@@ -16,6 +16,9 @@ class ImuBuffer
   /** A sample at or before `from` and one at or after `to` are there: between() needs no extrapolation. */
   bool covers(Timestamp from, Timestamp to) const;
 
+  /** Within [from, to] no instant lies in a gap between samples that is longer than `widest`; nor do the ends. */
+  bool coversDensely(Timestamp from, Timestamp to, Duration widest) const;
+
   /**
    * First sample at exactly `from`, last at exactly `to` (both interpolated linearly), all measured ones in between.
    * Where coverage ends early the nearest sample is held. Empty if the buffer is empty or to <= from.

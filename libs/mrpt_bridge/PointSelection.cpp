@@ -9,6 +9,38 @@ namespace
 using mrpt::maps::CGenericPointsMap;
 using mrpt::maps::CPointsMap;
 
+// MRPT's class has fields of uint32 from 3.0 on (ours always); MRPT 2.15 has no applyDeletionMask() any more. What a
+// call with 0 finds is the first overload where the class has that member, else the second.
+
+template <typename Map, typename Visitor>
+auto forEachUint32Field(const Map& from, Map& to, const std::string& without, Visitor&& visit, int)
+    -> decltype(from.uint32_fields(), void())
+{
+  for (const auto& [name, values] : from.uint32_fields())
+    if (name != without && (to.hasPointField(name) || to.registerField_uint32(name)))
+      visit(values, *to.getPointsBufferRef_uint32_field(name));
+}
+template <typename Map, typename Visitor>
+void forEachUint32Field(const Map&, Map&, const std::string&, Visitor&&, long)
+{
+}
+
+template <typename Map>
+auto removeMarked(Map& map, const Map&, const std::vector<bool>& marked, int)
+    -> decltype(map.applyDeletionMask(marked), void())
+{
+  map.applyDeletionMask(marked);
+}
+template <typename Map>
+void removeMarked(Map& map, const Map& whole, const std::vector<bool>& marked, long)
+{
+  map.clear();
+  map.registerPointFieldsFrom(whole);
+  const auto context = map.prepareForInsertPointsFrom(whole);
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (!marked[i]) map.insertPointFrom(i, context);
+}
+
 /** Calls visit(values of `from`, values of `to`) for each field of `from`, which `to` then has, too. */
 template <typename Visitor>
 void forEachField(const CGenericPointsMap& from, CGenericPointsMap& to, const std::string& without, Visitor&& visit)
@@ -26,9 +58,7 @@ void forEachField(const CGenericPointsMap& from, CGenericPointsMap& to, const st
   for (const auto& [name, values] : from.uint8_fields())
     if (name != without && (has(name) || to.registerField_uint8(name)))
       visit(values, *to.getPointsBufferRef_uint8_field(name));
-  for (const auto& [name, values] : from.uint32_fields())
-    if (name != without && (has(name) || to.registerField_uint32(name)))
-      visit(values, *to.getPointsBufferRef_uint32_field(name));
+  forEachUint32Field(from, to, without, visit, 0);
 }
 
 CGenericPointsMap::Ptr emptyLike(const CGenericPointsMap& cloud, std::size_t size)
@@ -94,7 +124,7 @@ CPointsMap::Ptr kept(const CPointsMap::Ptr& cloud, const std::vector<std::uint8_
   std::vector<bool> deletion(keep.size());
   for (std::size_t i = 0; i < keep.size(); ++i) deletion[i] = keep[i] == 0;
   auto map = std::dynamic_pointer_cast<CPointsMap>(cloud->duplicateGetSmartPtr());
-  map->applyDeletionMask(deletion);
+  removeMarked(*map, *cloud, deletion, 0);
   return map;
 }
 }  // namespace scanloom

@@ -25,7 +25,8 @@ mrpt::maps::CPointsMapXYZI::Ptr cloudOf(const PointCloud& points, std::size_t li
   {
     if (points.sensor_id[i] != lidar) continue;
     const Eigen::Vector3f p = (sensor_T_body * points.position(i).cast<double>().eval()).cast<float>();
-    cloud->insertPointRGB(p.x(), p.y(), p.z(), static_cast<float>(points.intensity[i]) / kFullReflectivity, 0, 0);
+    cloud->insertPointFast(p.x(), p.y(), p.z());
+    cloud->setPointIntensity(cloud->size() - 1, static_cast<float>(points.intensity[i]) / kFullReflectivity);
   }
   return cloud;
 }
@@ -45,7 +46,7 @@ void SimpleMapBuilder::add(const Keyframe& keyframe)
       throw std::invalid_argument(fmt::format(
           "keyframes.simplemap: a point has sensor_id = {}, but there are {} lidars", sensor_id, lidars_.size()));
 
-  mrpt::obs::CSensoryFrame frame;
+  const auto frame = mrpt::obs::CSensoryFrame::Create();
   for (std::size_t lidar = 0; lidar < lidars_.size(); ++lidar)
   {
     const auto cloud = cloudOf(keyframe.points, lidar, lidars_[lidar].body_T_sensor.inverse());
@@ -55,9 +56,9 @@ void SimpleMapBuilder::add(const Keyframe& keyframe)
     observation->sensorLabel = lidars_[lidar].name;
     observation->sensorPose = toMrpt(lidars_[lidar].body_T_sensor);
     observation->pointcloud = cloud;
-    frame.insert(observation);
+    frame->insert(observation);
   }
-  map_->insert(mrpt::poses::CPose3DPDFGaussian(toMrpt(keyframe.map_T_body)), frame);
+  map_->insert(mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(keyframe.map_T_body)), frame);
 }
 
 void SimpleMapBuilder::write(const std::filesystem::path& path) const

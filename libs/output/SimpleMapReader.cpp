@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <stdexcept>
 
 namespace scanloom
@@ -83,10 +84,10 @@ std::size_t SimpleMapReader::size() const { return map_->size(); }
 
 Keyframe SimpleMapReader::keyframe(std::size_t index) const
 {
-  const auto [pose, frame] = map_->get(index);
+  const auto& pair = *std::next(map_->begin(), static_cast<std::ptrdiff_t>(index));
   Keyframe keyframe;
-  keyframe.map_T_body = fromMrpt(pose->getMeanVal());
-  forEachCloud(*frame,
+  keyframe.map_T_body = fromMrpt(pair.pose->getMeanVal());
+  forEachCloud(*pair.sf,
                [&](const CObservationPointCloud& cloud)
                {
                  keyframe.stamp = fromMrpt(cloud.timestamp);

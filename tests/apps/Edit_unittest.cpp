@@ -1,10 +1,13 @@
 /** `scanloom edit` as a person meets it. */
+#include "dataset/CloudObservation.h"
 #include "dataset/smallRawlog.h"
 #include "support/TestData.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include <fstream>
 
 namespace scanloom
 {
@@ -124,6 +127,36 @@ TEST_F(Edit, mapsNeedATrajectory)
   const Ended ended = edit("-i " + in + " --to-octomap " + (folder / "m.bt").string());
   EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.output, HasSubstr("--trajectory"));
+}
+
+TEST_F(Edit, deskewsByTheImuThatIsNamedAndSaysWhatItKnowsOfItsBias)
+{
+  const Ended without = edit(files + "--deskew imu");  // 60 deg/s and more throughout: never at rest
+  EXPECT_EQ(without.status, 0) << without.output;
+  EXPECT_THAT(without.output, HasSubstr("warning: 'imu' is never at rest"));
+  EXPECT_EQ(observationsIn(out, "lidar").size(), 4u);
+  EXPECT_THAT(edit(files + "-w --deskew imu --imu imu_left").output, HasSubstr("known are 'imu' and 'imu_right'"));
+  EXPECT_EQ(edit(files + "-w --voxel 1 --imu imu_right").status, 2) << "without --deskew imu";
+}
+
+/** The same two poses, 5 ms before the first scan and 245 ms after its start, at 10 m/s along x. */
+TEST_F(Edit, deskewsAlongTrajectoriesOfAllThreeFormats)
+{
+  std::ofstream(folder / "t.tum") << "1699999999.995 0 0 0 0 0 0 1\n1700000000.245 2.5 0 0 0 0 0 1\n";
+  std::ofstream(folder / "t.csv") << "#timestamp,x,y,z,qw,qx,qy,qz\n1699999999995000000,0,0,0,1,0,0,0\n"
+                                     "1700000000245000000,2.5,0,0,1,0,0,0\n";
+  std::ofstream(folder / "t.txt") << "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 2.5 0 1 0 0 0 0 1 0\n";
+  std::ofstream(folder / "times.txt") << "1699999999.995\n1700000000.245\n";
+  for (const std::string name : {"t.tum", "t.csv", "t.txt"})
+  {
+    const std::string trajectory = (folder / name).string();
+    ASSERT_EQ(edit(files + "-w --deskew " + trajectory).status, 0) << name;
+    const Observations clouds = observationsIn(out, "lidar");
+    ASSERT_EQ(clouds.size(), 2u) << name;
+    EXPECT_NEAR(positionsInBody(*cloudIn(clouds[0]))[4].x(), 0.4f + 10 * 2.441403e-3f, 1e-5) << name;
+    const std::string map = (folder / (name + ".simplemap")).string();
+    EXPECT_EQ(edit("-i " + in + " --to-simplemap " + map + " --trajectory " + trajectory).status, 0) << name;
+  }
 }
 
 TEST_F(Edit, capturesGiveTheSameBytesAsRecordDoes)

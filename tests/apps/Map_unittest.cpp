@@ -10,7 +10,10 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/opengl/COpenGLScene.h>
 
+#include <cmath>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 namespace scanloom
 {
@@ -152,5 +155,60 @@ TEST_F(Map, viewSaysWhatItCannotShow)
   EXPECT_EQ(blind.status, 1);
   EXPECT_THAT(blind.output, HasSubstr("--png"));
 }
+/** A quarter turn to the left about z at (1, 2, 3), written down by hand in all three formats. */
+struct Trajectories : testing::Test
+{
+  TemporaryFolder folder;
+  const std::string tum =
+      "1403636579.763555584 1.000000000 2.000000000 3.000000000 0.000000000 0.000000000 0.707106781 0.707106781\n";
+  const std::string euroc =
+      "#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []\n"
+      "1403636579763555584,1.000000000,2.000000000,3.000000000,0.707106781,0.000000000,0.000000000,0.707106781\n";
+  const std::string times = "1403636579.763555584\n";
+
+  std::string name(const std::string& file) const { return (folder / file).string(); }
+  std::string write(const std::string& file, const std::string& text) const
+  {
+    std::ofstream(folder / file) << text;
+    return name(file);
+  }
+};
+
+TEST_F(Trajectories, becomeEurocAndKitti)
+{
+  const Ended ended = scanloomRuns("map -i " + write("t.tum", tum) + " -o " + name("e.csv") + " -o " + name("k.txt"));
+  ASSERT_EQ(ended.status, 0) << ended.output;
+  EXPECT_EQ(contentOf(name("e.csv")), euroc);
+  EXPECT_EQ(contentOf(name("k_times.txt")), times);
+  std::istringstream row(contentOf(name("k.txt")));
+  for (const double expected : {0, -1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 3})
+  {
+    double number = NAN;
+    row >> number;
+    EXPECT_NEAR(number, expected, 1e-8);
+  }
+}
+
+TEST_F(Trajectories, becomeTumFromEurocAndFromKitti)
+{
+  write("k.txt", "0 -1 0 1 1 0 0 2 0 0 1 3\n");
+  write("k_times.txt", times);
+  for (const std::string& input : {write("e.csv", euroc), name("k.txt")})
+  {
+    ASSERT_EQ(scanloomRuns("map -w -i " + input + " -o " + name("t.tum")).status, 0);
+    EXPECT_EQ(contentOf(name("t.tum")), tum) << input;
+  }
+}
+
+TEST_F(Trajectories, areNotReplacedUnaskedNorMadeIntoMaps)
+{
+  const std::string input = write("t.tum", tum);
+  write("k_times.txt", "mine");
+  EXPECT_EQ(scanloomRuns("map -i " + input + " -o " + name("k.txt")).status, 2) << "its stamps would be replaced";
+  EXPECT_EQ(contentOf(name("k_times.txt")), "mine");
+  EXPECT_EQ(scanloomRuns("map -i " + input + " -o " + name("m.bt")).status, 2);
+  EXPECT_EQ(scanloomRuns("map -i " + write("empty.tum", "# none\n") + " -o " + name("t.csv")).status, 1);
+}
+
 }  // namespace
 }  // namespace scanloom

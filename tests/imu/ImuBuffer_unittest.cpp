@@ -102,3 +102,18 @@ TEST(ImuBuffer, forgetsWhatAnIntervalFromThereCannotNeed)
   buffer.forgetBefore(at(90ms));
   EXPECT_EQ(buffer.samples().size(), 1u);
 }
+
+TEST(ImuBuffer, tellsAGapFromAnIntervalThatIsMerelyNotAligned)
+{
+  ImuBuffer buffer = rampFrom10To50ms();
+  buffer.add(ramp(at(100ms)));
+  EXPECT_TRUE(buffer.coversDensely(at(12ms), at(50ms), 10ms));
+  EXPECT_TRUE(buffer.coversDensely(at(5ms), at(50ms), 10ms)) << "begins 5 ms later";
+  EXPECT_FALSE(buffer.coversDensely(at(5ms), at(50ms), 4ms));
+  EXPECT_FALSE(buffer.coversDensely(at(60ms), at(70ms), 10ms)) << "within the gap";
+  EXPECT_FALSE(buffer.coversDensely(at(12ms), at(60ms), 10ms)) << "into the gap";
+  EXPECT_TRUE(buffer.coversDensely(at(12ms), at(60ms), 50ms));
+  EXPECT_TRUE(buffer.coversDensely(at(100ms), at(105ms), 10ms)) << "ends 5 ms earlier";
+  EXPECT_FALSE(buffer.coversDensely(at(200ms), at(205ms), 10ms)) << "ended long ago";
+  EXPECT_FALSE(ImuBuffer().coversDensely(at(1ms), at(2ms), 10ms));
+}
