@@ -13,6 +13,7 @@ namespace scanloom
 namespace
 {
 constexpr double kDeviations = 3;
+constexpr double kFarthest = 5;      // m: a guess may know nothing at all
 constexpr double kBroad = 0.05;      // d2: hills as wide as the grid's steps
 constexpr double kWorthALook = 0.5;  // share of the best score on the grid
 
@@ -36,7 +37,10 @@ Shifts shiftsOf(const Eigen::Matrix3d& guess, const Eigen::Matrix3d& clouds, dou
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(clouds);
   const Eigen::Vector3d first = eigen.eigenvectors().col(2), second = eigen.eigenvectors().col(1);
   const auto most = [&](const Eigen::Vector3d& along)
-  { return static_cast<int>(kDeviations * std::sqrt(along.dot(guess * along)) / step); };
+  {
+    const double reach = kDeviations * std::sqrt(along.dot(guess * along));
+    return static_cast<int>((reach < kFarthest ? reach : kFarthest) / step);
+  };
   return {most(first), most(second), step * first, step * second};
 }
 

@@ -7,9 +7,9 @@
 namespace scanloom
 {
 /**
- * Poses within three deviations of the guess, more than a cell from the result, whose score is at least rival_share of
- * the result's: the hills of the score on a grid of shifts, aligned. None for a guess without a covariance, or with one
- * within two cells.
+ * Poses within three deviations and 5 m of the guess, more than a cell from the result, whose score is at least
+ * rival_share of the result's: the hills of the score on a grid of shifts, aligned. None for a guess without a
+ * covariance, or with one within two cells.
  */
 std::vector<Rigid> rivalsOf(const RegistrationLevel&, const RegistrationResult&, const PoseGuess&,
                             const RegistrationOptions&);

@@ -268,6 +268,14 @@ TEST_F(RegistrationInAPlantation, namesTheNextStemsWhereTheGuessDoesNotRuleThemO
   EXPECT_GT(result.information(2, 2), 1000.0);
 }
 
+TEST_F(RegistrationInAPlantation, looksNoFartherThanFiveMetresHoweverLittleIsKnown)
+{
+  const RegistrationResult result = align(target_, source_, {Rigid::identity(), uncertainBy(1e6, 1)}, {});
+
+  ASSERT_GE(result.rivals.size(), 4u) << "and ends";
+  for (const Rigid& rival : result.rivals) EXPECT_LT(rival.translation.norm(), 7);
+}
+
 TEST_F(RegistrationInAPlantation, isSureOfItselfWhereTheGuessIs)
 {
   const RegistrationResult result = align(target_, source_, {Rigid::identity(), uncertainBy(0.2, 1)}, {});
