@@ -139,7 +139,8 @@ int mapRawlog(const MapArguments& arguments)
   announce(arguments, driveSize(options.trajectory, arguments.keyframe_distance, header));
   if (arguments.dry_run) return kDone;
 
-  const MapFileList files = makeMapFiles(arguments.outputs, mountedLidars(header), octoMapPreset(arguments.preset));
+  const MapFileList files =
+      makeMapFiles(arguments.outputs, mountedLidars(header.lidars), octoMapPreset(arguments.preset));
   std::optional<Progress> progress;
   if (!arguments.quiet) progress.emplace("map", megabytesOf({arguments.input}), "MB");
   std::size_t keyframes = 0;

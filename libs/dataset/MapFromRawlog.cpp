@@ -46,7 +46,6 @@ class KeyframeChoice
   RecordingHeader header_;
   std::optional<Eigen::Vector3d> latest_;
 };
-
 }  // namespace
 
 RawlogOperation overKeyframes(const KeyframeOptions& options, const RecordingHeader& header,
@@ -66,17 +65,10 @@ RawlogOperation overKeyframes(const KeyframeOptions& options, const RecordingHea
   };
 }
 
-std::vector<MountedLidar> mountedLidars(const RecordingHeader& header)
-{
-  std::vector<MountedLidar> lidars;
-  for (const RecordedLidar& lidar : header.lidars) lidars.push_back({lidar.name, lidar.body_T_sensor});
-  return lidars;
-}
-
 RawlogOperation toSimpleMap(const std::filesystem::path& path, const KeyframeOptions& options,
                             const RecordingHeader& header)
 {
-  auto map = std::make_shared<SimpleMapBuilder>(mountedLidars(header));
+  auto map = std::make_shared<SimpleMapBuilder>(mountedLidars(header.lidars));
   return overKeyframes(
       options, header, [map](const Keyframe& keyframe) { map->add(keyframe); }, [map, path] { map->write(path); });
 }
@@ -84,9 +76,7 @@ RawlogOperation toSimpleMap(const std::filesystem::path& path, const KeyframeOpt
 RawlogOperation toOctoMap(const std::filesystem::path& binary, const OctoMapOptions& map_options,
                           const KeyframeOptions& options, const RecordingHeader& header)
 {
-  std::vector<Rigid> body_T_sensor;
-  for (const RecordedLidar& lidar : header.lidars) body_T_sensor.push_back(lidar.body_T_sensor);
-  auto map = std::make_shared<OctoMapBuilder>(map_options, std::move(body_T_sensor));
+  auto map = std::make_shared<OctoMapBuilder>(map_options, posesOf(mountedLidars(header.lidars)));
   std::filesystem::path full = binary;
   full.replace_extension(".ot");
   return overKeyframes(

@@ -26,9 +26,6 @@ struct KeyframeOptions
 RawlogOperation overKeyframes(const KeyframeOptions&, const RecordingHeader&, std::function<void(Keyframe)> add,
                               std::function<void()> close);
 
-/** Of a header, by sensor id. */
-std::vector<MountedLidar> mountedLidars(const RecordingHeader&);
-
 /** As .simplemap (SimpleMapBuilder): memory grows with the number of keyframes. Passes nothing on. */
 RawlogOperation toSimpleMap(const std::filesystem::path&, const KeyframeOptions&, const RecordingHeader&);
 

@@ -70,20 +70,13 @@ class OctoMap : public MapFile
  public:
   OctoMap(std::filesystem::path binary, std::filesystem::path full, const OctoMapOptions& options,
           const std::vector<MountedLidar>& lidars)
-    : binary_(std::move(binary)), full_(std::move(full)), builder_(options, originsOf(lidars))
+    : binary_(std::move(binary)), full_(std::move(full)), builder_(options, posesOf(lidars))
   {
   }
   void add(const Keyframe& keyframe) override { builder_.add(keyframe); }
   void close() override { std::move(builder_).write(binary_, full_); }
 
  private:
-  static std::vector<Rigid> originsOf(const std::vector<MountedLidar>& lidars)
-  {
-    std::vector<Rigid> origins;
-    for (const MountedLidar& lidar : lidars) origins.push_back(lidar.body_T_sensor);
-    return origins;
-  }
-
   std::filesystem::path binary_, full_;
   OctoMapBuilder builder_;
 };

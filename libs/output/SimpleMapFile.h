@@ -5,6 +5,7 @@
  */
 #pragma once
 #include "core/Keyframe.h"
+#include "output/MountedLidar.h"
 
 #include <filesystem>
 #include <memory>
@@ -18,12 +19,6 @@ class CSimpleMap;
 
 namespace scanloom
 {
-struct MountedLidar
-{
-  std::string name;
-  Rigid body_T_sensor;
-};
-
 class SimpleMapBuilder
 {
  public:

@@ -2,31 +2,14 @@
 
 namespace scanloom
 {
-namespace
-{
-std::vector<MountedLidar> mounted(const std::vector<RecordedLidar>& lidars)
-{
-  std::vector<MountedLidar> result;
-  for (const RecordedLidar& lidar : lidars) result.push_back({lidar.name, lidar.body_T_sensor});
-  return result;
-}
-
-std::vector<Rigid> originsOf(const std::vector<RecordedLidar>& lidars)
-{
-  std::vector<Rigid> origins;
-  for (const RecordedLidar& lidar : lidars) origins.push_back(lidar.body_T_sensor);
-  return origins;
-}
-}  // namespace
-
 std::vector<std::string> SlamMaps::names() { return {"keyframes.simplemap", "map.ply", "map.bt", "map.ot", "map.png"}; }
 
 SlamMaps::SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>& lidars,
                    const OctoMapOptions& octomap)
   : folder_(folder),
     ply_(folder / "map.ply"),
-    simple_map_(mounted(lidars)),
-    octomap_(octomap, originsOf(lidars)),
+    simple_map_(mountedLidars(lidars)),
+    octomap_(octomap, posesOf(mountedLidars(lidars))),
     picture_(MapPictureOptions{}),
     thread_([this] { draw(); })
 {

@@ -50,15 +50,18 @@ class WatchedImu
 
   void look()
   {
+    agreement_ = watch_.agreement();
     if (complained_) return;
-    const std::optional<std::string> complaint = watch_.complaint();
+    const std::optional<std::string> complaint = watch_.complaint(agreement_);
     if (!complaint) return;
     warn_("the IMU: " + *complaint);
     complained_ = true;
   }
 
   bool complained() const { return complained_; }
-  std::optional<GyroAgreement> agreement() const { return watch_.agreement(); }
+
+  /** As of the last look. */
+  const std::optional<GyroAgreement>& agreement() const { return agreement_; }
 
  private:
   static constexpr Duration kBetweenLooks = 60s;
@@ -66,6 +69,7 @@ class WatchedImu
   ImuWatch watch_;
   const Warn& warn_;
   std::optional<Timestamp> next_look_;
+  std::optional<GyroAgreement> agreement_;
   bool complained_ = false;
 };
 

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
-#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -31,20 +30,6 @@ std::optional<StampedPose> parseTumLine(const std::string& line)
   return StampedPose{*time, Rigid{q.normalized(), t}};
 }
 }  // namespace
-
-std::optional<Rigid> poseAt(const Trajectory& trajectory, Timestamp stamp, Duration widest)
-{
-  const auto after = std::lower_bound(trajectory.begin(), trajectory.end(), stamp,
-                                      [](const StampedPose& pose, Timestamp t) { return pose.stamp < t; });
-  if (after == trajectory.end()) return std::nullopt;
-  if (after->stamp == stamp) return after->map_T_body;
-  if (after == trajectory.begin()) return std::nullopt;
-
-  const auto before = std::prev(after);
-  if (after->stamp - before->stamp > widest) return std::nullopt;
-  const double share = seconds(stamp - before->stamp) / seconds(after->stamp - before->stamp);
-  return interpolate(before->map_T_body, after->map_T_body, share);
-}
 
 void TumWriter::add(const StampedPose& pose)
 {

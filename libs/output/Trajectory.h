@@ -3,17 +3,10 @@
 #include "core/StampedPose.h"
 #include "output/OutputFile.h"
 
-#include <optional>
 #include <vector>
 
 namespace scanloom
 {
-/**
- * Interpolated at `stamp` between its neighbours: position on the chord, rotation by slerp. Nothing before the first
- * and after the last pose, and between two that are more than `widest` apart.
- */
-std::optional<Rigid> poseAt(const Trajectory&, Timestamp stamp, Duration widest = Duration::max());
-
 /** "t x y z qx qy qz qw": one pose a line, seconds and metres with 9 decimals, qw >= 0. */
 class TumWriter
 {

@@ -90,9 +90,8 @@ std::optional<GyroAgreement> ImuWatch::agreement() const
   return gyroAgreement({turns_.begin(), turns_.end()}, {kept(), body_T_imu_});
 }
 
-std::optional<std::string> ImuWatch::complaint() const
+std::optional<std::string> ImuWatch::complaint(const std::optional<GyroAgreement>& told) const
 {
-  const std::optional<GyroAgreement> told = agreement();
   if (!told) return ofUnits(kept());
   if (const auto units = ofUnits(1 / told->scale)) return units;
   const std::optional<std::string> axes = ofAxes(*told);

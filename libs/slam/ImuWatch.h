@@ -25,7 +25,8 @@ class ImuWatch
   std::optional<GyroAgreement> agreement() const;
 
   /** For a person: what is wrong first of all, and how to mend it; only what is beyond doubt. */
-  std::optional<std::string> complaint() const;
+  std::optional<std::string> complaint() const { return complaint(agreement()); }
+  std::optional<std::string> complaint(const std::optional<GyroAgreement>&) const;
 
  private:
   std::vector<ImuSample> kept() const { return {samples_.begin(), samples_.end()}; }

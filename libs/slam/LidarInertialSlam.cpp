@@ -6,7 +6,6 @@
 #include "slam/ScanRegistration.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace scanloom
 {
@@ -18,13 +17,7 @@ constexpr std::size_t kScansOfFirstPass = 4;
 /** Never beyond the ends of the way. */
 Rigid poseOn(const Trajectory& way, Timestamp stamp)
 {
-  const auto after = std::lower_bound(way.begin(), way.end(), stamp,
-                                      [](const StampedPose& pose, Timestamp t) { return pose.stamp < t; });
-  if (after == way.begin()) return way.front().map_T_body;
-  if (after == way.end()) return way.back().map_T_body;
-  const StampedPose& before = *std::prev(after);
-  const double share = seconds(stamp - before.stamp) / seconds(after->stamp - before.stamp);
-  return interpolate(before.map_T_body, after->map_T_body, share);
+  return *poseAt(way, std::clamp(stamp, way.front().stamp, way.back().stamp));
 }
 }  // namespace
 

@@ -93,26 +93,6 @@ TEST(Trajectory, refusesStampsThatGoBack)
   EXPECT_THAT([&] { readTum(folder / "t.tum"); }, ThrowsMessage<std::invalid_argument>(HasSubstr("t.tum:2")));
 }
 
-TEST(Trajectory, hasNoPoseInAGapWiderThanAllowed)
-{
-  const Trajectory trajectory{poseAtX(1000, 0), poseAtX(2000, 4)};
-
-  EXPECT_FALSE(poseAt(trajectory, fromNanoseconds(1500), 999ns));
-  EXPECT_TRUE(poseAt(trajectory, fromNanoseconds(1500), 1000ns));
-  EXPECT_TRUE(poseAt(trajectory, fromNanoseconds(2000), 1ns));
-}
-
-TEST(Trajectory, isInterpolatedBetweenItsPosesAndNotBeyondThem)
-{
-  const Trajectory trajectory{poseAtX(1000, 0, 0), poseAtX(2000, 4, 1)};
-
-  EXPECT_NEAR(poseAt(trajectory, fromNanoseconds(1250))->translation.x(), 1, 1e-12);
-  EXPECT_NEAR(poseAt(trajectory, fromNanoseconds(1250))->yawPitchRoll()[0], 0.25, 1e-12);
-  EXPECT_NEAR(poseAt(trajectory, fromNanoseconds(2000))->translation.x(), 4, 1e-12);
-  EXPECT_FALSE(poseAt(trajectory, fromNanoseconds(999)));
-  EXPECT_FALSE(poseAt(trajectory, fromNanoseconds(2001)));
-}
-
 TEST(Trajectory, isWrittenAsKittiRows)
 {
   const TemporaryFolder folder;
