@@ -24,13 +24,12 @@
 #include "mrpt_bridge/Observations.h"
 #include "output/SecondsText.h"
 #include "output/TrajectoryReader.h"
+#include "preprocessing/LidarBox.h"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 namespace scanloom
 {
@@ -56,22 +55,11 @@ RawlogSpan spanOf(const EditOptions& options)
   return span;
 }
 
-Eigen::AlignedBox3f parseBox(const std::string& text)
+Eigen::AlignedBox3f cropBox(const std::string& text)
 {
-  const UsageError mistake(fmt::format(
+  if (const auto box = parseBox(text)) return box->cast<float>();
+  throw UsageError(fmt::format(
       "--crop-box \"{}\": must be \"x0 y0 z0 x1 y1 z1\" in m, the first corner below the second on each axis", text));
-  std::array<double, 6> edges{};
-  std::istringstream words(text);
-  std::string word;
-  for (double& edge : edges)
-  {
-    const auto number = words >> word ? parseNumber(word) : std::nullopt;
-    if (!number) throw mistake;
-    edge = *number;
-  }
-  const Eigen::Vector3d low(edges[0], edges[1], edges[2]), high(edges[3], edges[4], edges[5]);
-  if (words >> word || !(low.array() < high.array()).all()) throw mistake;
-  return {low.cast<float>(), high.cast<float>()};
 }
 
 struct LabelOffset
@@ -272,7 +260,7 @@ void choosePoints(const EditOptions& o, const std::filesystem::path& input, Chos
 {
   if (!o.imu.empty() && o.deskew != "imu") throw UsageError("--imu names the IMU for '--deskew imu'");
   if (!o.crop_box.empty())
-    add(chosen, "--crop-box", [box = parseBox(o.crop_box)](const Header&) { return cropOut(box); });
+    add(chosen, "--crop-box", [box = cropBox(o.crop_box)](const Header&) { return cropOut(box); });
   if (o.min_range || o.max_range)
     add(chosen, "--min-range/--max-range",
         [limits = rangesOf(o)](const Header& header) { return limitRanges(limits, header); });

@@ -18,7 +18,7 @@ class InputDisplay
   InputDisplay(const std::string& verb, RigInput&);
 
   /** The share of the input that was read, and the scans so far. */
-  void update(double share, std::uint64_t scans);
+  void update(double share, std::uint64_t scans, const Work& = {});
 
  private:
   std::uint64_t total_ = 0;

@@ -34,7 +34,7 @@ LiveStatus::~LiveStatus()
   if (line_open_) out_ << std::endl;
 }
 
-void LiveStatus::update(RigInput& input, Clock::time_point now)
+void LiveStatus::update(RigInput& input, const Work& work, Clock::time_point now)
 {
   for (const std::string& warning : input.takeWarnings())
   {
@@ -48,11 +48,12 @@ void LiveStatus::update(RigInput& input, Clock::time_point now)
   const double since = std::chrono::duration<double>(now - shown_at_).count();
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   out_ << (terminal_ ? "\r\033[K" : "")
-       << fmt::format("{}: {}, {}", what_, timeText(elapsed), line(shown_, account, since));
+       << fmt::format("{}: {}, {}{}", what_, timeText(elapsed), line(shown_, account, since), pace(shown_work_, work));
   if (!terminal_) out_ << '\n';
   out_ << std::flush;
   line_open_ = terminal_;
   shown_ = account;
+  shown_work_ = work;
   shown_at_ = now;
 }
 
@@ -73,5 +74,11 @@ std::string LiveStatus::line(const RigAccount& before, const RigAccount& now, do
   return fmt::format(
       "{} packets; columns: {} lost, {} late, {} dropped; datagrams: {} dropped; scans: {} wait, {} dropped",
       fmt::join(rates, ", "), lost, late, dropped, datagrams, now.scans_waiting, countOf(now, "scans_dropped"));
+}
+
+std::string LiveStatus::pace(const Work& before, const Work& now)
+{
+  const double recorded = now.recorded - before.recorded, busy = now.busy - before.busy;
+  return recorded > 0 && busy > 0 ? fmt::format("; {:.1f} times real time", recorded / busy) : "";
 }
 }  // namespace scanloom

@@ -6,6 +6,13 @@
 
 namespace scanloom
 {
+/** Of a verb that works on the scans, so far, in s. */
+struct Work
+{
+  double recorded = 0;  // of what the sensors measured
+  double busy = 0;      // that it took, without waiting for more of it
+};
+
 class LiveStatus
 {
  public:
@@ -17,10 +24,13 @@ class LiveStatus
   ~LiveStatus();
 
   /** Asks the input for its account only when a line is due. Warnings are shown at once. */
-  void update(RigInput&, Clock::time_point now = Clock::now());
+  void update(RigInput&, const Work& = {}, Clock::time_point now = Clock::now());
 
   /** `left 640/s, right 640/s packets; lost 0, late 0, dropped 0 columns; 0 scans wait, 0 dropped` */
   static std::string line(const RigAccount& before, const RigAccount& now, double seconds);
+
+  /** `; 3.1 times real time`; nothing if nothing was worked on in between. */
+  static std::string pace(const Work& before, const Work& now);
 
  private:
   std::string what_;
@@ -30,5 +40,6 @@ class LiveStatus
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_at_ = start_;
   RigAccount shown_;
+  Work shown_work_;
 };
 }  // namespace scanloom

@@ -8,6 +8,7 @@
 #include "Version.h"
 #include "config/AtomicFile.h"
 #include "mrpt_bridge/ImuDriver.h"
+#include "mrpt_bridge/ReadAhead.h"
 #include "output/SlamRun.h"
 #include "source/RigOptions.h"
 
@@ -90,18 +91,18 @@ Input openLive(const Rig& rig, const Configuration& configuration, const std::st
 
 Input openInput(const SlamArguments& arguments, const Configuration& configuration)
 {
-  if (!arguments.rawlog.empty()) return {makeRawlogInput(arguments.rawlog, arguments.lidars)};
+  if (!arguments.rawlog.empty()) return {readAhead(makeRawlogInput(arguments.rawlog, arguments.lidars))};
   if (arguments.scene.given())
   {
     const SimulatedRig simulated = simulatedRig(arguments.scene, configuration, arguments.lidars);
-    return {makeSceneInput(simulated.scene, simulated.rig),
+    return {readAhead(makeSceneInput(simulated.scene, simulated.rig)),
             static_cast<std::uint64_t>(std::ceil(simulated.scene->span.duration)), "s"};
   }
   const std::string section = rigSection(configuration);
   Rig rig = makeRig(readRigSettings(configuration, section), arguments.lidars);
   if (rig.captures.empty()) return openLive(rig, configuration, section);
   const std::uint64_t megabytes = megabytesOf(rig.captures);
-  return {makeCaptureInput(std::move(rig)), megabytes};
+  return {readAhead(makeCaptureInput(std::move(rig))), megabytes};
 }
 
 /** The line that repeats the run; --every-nth is among the assignments. */
@@ -136,12 +137,23 @@ void noteWhetherItKeptUp(const RunSummary& summary)
       dropped->second, summary.counts.at("scans"));
 }
 
+std::string timePerScan(const RunSummary& summary)
+{
+  const auto scan = summary.stages.find("scan");
+  if (scan == summary.stages.end()) return "";
+  const StageTime& time = scan->second;
+  return fmt::format("; {:.1f} ms a scan, p95 {:.1f}", time.total_ms / static_cast<double>(time.runs),
+                     time.histogram.quantile(0.95));
+}
+
 void report(const SlamRunResult& result, const std::filesystem::path& folder)
 {
   const RunSummary& s = result.summary;
   const auto count = [&s](const char* name) { return s.counts.at(name); };
-  fmt::print("{}: {} poses from {} scans, {} keyframes, {:.1f} s of recording in {:.1f} s (real-time factor {:.1f})\n",
-             s.outcome, count("poses"), count("scans"), count("keyframes"), s.recorded, s.elapsed, s.realTimeFactor());
+  fmt::print(
+      "{}: {} poses from {} scans, {} keyframes, {:.1f} s of recording in {:.1f} s (real-time factor {:.1f}{})\n",
+      s.outcome, count("poses"), count("scans"), count("keyframes"), s.recorded, s.elapsed, s.realTimeFactor(),
+      timePerScan(s));
   if (count("poses_degenerate") + count("poses_lost") + count("poses_initialising") > 0)
     fmt::print(stderr, "warning: {} poses INITIALISING, {} DEGENERATE, {} LOST: see trajectory.csv\n",
                count("poses_initialising"), count("poses_degenerate"), count("poses_lost"));
@@ -176,9 +188,9 @@ int run(SlamArguments arguments)
     InputDisplay display = displayOf(input);
     result = runSlam(
         *input.sensors, settings, files,
-        [&](double share, std::uint64_t scans)
+        [&](const RunProgress& progress)
         {
-          display.update(share, scans);
+          display.update(progress.share, progress.scans, {progress.recorded, progress.busy});
           const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
           if (input.live && (over || interrupted())) input.live->stop();
           return input.live || !interrupted();
@@ -186,6 +198,7 @@ int run(SlamArguments arguments)
         [](const std::string& warning) { fmt::print(stderr, "warning: {}\n", warning); });
   }
   result.summary.command = commandOf(arguments);
+  if (input.live) result.summary.waited = 1e-3 * result.summary.stages.at("input").total_ms;
   result.summary.versions = {{"scanloom", programVersion()}};
   files.close(result.summary);
 

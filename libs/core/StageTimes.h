@@ -1,5 +1,7 @@
 /** Where the time goes: wall-clock nanoseconds per stage of a pipeline. Never part of a result. */
 #pragma once
+#include "core/DurationHistogram.h"
+
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -13,6 +15,15 @@ struct StageTime
   std::uint64_t runs = 0;
   double total_ms = 0;
   double longest_ms = 0;
+  DurationHistogram histogram;
+
+  void add(double ms)
+  {
+    ++runs;
+    total_ms += ms;
+    longest_ms = std::max(longest_ms, ms);
+    histogram.add(ms);
+  }
 };
 
 class StageTimes
@@ -36,9 +47,7 @@ class StageTimes
     ~Stopwatch()
     {
       const std::chrono::duration<double, std::milli> ms = std::chrono::steady_clock::now() - start_;
-      ++stage_.runs;
-      stage_.total_ms += ms.count();
-      stage_.longest_ms = ms.count() > stage_.longest_ms ? ms.count() : stage_.longest_ms;
+      stage_.add(ms.count());
     }
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;

@@ -1,5 +1,6 @@
 /** Scans and IMU samples in time order, wherever they come from: captures through the batcher, or a rawlog. */
 #pragma once
+#include "core/StageTimes.h"
 #include "mrpt_bridge/RecordingHeader.h"
 #include "source/RigInput.h"
 
@@ -37,6 +38,9 @@ class SensorInput
 
   /** What was counted on the way, by name: packets and blocks per lidar. */
   virtual std::map<std::string, std::uint64_t> counts() const = 0;
+
+  /** What threads of its own took, by stage, beside whoever calls next(). */
+  virtual std::map<std::string, StageTime> stages() const { return {}; }
 
   /** What a person should know, since the last call: lidars that fell silent, restarted, ...; damage to a file. */
   virtual std::vector<std::string> takeWarnings() = 0;

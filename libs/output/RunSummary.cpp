@@ -23,6 +23,7 @@ void to_json(nlohmann::json& json, const StageTime& stage)
   json = {{"runs", stage.runs},
           {"total_ms", stage.total_ms},
           {"mean_ms", stage.total_ms / runs},
+          {"p95_ms", stage.histogram.quantile(0.95)},
           {"max_ms", stage.longest_ms}};
 }
 
@@ -45,6 +46,7 @@ void to_json(nlohmann::json& json, const RunSummary& run)
           {"stages", run.stages},
           {"recorded_s", run.recorded},
           {"elapsed_s", run.elapsed},
+          {"waited_s", run.waited},
           {"real_time_factor", run.realTimeFactor()},
           {"path_length_m", run.path_length},
           {"peak_memory_bytes", run.peak_memory}};

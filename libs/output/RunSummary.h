@@ -24,11 +24,12 @@ struct RunSummary
   std::optional<GyroAgreement> imu;  // against the turns that the lidars saw, over the last minute
   double recorded = 0;               // s of recording that were worked on
   double elapsed = 0;                // s of wall-clock time
+  double waited = 0;                 // s of them, live, for the sensors
   double path_length = 0;            // m
   std::uint64_t peak_memory = 0;     // bytes
 
   /** Above 1 is faster than real time; 0 if nothing was measured. */
-  double realTimeFactor() const { return elapsed > 0 ? recorded / elapsed : 0; }
+  double realTimeFactor() const { return elapsed > waited ? recorded / (elapsed - waited) : 0; }
 };
 
 /** The program's largest resident set so far, in bytes. */

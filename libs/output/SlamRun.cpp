@@ -9,6 +9,10 @@ namespace scanloom
 {
 namespace
 {
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
 /** The IMU that localisation listens to. */
 int chooseImu(const SensorInput& input, const std::string& wanted)
 {
@@ -29,6 +33,37 @@ std::vector<Eigen::Vector3d> positionsOf(const std::vector<RecordedLidar>& lidar
   std::vector<Eigen::Vector3d> positions;
   for (const RecordedLidar& lidar : lidars) positions.push_back(lidar.body_T_sensor.translation);
   return positions;
+}
+
+std::vector<LidarBox> boxesOf(const CropOptions& crop, const std::vector<RecordedLidar>& lidars)
+{
+  std::vector<NamedPose> poses;
+  for (const RecordedLidar& lidar : lidars) poses.push_back({lidar.name, lidar.body_T_sensor});
+  return lidarBoxes(crop.lidar_boxes, poses);
+}
+
+/** As `<name>.points_<fate>`. */
+void addCounts(const std::vector<CropCounts>& cropped, const std::vector<RecordedLidar>& lidars,
+               std::map<std::string, std::uint64_t>& counts)
+{
+  for (std::size_t i = 0; i < cropped.size(); ++i)
+    CropCounts::forEach(cropped[i], [&](const char* fate, std::uint64_t count)
+                        { counts[fmt::format("{}.points_{}", lidars.at(i).name, fate)] = count; });
+}
+
+/** A box too large, or in another frame than was thought, is the first mistake that a person makes. */
+void warnOfTooMuch(const std::vector<CropCounts>& cropped, const std::vector<RecordedLidar>& lidars, const Warn& warn)
+{
+  constexpr double kLeast = 0.1;
+  for (std::size_t i = 0; i < cropped.size(); ++i)
+  {
+    const CropCounts& c = cropped[i];
+    if (static_cast<double>(c.kept) >= kLeast * static_cast<double>(c.all())) continue;
+    warn(
+        fmt::format("[crop] leaves {} of {} points of lidar '{}': {} are in the machine's box, {} in its own, {} too "
+                    "near, {} too far",
+                    c.kept, c.all(), lidars.at(i).name, c.machine, c.lidar_box, c.too_near, c.too_far));
+  }
 }
 
 /** Looks once a minute and at the end; says a thing once. */
@@ -95,6 +130,7 @@ struct HealthCounts
     newest = e.stamp;
   }
 
+  double recorded() const { return first ? seconds(newest - *first) : 0; }
   bool passed() const { return poses > 0 && last != Health::Lost && 20 * lost <= poses; }
 
   std::string outcome() const
@@ -110,9 +146,10 @@ struct HealthCounts
 SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFiles& files, const KeepGoing& keepGoing,
                       const Warn& warn)
 {
-  const auto start = std::chrono::steady_clock::now();
+  const Clock::time_point start = Clock::now();
+  const std::vector<RecordedLidar>& lidars = input.header().lidars;
   const int imu = chooseImu(input, settings.slam.imu);
-  LidarInertialSlam slam(settings, *input.body_T_imu(imu), positionsOf(input.header().lidars));
+  LidarInertialSlam slam(settings, *input.body_T_imu(imu), positionsOf(lidars), boxesOf(settings.crop, lidars));
   ConstantMotion motion(*input.body_T_imu(imu));
   const bool coasts = settings.slam.constant_motion;
   const Duration delay = fromSeconds(1e-3 * settings.slam.imu_delay_ms);
@@ -131,13 +168,19 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
     }
   };
 
+  const auto progress = [&]
+  {
+    const double waited = 1e-3 * times.stages().at("input").total_ms;
+    return RunProgress{input.progress(), scans, health.recorded(), secondsSince(start) - waited};
+  };
+
   constexpr Duration kPatience = 100ms;  // live: then a person may want to stop
   bool going = true;
   while (going && !input.ended())
   {
     std::optional<SensorEvent> event = times.measure("input", [&] { return input.next(kPatience); });
     if (!event)
-      going = keepGoing(input.progress(), scans);
+      going = keepGoing(progress());
     else if (auto* sample = std::get_if<SensorImu>(&*event))
     {
       if (sample->sensor != imu) continue;
@@ -150,7 +193,7 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
       ++scans;
       for (const ImuSample& imagined : motion.samplesUntil(scan->end())) slam.addImu(imagined);
       keep(slam.addScan(std::move(*scan)));
-      going = keepGoing(input.progress(), scans);
+      going = keepGoing(progress());
     }
   }
   keep(slam.finish());
@@ -174,10 +217,13 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
   summary.counts["recoveries"] = slam.recoveries();
   summary.counts["map_restarts"] = slam.mapRestarts();
   summary.counts["imu_samples_refused"] = slam.refusedImuSamples();
+  addCounts(slam.cropped(), lidars, summary.counts);
+  warnOfTooMuch(slam.cropped(), lidars, warn);
   summary.stages = slam.times().stages();
   for (const auto& [stage, time] : times.stages()) summary.stages[stage] = time;
-  summary.recorded = health.first ? seconds(health.newest - *health.first) : 0;
-  summary.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  for (const auto& [stage, time] : input.stages()) summary.stages[stage] = time;
+  summary.recorded = health.recorded();
+  summary.elapsed = secondsSince(start);
   return result;
 }
 }  // namespace scanloom

@@ -11,8 +11,16 @@ namespace scanloom
 /** Called with what a person should know at once. */
 using Warn = std::function<void(const std::string&)>;
 
-/** Called after each event with the share of the input that was read; false stops the run, keeping what there is. */
-using KeepGoing = std::function<bool(double progress, std::uint64_t scans)>;
+struct RunProgress
+{
+  double share = 0;  // of the input that was read, 0 to 1
+  std::uint64_t scans = 0;
+  double recorded = 0;  // s, from the first pose to the newest
+  double busy = 0;      // s, without waiting for input
+};
+
+/** Called after each scan, and when none came for a while; false stops the run, keeping what there is. */
+using KeepGoing = std::function<bool(const RunProgress&)>;
 
 struct SlamRunResult
 {

@@ -1,33 +1,78 @@
 #include "preprocessing/Crop.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace scanloom
 {
-Scan cropOut(Scan scan, const CropOptions& o)
+namespace
 {
-  const PointCloud& points = scan.points;
-  const auto within = [](float v, double low, double high) { return v >= low && v <= high; };
-  const auto wanted = [&](std::size_t i)
+/** Boxes by lidar, as the inner loop asks for them. */
+class Fates
+{
+ public:
+  Fates(const CropOptions& options, const std::vector<LidarBox>& lidar_boxes)
+    : machine_(Eigen::Vector3d(options.min_x, options.min_y, options.min_z),
+               Eigen::Vector3d(options.max_x, options.max_y, options.max_z)),
+      lidar_boxes_(lidar_boxes),
+      min_range_(options.min_range),
+      max_range_(options.max_range)
   {
-    const float x = points.x[i], y = points.y[i], z = points.z[i];
-    const double range = 1e-3 * points.range[i];
-    const bool machine = within(x, o.min_x, o.max_x) && within(y, o.min_y, o.max_y) && within(z, o.min_z, o.max_z);
-    const bool finite = std::isfinite(x) && std::isfinite(y) && std::isfinite(z);
-    return finite && !machine && (range == 0 || (range >= o.min_range && range <= o.max_range));
-  };
+  }
 
-  std::vector<std::uint8_t> keep(points.size());
+  std::uint64_t CropCounts::*of(const PointCloud& points, std::size_t i) const
+  {
+    const Eigen::Vector3d p(points.x[i], points.y[i], points.z[i]);
+    if (!p.allFinite()) return &CropCounts::not_finite;
+    if (machine_.contains(p)) return &CropCounts::machine;
+    for (const LidarBox& own : lidar_boxes_)
+      if (own.sensor_id == points.sensor_id[i] && own.box.contains(own.sensor_T_body * p))
+        return &CropCounts::lidar_box;
+    const double range = 1e-3 * points.range[i];
+    if (range != 0 && range < min_range_) return &CropCounts::too_near;
+    return range > max_range_ ? &CropCounts::too_far : &CropCounts::kept;
+  }
+
+ private:
+  Eigen::AlignedBox3d machine_;
+  const std::vector<LidarBox>& lidar_boxes_;
+  double min_range_, max_range_;
+};
+}  // namespace
+
+CropCounts& CropCounts::operator+=(const CropCounts& other)
+{
+  not_finite += other.not_finite;
+  machine += other.machine;
+  lidar_box += other.lidar_box;
+  too_near += other.too_near;
+  too_far += other.too_far;
+  kept += other.kept;
+  return *this;
+}
+
+CroppedScan cropOut(Scan scan, const CropOptions& options, const std::vector<LidarBox>& lidar_boxes)
+{
+  const Fates fates(options, lidar_boxes);
+  CroppedScan cropped;
+  std::vector<std::uint8_t> keep(scan.points.size());
   std::uint32_t kept = 0;
   for (Column& column : scan.columns)
   {
+    if (column.sensor_id >= cropped.counts.size()) cropped.counts.resize(column.sensor_id + std::size_t{1});
+    CropCounts& counts = cropped.counts[column.sensor_id];
     const std::uint32_t first = kept;
     for (std::size_t i = column.first_point; i < std::size_t{column.first_point} + column.count; ++i)
-      kept += keep[i] = wanted(i);
+    {
+      const auto fate = fates.of(scan.points, i);
+      ++(counts.*fate);
+      kept += keep[i] = fate == &CropCounts::kept;
+    }
     column.first_point = first;
     column.count = static_cast<std::uint16_t>(kept - first);
   }
   scan.points.keep(keep);
-  return scan;
+  cropped.scan = std::move(scan);
+  return cropped;
 }
 }  // namespace scanloom

@@ -2,11 +2,18 @@
 #pragma once
 #include "batching/Scan.h"
 #include "core/Field.h"
+#include "preprocessing/LidarBox.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace scanloom
 {
-/** An axis-aligned box in the body frame whose inside is removed (paper, section 2.2), and limits of the measured
- * range. */
+/**
+ * An axis-aligned box in the body frame whose inside is removed (paper, section 2.2), boxes of single lidars in their
+ * own frames, and limits of the measured range.
+ */
 struct CropOptions
 {
   // A harvester with its boom, generously: better to lose some trees than to keep a part of the machine.
@@ -15,6 +22,7 @@ struct CropOptions
   double min_z = -0.5, max_z = 6.0;
   double min_range = 0.5;
   double max_range = 100.0;
+  std::string lidar_boxes;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -27,10 +35,45 @@ struct CropOptions
     visit(o.max_z, Field{"max_z", "m", "top of the box"});
     visit(o.min_range, Field{"min_range", "m", "nearer readings are removed", atLeast(0)});
     visit(o.max_range, Field{"max_range", "m", "farther readings are removed", above(0)});
+    visit(o.lidar_boxes,
+          Field{"lidar_boxes", "",
+                "what a lidar sees of its own mount, in its own frame, is removed: NAME x0 y0 z0 x1 y1 z1 in m, "
+                "several separated by commas"});
   }
+};
+
+/** What became of the points of a lidar. Each is counted once, by the first that applies. */
+struct CropCounts
+{
+  std::uint64_t not_finite = 0;
+  std::uint64_t machine = 0;    // in the body's box
+  std::uint64_t lidar_box = 0;  // in its own
+  std::uint64_t too_near = 0;
+  std::uint64_t too_far = 0;
+  std::uint64_t kept = 0;
+
+  std::uint64_t all() const { return not_finite + machine + lidar_box + too_near + too_far + kept; }
+  CropCounts& operator+=(const CropCounts&);
+
+  template <typename Self, typename Visitor>
+  static void forEach(Self& c, Visitor&& visit)
+  {
+    visit("not_finite", c.not_finite);
+    visit("machine", c.machine);
+    visit("lidar_box", c.lidar_box);
+    visit("too_near", c.too_near);
+    visit("too_far", c.too_far);
+    visit("kept", c.kept);
+  }
+};
+
+struct CroppedScan
+{
+  Scan scan;
+  std::vector<CropCounts> counts;  // by sensor id, up to the largest that has a column
 };
 
 /** The scan without those points; columns keep their stamps even when they become empty. Ranges count from the sensor,
  * where known. */
-Scan cropOut(Scan scan_in_body, const CropOptions&);
+CroppedScan cropOut(Scan scan_in_body, const CropOptions&, const std::vector<LidarBox>& = {});
 }  // namespace scanloom

@@ -22,11 +22,12 @@ Rigid poseOn(const Trajectory& way, Timestamp stamp)
 }  // namespace
 
 LidarInertialSlam::LidarInertialSlam(const SlamSettings& settings, const Rigid& body_T_imu,
-                                     std::vector<Eigen::Vector3d> lidars)
+                                     std::vector<Eigen::Vector3d> lidars, std::vector<LidarBox> lidar_boxes)
   : settings_(settings),
     body_T_imu_(body_T_imu),
     imu_T_body_(body_T_imu.inverse()),
     lidars_(settings.slam.stem_axes ? std::move(lidars) : std::vector<Eigen::Vector3d>()),
+    lidar_boxes_(std::move(lidar_boxes)),
     local_map_(settings.local_map, settings.map_cells)
 {
 }
@@ -74,7 +75,7 @@ std::vector<StateEstimate> LidarInertialSlam::processWaiting(bool input_ended)
   if (!smoother_ && !start(input_ended)) return estimates;
   while (!waiting_.empty() && (input_ended || covered(waiting_.front())))
   {
-    estimates.push_back(track(std::move(waiting_.front())));
+    estimates.push_back(times_.measure("scan", [&] { return track(std::move(waiting_.front())); }));
     waiting_.pop_front();
   }
   return estimates;
@@ -158,13 +159,16 @@ StateEstimate LidarInertialSlam::track(Scan scan)
 }
 
 /** Cropped, and moved to where the body is at the end of the scan. */
-PointCloud LidarInertialSlam::preprocess(Scan scan, const NavState& before, const std::vector<ImuSample>& samples) const
+PointCloud LidarInertialSlam::preprocess(Scan scan, const NavState& before, const std::vector<ImuSample>& samples)
 {
   const std::vector<Rigid> map_T_column = bodyAtColumns(scan, before, samples);
   const Rigid end_T_map = bodyAt(predictAt(before, samples, {scan.end()}).front()).inverse();
   std::vector<Rigid> end_T_column;
   for (const Rigid& pose : map_T_column) end_T_column.push_back(end_T_map * pose);
-  return deskew(cropOut(std::move(scan), settings_.crop), end_T_column);
+  CroppedScan cropped = cropOut(std::move(scan), settings_.crop, lidar_boxes_);
+  if (cropped_.size() < cropped.counts.size()) cropped_.resize(cropped.counts.size());
+  for (std::size_t i = 0; i < cropped.counts.size(); ++i) cropped_[i] += cropped.counts[i];
+  return deskew(std::move(cropped.scan), end_T_column);
 }
 
 /** Whole turns come lidar by lidar, not in order of time, and begin before the scan before them has ended. */

@@ -24,12 +24,14 @@ class LidarInertialSlam
 {
  public:
   /** `lidars`: where each is in the body frame, by sensor_id. Of one that is not there stems are taken as they look. */
-  LidarInertialSlam(const SlamSettings&, const Rigid& body_T_imu, std::vector<Eigen::Vector3d> lidars);
+  LidarInertialSlam(const SlamSettings&, const Rigid& body_T_imu, std::vector<Eigen::Vector3d> lidars,
+                    std::vector<LidarBox> = {});
 
   /** In time order; a sample out of order or not finite is refused and counted. */
   void addImu(const ImuSample&);
 
-  /** The estimates that became possible (throws what requireGravity() does at the start): a scan waits until the IMU covers it, the first ones until the start is known.
+  /** The estimates that became possible (throws what requireGravity() does at the start): a scan waits until the IMU
+   * covers it, the first ones until the start is known.
    */
   std::vector<StateEstimate> addScan(Scan);
 
@@ -42,6 +44,9 @@ class LidarInertialSlam
   std::uint64_t recoveries() const { return recoveries_; }
   std::uint64_t mapRestarts() const { return map_restarts_; }
 
+  /** Of the scans that were processed, by sensor id. */
+  const std::vector<CropCounts>& cropped() const { return cropped_; }
+
  private:
   std::vector<StateEstimate> processWaiting(bool input_ended);
   bool isCutStart(const Scan&);
@@ -50,7 +55,7 @@ class LidarInertialSlam
   Eigen::Vector3d velocityOfFirstScans(const ImuInitialisation& at_rest) const;
   bool covered(const Scan&) const;
   StateEstimate track(Scan);
-  PointCloud preprocess(Scan, const NavState& at_end, const std::vector<ImuSample>&) const;
+  PointCloud preprocess(Scan, const NavState& at_end, const std::vector<ImuSample>&);
   std::vector<Rigid> bodyAtColumns(const Scan&, const NavState& before, const std::vector<ImuSample>&) const;
   void locate(const std::vector<View>&, StateEstimate&);
   void addToSmoother(const RegistrationResult&);
@@ -67,6 +72,7 @@ class LidarInertialSlam
   SlamSettings settings_;
   Rigid body_T_imu_, imu_T_body_;
   std::vector<Eigen::Vector3d> lidars_;
+  std::vector<LidarBox> lidar_boxes_;
   ImuBuffer imu_;
   std::deque<Scan> waiting_;
   std::optional<Timestamp> first_start_, last_end_;  // of cut scans before the first whole one; of those that waited
@@ -81,6 +87,7 @@ class LidarInertialSlam
   std::optional<Timestamp> initialising_until_;
   Timestamp last_trusted_;
   Trajectory way_to_last_;  // from the state before
+  std::vector<CropCounts> cropped_;
   StageTimes times_;
 };
 }  // namespace scanloom

@@ -57,7 +57,7 @@ TEST(LiveStatus, showsALineASecondOnATerminalAndOnePerTenSecondsElsewhere)
       StubInput input;
       LiveStatus status("record", out, terminal);
       const auto start = LiveStatus::Clock::now();
-      for (Duration t = 0s; t <= 30500ms; t += 100ms) status.update(input, start + t);
+      for (Duration t = 0s; t <= 30500ms; t += 100ms) status.update(input, {}, start + t);
     }
     const std::string text = out.str();
     std::size_t shown = 0;
@@ -65,6 +65,13 @@ TEST(LiveStatus, showsALineASecondOnATerminalAndOnePerTenSecondsElsewhere)
     EXPECT_EQ(shown, static_cast<std::size_t>(lines));
     EXPECT_EQ(text.back(), '\n');
   }
+}
+
+TEST(LiveStatus, tellsHowManyTimesFasterThanTheSensorsTheWorkWasSinceTheLastLine)
+{
+  EXPECT_EQ(LiveStatus::pace({100, 90}, {110, 94}), "; 2.5 times real time");
+  EXPECT_EQ(LiveStatus::pace({100, 90}, {110, 110}), "; 0.5 times real time");
+  EXPECT_EQ(LiveStatus::pace({100, 90}, {100, 90}), "") << "nothing was done";
 }
 
 TEST(LiveStatus, showsWarningsAtOnce)

@@ -31,7 +31,7 @@ RunSummary localise(SensorInput& input, const std::filesystem::path& folder, con
   coarse.max_range = 5;
   SlamFiles files(folder, input.header().lidars, coarse);
   SlamRunResult result = runSlam(
-      input, settings, files, [](double, std::uint64_t) { return true; },
+      input, settings, files, [](const RunProgress&) { return true; },
       [](const std::string& warning) { ADD_FAILURE() << warning; });
   EXPECT_TRUE(result.passed);
   files.close(result.summary);

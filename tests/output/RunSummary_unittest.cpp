@@ -16,7 +16,8 @@ TEST(RunSummary, isJsonWithUnitsInItsNames)
   run.counts["scans"] = 300;
   run.recorded = 30;
   run.elapsed = 10;
-  run.stages["registration"] = {2, 40.0, 30.0};
+  run.stages["registration"].add(10);
+  run.stages["registration"].add(30);
   const TemporaryFolder folder;
   writeSummary(folder / "summary.json", run);
 
@@ -26,7 +27,18 @@ TEST(RunSummary, isJsonWithUnitsInItsNames)
   EXPECT_EQ(json["counts"]["scans"], 300);
   EXPECT_DOUBLE_EQ(json["real_time_factor"], 3.0);
   EXPECT_DOUBLE_EQ(json["stages"]["registration"]["mean_ms"], 20.0);
+  EXPECT_NEAR(json["stages"]["registration"]["p95_ms"], 30.0, 1.5);
   EXPECT_DOUBLE_EQ(json["stages"]["registration"]["max_ms"], 30.0);
+}
+
+TEST(RunSummary, doesNotCountTheTimeLiveInWhichThereWasNothingToDo)
+{
+  RunSummary run;
+  run.recorded = 30;
+  run.elapsed = 31;
+  run.waited = 21;
+
+  EXPECT_DOUBLE_EQ(run.realTimeFactor(), 3.0);
 }
 
 TEST(RunSummary, seesMemoryThatWasTouched)

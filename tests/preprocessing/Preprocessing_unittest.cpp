@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "config/ConfigError.h"
 #include "preprocessing/Crop.h"
 #include "preprocessing/Deskew.h"
 #include "preprocessing/Thin.h"
@@ -35,7 +36,7 @@ TEST(Crop, removesTheMachineAndLeavesItsColumnsInPlace)
   CropOptions box;
   box.min_x = box.min_y = box.min_z = -1;
   box.max_x = box.max_y = box.max_z = 1;
-  const Scan cropped = cropOut(scanOf({{5, 0, 0}, {0.9f, 0.9f, -0.9f}, {0, 1.1f, 0}}), box);
+  const Scan cropped = cropOut(scanOf({{5, 0, 0}, {0.9f, 0.9f, -0.9f}, {0, 1.1f, 0}}), box).scan;
   ASSERT_EQ(cropped.points.size(), 2u);
   EXPECT_EQ(cropped.points.y[1], 1.1f);
   ASSERT_EQ(cropped.columns.size(), 3u);
@@ -47,7 +48,67 @@ TEST(Crop, removesWhatIsTooFarOrNotFinite)
 {
   CropOptions options;
   options.max_range = 50;
-  EXPECT_EQ(cropOut(scanOf({{60, 0, 0}, {40, 0, 0}, {NAN, 0, 10}}), options).points.size(), 1u);
+  EXPECT_EQ(cropOut(scanOf({{60, 0, 0}, {40, 0, 0}, {NAN, 0, 10}}), options).scan.points.size(), 1u);
+}
+
+TEST(Crop, countsEveryPointOnceByLidarAndByWhatRemovedIt)
+{
+  CropOptions options;  // machine from -4 to 10, -3 to 3 and -0.5 to 6
+  options.min_range = 15;
+  options.max_range = 50;
+  Scan scan = scanOf({{0, 0, 0}, {NAN, 0, 10}, {60, 0, 0}, {40, 0, 0}, {0, 10, 0}, {41, 0, 0}});
+  scan.columns[5].sensor_id = 1;
+  scan.points.sensor_id[5] = 1;
+
+  const std::vector<CropCounts> counts = cropOut(scan, options).counts;
+
+  ASSERT_EQ(counts.size(), 2u);
+  EXPECT_EQ(counts[0].machine, 1u);
+  EXPECT_EQ(counts[0].not_finite, 1u);
+  EXPECT_EQ(counts[0].too_far, 1u);
+  EXPECT_EQ(counts[0].too_near, 1u);
+  EXPECT_EQ(counts[0].kept, 1u);
+  EXPECT_EQ(counts[0].all(), 5u);
+  EXPECT_EQ(counts[1].kept, 1u);
+}
+
+TEST(Crop, removesFromEachLidarWhatIsInItsOwnBoxAndLeavesItToTheOthers)
+{
+  // The right lidar is 20 m ahead of the body and turned by 90 deg: its x is the body's y.
+  const std::vector<NamedPose> lidars{{"left", Rigid::identity()},
+                                      {"right", Rigid::fromXyzYawPitchRoll(20, 0, 0, M_PI / 2, 0, 0)}};
+  Scan scan = scanOf({{20, 5, 0}, {20, 5, 0}, {15, 0, 0}});
+  for (const std::size_t i : {1, 2}) scan.columns[i].sensor_id = scan.points.sensor_id[i] = 1;
+
+  const CroppedScan cropped = cropOut(scan, {}, lidarBoxes("right 4 -1 -1 6 1 1", lidars));
+
+  EXPECT_EQ(cropped.scan.points.size(), 2u);
+  EXPECT_EQ(cropped.counts[0].kept, 1u);
+  EXPECT_EQ(cropped.counts[1].lidar_box, 1u);
+  EXPECT_EQ(cropped.counts[1].kept, 1u);
+}
+
+TEST(LidarBox, isRefusedWithItsNameIfItIsNoneOrOfNoLidar)
+{
+  const std::vector<NamedPose> lidars{{"left", Rigid::identity()}};
+  const auto messageOf = [&](const char* text)
+  {
+    try
+    {
+      lidarBoxes(text, lidars);
+    }
+    catch (const ConfigError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(messageOf("left 0 0 0 1 1 -1").find("'left 0 0 0 1 1 -1': must be NAME x0"), std::string::npos);
+  EXPECT_NE(messageOf("left 0 0 0 1 1").find("must be NAME x0"), std::string::npos);
+  EXPECT_NE(messageOf("left 0 0 0 1 1 x").find("must be NAME x0"), std::string::npos);
+  EXPECT_NE(messageOf("lfet 0 0 0 1 1 1").find("no lidar is called 'lfet'"), std::string::npos);
+  EXPECT_EQ(messageOf("left 0 0 0 1 1 1, left 2 2 2 3 3 3"), "");
+  EXPECT_EQ(messageOf(""), "");
 }
 
 TEST(Deskew, aWallSeenWhileDrivingTowardsItBecomesFlat)

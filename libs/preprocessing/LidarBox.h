@@ -1,0 +1,35 @@
+#pragma once
+#include "core/Rigid.h"
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** A box that is fixed to a lidar: its bracket, a neighbour. */
+struct LidarBox
+{
+  std::uint8_t sensor_id = 0;
+  Rigid sensor_T_body;
+  Eigen::AlignedBox3d box;  // in the lidar's frame
+};
+
+/** "x0 y0 z0 x1 y1 z1", the first corner below the second on each axis; nothing if it is anything else. */
+std::optional<Eigen::AlignedBox3d> parseBox(const std::string&);
+
+struct NamedPose
+{
+  std::string name;
+  Rigid pose;
+};
+
+/**
+ * Of "left -1 -1 -1 1 1 1, right ..."; a lidar may have several. Throws ConfigError for a name that none of the lidars
+ * (by sensor id, with their poses in the body) has, and for what is no box.
+ */
+std::vector<LidarBox> lidarBoxes(const std::string& text, const std::vector<NamedPose>& lidars);
+}  // namespace scanloom
