@@ -8,9 +8,9 @@ namespace scanloom
 namespace
 {
 // Measured with two OS0-128 in simulated stands (tests/benchmarks/output_benchmark.cpp).
-constexpr double kSeenHeight = 0.6;        // of max_range: rays end at the ground and leave the stand above
-constexpr double kInnerNodes = 8.0 / 7;    // per leaf
-constexpr double kBytesPerNode = 56;       // with its share of the array of children
+constexpr double kSeenHeight = 0.6;          // of max_range: rays end at the ground and leave the stand above
+constexpr double kInnerNodes = 8.0 / 7;      // per leaf
+constexpr double kBytesPerNode = 56;         // with its share of the array of children
 constexpr double kSecondsPerVoxel = 2.5e-7;  // that a lidar's rays touch; with writing the files
 
 double diskVolume(double range) { return M_PI * range * range * kSeenHeight * range; }

@@ -1,8 +1,8 @@
 /** The files of a localisation run, written while it goes: an interrupted run leaves what it had. */
 #pragma once
-#include "output/SlamMaps.h"
 #include "output/OutputFile.h"
 #include "output/RunSummary.h"
+#include "output/SlamMaps.h"
 #include "output/Trajectory.h"
 #include "slam/StateEstimate.h"
 

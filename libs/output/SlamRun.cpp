@@ -1,5 +1,7 @@
 #include "output/SlamRun.h"
 
+#include "output/HealthCounts.h"
+#include "output/ImuInUse.h"
 #include "slam/ConstantMotion.h"
 #include "slam/ImuWatch.h"
 
@@ -12,21 +14,6 @@ namespace
 using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/** The IMU that localisation listens to. */
-int chooseImu(const SensorInput& input, const std::string& wanted)
-{
-  const auto& lidars = input.header().lidars;
-  std::vector<std::string> choices;
-  if (input.body_T_imu(SensorImu::kBody)) choices.emplace_back("body");
-  for (const RecordedLidar& lidar : lidars) choices.push_back(lidar.name);
-
-  const std::string& name = wanted == "auto" && !choices.empty() ? choices.front() : wanted;
-  if (name == "body" && input.body_T_imu(SensorImu::kBody)) return SensorImu::kBody;
-  for (std::size_t i = 0; i < lidars.size(); ++i)
-    if (lidars[i].name == name && input.body_T_imu(static_cast<int>(i))) return static_cast<int>(i);
-  throw ConfigError(fmt::format("[slam] imu = {}: the input has no such IMU: {}", wanted, suggestion(wanted, choices)));
-}
 
 std::vector<Eigen::Vector3d> positionsOf(const std::vector<RecordedLidar>& lidars)
 {
@@ -93,6 +80,9 @@ class WatchedImu
     complained_ = true;
   }
 
+  /** Another one from here on. */
+  void change(const Rigid& body_T_imu) { watch_ = ImuWatch(body_T_imu); }
+
   bool complained() const { return complained_; }
 
   /** As of the last look. */
@@ -108,122 +98,135 @@ class WatchedImu
   bool complained_ = false;
 };
 
-struct HealthCounts
+/** One run, event by event. */
+class SlamRun
 {
-  std::uint64_t poses = 0, initialising = 0, degenerate = 0, lost = 0, keyframes = 0;
-  std::uint64_t cut_scans = 0, imu_short = 0;
-  Health last = Health::Ok;
-  std::optional<Timestamp> first;
-  Timestamp newest;
-
-  void add(const StateEstimate& e)
+ public:
+  SlamRun(SensorInput& input, const SlamSettings& settings, SlamFiles& files, const Warn& warn)
+    : input_(input),
+      files_(files),
+      warn_(warn),
+      lidars_(input.header().lidars),
+      coasts_(settings.slam.constant_motion),
+      imu_(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms)),
+      slam_(settings, imu_.body_T_imu(), positionsOf(lidars_), boxesOf(settings.crop, lidars_)),
+      motion_(imu_.body_T_imu()),
+      watch_(imu_.body_T_imu(), warn)
   {
-    ++poses;
-    initialising += e.health == Health::Initialising;
-    degenerate += e.health == Health::Degenerate;
-    lost += e.health == Health::Lost;
-    keyframes += e.keyframe.has_value();
-    cut_scans += !e.scan_complete;
-    imu_short += !e.imu_complete;
-    last = e.health;
-    if (!first) first = e.stamp;
-    newest = e.stamp;
   }
 
-  double recorded() const { return first ? seconds(newest - *first) : 0; }
-  bool passed() const { return poses > 0 && last != Health::Lost && 20 * lost <= poses; }
-
-  std::string outcome() const
+  /** Waits for an event no longer than a person who wants to stop it would. */
+  void step()
   {
-    if (poses == 0) return "NOTHING";
-    if (!passed()) return "LOST";
-    if (last == Health::Initialising) return "INITIALISING";
-    return degenerate + lost > 0 ? "DEGENERATE" : "OK";
+    constexpr Duration kPatience = 100ms;
+    std::optional<SensorEvent> event = times_.measure("input", [&] { return input_.next(kPatience); });
+    if (!event) return;
+    if (const auto* sample = std::get_if<SensorImu>(&*event)) take(*sample);
+    if (auto* scan = std::get_if<Scan>(&*event)) take(std::move(*scan));
   }
+
+  void finish()
+  {
+    keep(slam_.finish());
+    watch_.look();
+    warnOfTooMuch(slam_.cropped(), lidars_, warn_);
+  }
+
+  RunProgress progress() const
+  {
+    const double waited = 1e-3 * times_.stages().at("input").total_ms;
+    return {input_.progress(), scans_, health_.recorded(), secondsSince(start_) - waited};
+  }
+
+  SlamRunResult result(bool interrupted) const
+  {
+    SlamRunResult result;
+    RunSummary& summary = result.summary;
+    result.passed = health_.passed() && !watch_.complained();
+    summary.imu = watch_.agreement();
+    summary.outcome = interrupted ? "INTERRUPTED" : health_.outcome();
+    summary.counts = input_.counts();
+    summary.counts["scans"] = scans_;
+    summary.counts["scans_skipped"] = slam_.skippedScans();
+    summary.counts["recoveries"] = slam_.recoveries();
+    summary.counts["map_restarts"] = slam_.mapRestarts();
+    summary.counts["imu_samples_refused"] = slam_.refusedImuSamples();
+    summary.counts["imu_changes"] = imu_changes_;
+    health_.addTo(summary.counts);
+    addCounts(slam_.cropped(), lidars_, summary.counts);
+    summary.stages = slam_.times().stages();
+    for (const auto& [stage, time] : times_.stages()) summary.stages[stage] = time;
+    for (const auto& [stage, time] : input_.stages()) summary.stages[stage] = time;
+    summary.recorded = health_.recorded();
+    summary.elapsed = secondsSince(start_);
+    return result;
+  }
+
+ private:
+  void take(const SensorImu& read)
+  {
+    const std::optional<ImuSample> sample = imu_.take(read);
+    if (!sample) return;
+    watch_.add(*sample);
+    if (!motion_.known()) slam_.addImu(*sample);
+  }
+
+  void take(Scan scan)
+  {
+    ++scans_;
+    if (!coasts_) changeImuIfSilent(scan.end());
+    for (const ImuSample& imagined : motion_.samplesUntil(scan.end())) slam_.addImu(imagined);
+    keep(slam_.addScan(std::move(scan)));
+  }
+
+  void changeImuIfSilent(Timestamp now)
+  {
+    const std::string silent = imu_.name();
+    if (!imu_.changeIfSilent(now)) return;
+    ++imu_changes_;
+    warn_(fmt::format("the IMU '{}' is silent: '{}' goes on, by the same [imu_noise]", silent, imu_.name()));
+    watch_.change(imu_.body_T_imu());
+    slam_.changeImu(imu_.body_T_imu(), imu_.recent());
+  }
+
+  void keep(const std::vector<StateEstimate>& estimates)
+  {
+    for (const StateEstimate& estimate : estimates)
+    {
+      health_.add(estimate);
+      if (coasts_) motion_.update(estimate);
+      watch_.add(estimate);
+      files_.add(estimate);
+    }
+  }
+
+  Clock::time_point start_ = Clock::now();
+  SensorInput& input_;
+  SlamFiles& files_;
+  const Warn& warn_;
+  const std::vector<RecordedLidar>& lidars_;
+  bool coasts_;
+  ImuInUse imu_;
+  LidarInertialSlam slam_;
+  ConstantMotion motion_;
+  WatchedImu watch_;
+  StageTimes times_;
+  HealthCounts health_;
+  std::uint64_t scans_ = 0, imu_changes_ = 0;
 };
 }  // namespace
 
 SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFiles& files, const KeepGoing& keepGoing,
                       const Warn& warn)
 {
-  const Clock::time_point start = Clock::now();
-  const std::vector<RecordedLidar>& lidars = input.header().lidars;
-  const int imu = chooseImu(input, settings.slam.imu);
-  LidarInertialSlam slam(settings, *input.body_T_imu(imu), positionsOf(lidars), boxesOf(settings.crop, lidars));
-  ConstantMotion motion(*input.body_T_imu(imu));
-  const bool coasts = settings.slam.constant_motion;
-  const Duration delay = fromSeconds(1e-3 * settings.slam.imu_delay_ms);
-  WatchedImu watch(*input.body_T_imu(imu), warn);
-  StageTimes times;
-  HealthCounts health;
-  std::uint64_t scans = 0;
-  const auto keep = [&](const std::vector<StateEstimate>& estimates)
-  {
-    for (const StateEstimate& estimate : estimates)
-    {
-      health.add(estimate);
-      if (coasts) motion.update(estimate);
-      watch.add(estimate);
-      files.add(estimate);
-    }
-  };
-
-  const auto progress = [&]
-  {
-    const double waited = 1e-3 * times.stages().at("input").total_ms;
-    return RunProgress{input.progress(), scans, health.recorded(), secondsSince(start) - waited};
-  };
-
-  constexpr Duration kPatience = 100ms;  // live: then a person may want to stop
+  SlamRun run(input, settings, files, warn);
   bool going = true;
   while (going && !input.ended())
   {
-    std::optional<SensorEvent> event = times.measure("input", [&] { return input.next(kPatience); });
-    if (!event)
-      going = keepGoing(progress());
-    else if (auto* sample = std::get_if<SensorImu>(&*event))
-    {
-      if (sample->sensor != imu) continue;
-      sample->sample.stamp -= delay;
-      watch.add(sample->sample);
-      if (!motion.known()) slam.addImu(sample->sample);
-    }
-    else if (auto* scan = std::get_if<Scan>(&*event))
-    {
-      ++scans;
-      for (const ImuSample& imagined : motion.samplesUntil(scan->end())) slam.addImu(imagined);
-      keep(slam.addScan(std::move(*scan)));
-      going = keepGoing(progress());
-    }
+    run.step();
+    going = keepGoing(run.progress());
   }
-  keep(slam.finish());
-
-  SlamRunResult result;
-  RunSummary& summary = result.summary;
-  watch.look();
-  result.passed = health.passed() && !watch.complained();
-  summary.imu = watch.agreement();
-  summary.outcome = going ? health.outcome() : "INTERRUPTED";
-  summary.counts = input.counts();
-  summary.counts["scans"] = scans;
-  summary.counts["scans_skipped"] = slam.skippedScans();
-  summary.counts["scans_cut"] = health.cut_scans;
-  summary.counts["scans_without_full_imu"] = health.imu_short;
-  summary.counts["poses"] = health.poses;
-  summary.counts["poses_initialising"] = health.initialising;
-  summary.counts["poses_degenerate"] = health.degenerate;
-  summary.counts["poses_lost"] = health.lost;
-  summary.counts["keyframes"] = health.keyframes;
-  summary.counts["recoveries"] = slam.recoveries();
-  summary.counts["map_restarts"] = slam.mapRestarts();
-  summary.counts["imu_samples_refused"] = slam.refusedImuSamples();
-  addCounts(slam.cropped(), lidars, summary.counts);
-  warnOfTooMuch(slam.cropped(), lidars, warn);
-  summary.stages = slam.times().stages();
-  for (const auto& [stage, time] : times.stages()) summary.stages[stage] = time;
-  for (const auto& [stage, time] : input.stages()) summary.stages[stage] = time;
-  summary.recorded = health.recorded();
-  summary.elapsed = secondsSince(start);
-  return result;
+  run.finish();
+  return run.result(!going);
 }
 }  // namespace scanloom

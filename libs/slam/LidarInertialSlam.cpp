@@ -1,5 +1,6 @@
 #include "slam/LidarInertialSlam.h"
 
+#include "core/So3.h"
 #include "ndt/Rivals.h"
 #include "preprocessing/Deskew.h"
 #include "slam/ImuWatch.h"
@@ -35,6 +36,50 @@ LidarInertialSlam::LidarInertialSlam(const SlamSettings& settings, const Rigid& 
 void LidarInertialSlam::addImu(const ImuSample& sample)
 {
   if (!imu_.add(sample)) ++refused_imu_samples_;
+}
+
+void LidarInertialSlam::changeImu(const Rigid& body_T_imu, const std::vector<ImuSample>& samples)
+{
+  const Rigid old_T_new = imu_T_body_ * body_T_imu;
+  const Rigid map_T_local = smoother_ ? this->map_T_local() : Rigid::identity();
+  body_T_imu_ = body_T_imu;
+  imu_T_body_ = body_T_imu.inverse();
+  imu_ = ImuBuffer();
+  for (const ImuSample& sample : samples) addImu(sample);
+  if (!smoother_) return;
+
+  NavState state = smoother_->newest();
+  const Eigen::Vector3d lever = old_T_new.rotation.conjugate() * old_T_new.translation;
+  const std::vector<ImuSample> then = imu_.between(state.stamp, state.stamp + 1ms);
+  const Eigen::Vector3d rate = then.empty() ? Eigen::Vector3d::Zero() : then.front().gyro;
+  state.map_T_imu = state.map_T_imu * old_T_new;
+  state.velocity += state.map_T_imu.rotation * rate.cross(lever);
+  state.bias = {};
+  const Matrix15d covariance = covarianceAt(old_T_new);
+  const bool anchored = smoother_->hasAnchor();
+  smoother_.emplace(state, covariance, body_T_imu_, settings_.imu, settings_.smoother);
+  if (anchored) anchorAt(map_T_local.inverse() * bodyAt(state));
+}
+
+/** Of the newest state, seen from an IMU of which nothing is known but where it is; the old one was silent for a while.
+ */
+Matrix15d LidarInertialSlam::covarianceAt(const Rigid& imu_T_other) const
+{
+  constexpr double kGyroBias = 0.02, kTilt = 0.005, kVelocity = 0.3;  // rad/s, rad, m/s
+  const Eigen::Matrix3d other_R_imu = imu_T_other.rotation.conjugate().toRotationMatrix();
+  Matrix6d pose = Matrix6d::Zero();
+  pose.topLeftCorner<3, 3>() = pose.bottomRightCorner<3, 3>() = other_R_imu;
+  pose.topRightCorner<3, 3>() = -other_R_imu * skew(imu_T_other.translation);
+
+  const Matrix15d known = smoother_->newestCovariance();
+  Matrix15d covariance = Matrix15d::Zero();
+  covariance.topLeftCorner<6, 6>() = pose * known.topLeftCorner<6, 6>() * pose.transpose();
+  covariance.block<3, 3>(6, 6) = known.block<3, 3>(6, 6);
+  covariance.diagonal().segment<3>(3).array() += kTilt * kTilt;
+  covariance.diagonal().segment<3>(6).array() += kVelocity * kVelocity;
+  covariance.diagonal().segment<3>(9).setConstant(kGyroBias * kGyroBias);
+  covariance.diagonal().segment<3>(12).setConstant(std::pow(settings_.start.accel_bias_sigma, 2));
+  return covariance;
 }
 
 std::vector<StateEstimate> LidarInertialSlam::addScan(Scan scan)

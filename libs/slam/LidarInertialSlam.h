@@ -30,6 +30,12 @@ class LidarInertialSlam
   /** In time order; a sample out of order or not finite is refused and counted. */
   void addImu(const ImuSample&);
 
+  /**
+   * Another IMU, elsewhere in the body, from the newest state on; `samples` are its own so far and reach back to that
+   * state. The map stays, the biases are unknown again.
+   */
+  void changeImu(const Rigid& body_T_imu, const std::vector<ImuSample>& samples);
+
   /** The estimates that became possible (throws what requireGravity() does at the start): a scan waits until the IMU
    * covers it, the first ones until the start is known.
    */
@@ -61,6 +67,7 @@ class LidarInertialSlam
   void addToSmoother(const RegistrationResult&);
   bool recover(const std::vector<View>&, StateEstimate&);
   void anchorAt(const Rigid& local_T_body);
+  Matrix15d covarianceAt(const Rigid& imu_T_other) const;
   void restartAt(const Rigid& map_T_body, const Matrix6d& covariance);
   void updateMap(PointCloud, const std::vector<View>&, StateEstimate&);
   void addKeyframe(PointCloud, const std::vector<View>&, StateEstimate&);

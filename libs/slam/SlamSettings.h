@@ -34,7 +34,8 @@ struct SlamOptions
     visit(
         o.imu,
         Field{"imu", "",
-              "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first lidar's"});
+              "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first lidar's, and "
+              "another one where that falls silent"});
     visit(
         o.constant_motion,
         Field{"constant_motion", "",

@@ -220,6 +220,60 @@ TEST(LidarInertialSlam, isFoundAgainFarFromWhereAWrongImuCarriedIt)
   EXPECT_LT(((world_T_map * end.map_T_body).translation - machine.bodyAt(end.stamp).translation).norm(), 0.1);
 }
 
+namespace
+{
+/** What an IMU elsewhere in the body reads, by differences of its way. */
+ImuSample sampleElsewhere(const Machine& machine, const Rigid& imu_T_other, Timestamp t)
+{
+  const auto at = [&](Timestamp stamp) { return machine.imuAt(stamp).map_T_imu * imu_T_other; };
+  const Rigid before = at(t - 1ms), now = at(t), after = at(t + 1ms);
+  ImuSample sample;
+  sample.stamp = t;
+  sample.gyro = logSo3(before.rotation.conjugate() * after.rotation) / 0.002;
+  const Eigen::Vector3d acceleration = (before.translation - 2 * now.translation + after.translation) / 1e-6;
+  sample.accel = now.rotation.conjugate() * (acceleration - gravityInMap());
+  return sample;
+}
+}  // namespace
+
+TEST(LidarInertialSlam, goesOnWithAnotherImuElsewhereWhoseBiasIsNotKnown)
+{
+  const Machine machine = gentleMachine(3s);
+  const Rigid body_T_other = Rigid::fromXyzYawPitchRoll(1.5, 0.8, 0.5, -2, 0.1, 0.4);
+  const Rigid imu_T_other = kBodyTImu.inverse() * body_T_other;
+  const StandOfStems stand;
+  SlamSettings settings;
+  settings.crop.max_x = 3;
+  settings.crop.max_y = 2;
+  settings.crop.min_y = -2;
+  LidarInertialSlam slam(settings, kBodyTImu, {});
+  Driven run;
+  std::vector<ImuSample> other;
+  Timestamp imu{0ms};
+  bool changed = false;
+  for (Timestamp start{100ms}; start + 100ms <= Timestamp{16s}; start += 100ms)
+  {
+    for (; imu <= start + 105ms; imu += 5ms)
+    {
+      other.push_back(sampleElsewhere(machine, imu_T_other, imu));
+      other.back().gyro += Eigen::Vector3d(0.01, -0.01, 0.01);
+      if (imu < Timestamp{8s}) slam.addImu(machine.sampleAt(imu));
+      if (changed) slam.addImu(other.back());
+    }
+    if (!changed && start >= Timestamp{8500ms})
+    {
+      slam.changeImu(body_T_other, other);
+      changed = true;
+    }
+    for (StateEstimate& e : slam.addScan(stand.scanAt(start, [&](Timestamp t) { return machine.bodyAt(t); })))
+      run.estimates.push_back(std::move(e));
+  }
+
+  ASSERT_GT(run.estimates.size(), 150U);
+  EXPECT_EQ(run.estimates.back().health, Health::Ok);
+  EXPECT_LT(largestError(run, machine), 0.1);
+}
+
 TEST(LidarInertialSlam, addsNoKeyframeWhileItIsNotHealthy)
 {
   const Driven run = runFor(gentleMachine(3s), 14s, {},

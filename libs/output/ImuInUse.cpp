@@ -1,0 +1,86 @@
+#include "output/ImuInUse.h"
+
+#include "config/ConfigError.h"
+#include "config/Names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+constexpr Duration kPatience = 500ms;  // a second before localisation is LOST
+constexpr Duration kKept = 5s;         // longer than any scan waits
+}  // namespace
+
+ImuInUse::ImuInUse(const SensorInput& input, const std::string& wanted, Duration delay)
+  : input_(input), may_change_(wanted == "auto"), delay_(delay)
+{
+  std::vector<std::string> names;
+  const std::vector<int> sensors = candidates();
+  for (const int sensor : sensors) names.push_back(nameOf(sensor));
+  const auto found = may_change_ ? names.begin() : std::find(names.begin(), names.end(), wanted);
+  if (found == names.end())
+    throw ConfigError(fmt::format("[slam] imu = {}: the input has no such IMU: {}", wanted, suggestion(wanted, names)));
+  sensor_ = first_ = sensors[static_cast<std::size_t>(found - names.begin())];
+  body_T_imu_ = *input_.body_T_imu(sensor_);
+}
+
+std::vector<int> ImuInUse::candidates() const
+{
+  std::vector<int> sensors{SensorImu::kBody};
+  for (std::size_t i = 0; i < input_.header().lidars.size(); ++i) sensors.push_back(static_cast<int>(i));
+  sensors.erase(
+      std::remove_if(sensors.begin(), sensors.end(), [this](int sensor) { return !input_.body_T_imu(sensor); }),
+      sensors.end());
+  return sensors;
+}
+
+std::string ImuInUse::nameOf(int sensor) const
+{
+  return sensor == SensorImu::kBody ? "body" : input_.header().lidars.at(static_cast<std::size_t>(sensor)).name;
+}
+
+std::optional<ImuSample> ImuInUse::take(const SensorImu& read)
+{
+  std::deque<ImuSample>& kept = samples_[read.sensor];
+  kept.push_back(read.sample);
+  while (kept.back().stamp - kept.front().stamp > kKept) kept.pop_front();
+  return read.sensor == sensor_ ? std::optional(inTime(read.sample)) : std::nullopt;
+}
+
+ImuSample ImuInUse::inTime(ImuSample sample) const
+{
+  if (sensor_ == first_) sample.stamp -= delay_;
+  return sample;
+}
+
+bool ImuInUse::silent(int sensor, Timestamp now) const
+{
+  const auto samples = samples_.find(sensor);
+  return samples == samples_.end() || samples->second.back().stamp < now - kPatience;
+}
+
+bool ImuInUse::changeIfSilent(Timestamp now)
+{
+  if (!may_change_ || !silent(sensor_, now)) return false;
+  for (const int sensor : candidates())
+  {
+    if (silent(sensor, now)) continue;
+    sensor_ = sensor;
+    body_T_imu_ = *input_.body_T_imu(sensor);
+    return true;
+  }
+  return false;
+}
+
+std::vector<ImuSample> ImuInUse::recent() const
+{
+  std::vector<ImuSample> recent;
+  if (const auto samples = samples_.find(sensor_); samples != samples_.end())
+    for (const ImuSample& sample : samples->second) recent.push_back(inTime(sample));
+  return recent;
+}
+}  // namespace scanloom

@@ -1,0 +1,114 @@
+#include "output/ImuInUse.h"
+
+#include "config/ConfigError.h"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+namespace scanloom
+{
+namespace
+{
+/** Two lidars; IMUs are named by their sensors, each 1 m further along x. */
+class InputWithImus : public SensorInput
+{
+ public:
+  explicit InputWithImus(std::set<int> imus) : imus_(std::move(imus))
+  {
+    header_.lidars.resize(2);
+    header_.lidars[0].name = "left";
+    header_.lidars[1].name = "right";
+  }
+  std::optional<SensorEvent> next(Duration) override { return std::nullopt; }
+  bool ended() const override { return true; }
+  const RecordingHeader& header() const override { return header_; }
+  double progress() const override { return 0; }
+  std::map<std::string, std::uint64_t> counts() const override { return {}; }
+  std::vector<std::string> takeWarnings() override { return {}; }
+  std::optional<Rigid> body_T_imu(int sensor) const override
+  {
+    if (imus_.count(sensor) == 0) return std::nullopt;
+    return Rigid::fromXyzYawPitchRoll(sensor, 0, 0, 0, 0, 0);
+  }
+
+ private:
+  std::set<int> imus_;
+  RecordingHeader header_;
+};
+
+constexpr int kBody = SensorImu::kBody, kLeft = 0, kRight = 1;
+
+SensorImu sampleAt(int sensor, Duration t) { return {sensor, ImuSample{Timestamp{t}}}; }
+
+TEST(ImuInUse, isTheBodysOrElseTheFirstLidarsThatHasOne)
+{
+  EXPECT_EQ(ImuInUse(InputWithImus({kBody, kLeft, kRight}), "auto", {}).name(), "body");
+  EXPECT_EQ(ImuInUse(InputWithImus({kLeft, kRight}), "auto", {}).name(), "left");
+  EXPECT_EQ(ImuInUse(InputWithImus({kRight}), "auto", {}).name(), "right");
+  EXPECT_EQ(ImuInUse(InputWithImus({kBody, kRight}), "right", {}).name(), "right");
+}
+
+TEST(ImuInUse, isRefusedWithTheOnesThereAre)
+{
+  const auto messageOf = [](std::set<int> imus, const char* wanted)
+  {
+    try
+    {
+      ImuInUse(InputWithImus(std::move(imus)), wanted, {});
+    }
+    catch (const ConfigError& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(messageOf({kBody, kRight}, "left"), testing::HasSubstr("imu = left: the input has no such IMU"));
+  EXPECT_THAT(messageOf({}, "auto"), testing::HasSubstr("no such IMU"));
+}
+
+TEST(ImuInUse, givesWayToAnotherAfterHalfASecondOfSilenceWithWhatThatSaidSinceThen)
+{
+  const InputWithImus input({kLeft, kRight});
+  ImuInUse imu(input, "auto", {});
+  EXPECT_TRUE(imu.take(sampleAt(kLeft, 1s)));
+  for (const Duration t : {1s + 0ms, 1s + 400ms, 1s + 600ms}) EXPECT_FALSE(imu.take(sampleAt(kRight, t)));
+
+  EXPECT_FALSE(imu.changeIfSilent(Timestamp{1500ms}));
+  EXPECT_TRUE(imu.changeIfSilent(Timestamp{1600ms}));
+
+  EXPECT_EQ(imu.name(), "right");
+  EXPECT_EQ(imu.body_T_imu().translation.x(), kRight);
+  EXPECT_EQ(imu.recent().size(), 3U);
+  EXPECT_TRUE(imu.take(sampleAt(kRight, 1700ms)));
+  EXPECT_FALSE(imu.changeIfSilent(Timestamp{1700ms})) << "the first one has not come back";
+}
+
+TEST(ImuInUse, staysWithASilentOneIfNoOtherSpeaksOrItWasChosenByName)
+{
+  const InputWithImus input({kBody, kLeft});
+  ImuInUse alone(input, "auto", {}), chosen(input, "body", {});
+  for (ImuInUse* imu : {&alone, &chosen}) imu->take(sampleAt(kBody, 1s));
+  chosen.take(sampleAt(kLeft, 9s));
+
+  EXPECT_FALSE(alone.changeIfSilent(Timestamp{9s}));
+  EXPECT_FALSE(chosen.changeIfSilent(Timestamp{9s}));
+}
+
+TEST(ImuInUse, hasItsDelayTakenOffAndOthersDoNot)
+{
+  const InputWithImus input({kBody, kLeft});
+  ImuInUse imu(input, "auto", 20ms);
+  EXPECT_EQ(imu.take(sampleAt(kBody, 1s))->stamp, Timestamp{980ms});
+  imu.take(sampleAt(kLeft, 2s));
+
+  ASSERT_TRUE(imu.changeIfSilent(Timestamp{2s}));
+  EXPECT_EQ(imu.recent().front().stamp, Timestamp{2s});
+  EXPECT_EQ(imu.take(sampleAt(kLeft, 3s))->stamp, Timestamp{3s});
+
+  imu.take(sampleAt(kBody, 4s));
+  ASSERT_TRUE(imu.changeIfSilent(Timestamp{4s}));
+  EXPECT_EQ(imu.recent().back().stamp, Timestamp{3980ms});
+}
+}  // namespace
+}  // namespace scanloom
