@@ -127,7 +127,7 @@ ImuStatistics statisticsOf(const std::vector<ImuSample>& samples)
 }
 
 std::optional<ImuInitialisation> initialiseAtRest(const std::vector<ImuSample>& samples, const Rigid& body_T_imu,
-                                                  const StandstillOptions& options)
+                                                  const StandstillOptions& options, double accel_bias_sigma)
 {
   requireIncreasingStamps(samples);
   if (samples.empty() || samples.back().stamp - samples.front().stamp < fromSeconds(options.duration)) return {};
@@ -144,15 +144,14 @@ std::optional<ImuInitialisation> initialiseAtRest(const std::vector<ImuSample>& 
   initial.state.bias = {statistics.mean_gyro, statistics.mean_accel - kGravity * up};
   const double gyro_bias = std::hypot(kGyroBiasWalk, statistics.slow_gyro_deviation / std::sqrt(kParts));
   const double mean_accel = statistics.slow_accel_deviation / std::sqrt(kParts);
-  initial.covariance = covarianceOf(up, body_T_imu, options.accel_bias_sigma,
+  initial.covariance = covarianceOf(up, body_T_imu, accel_bias_sigma,
                                     {kRestVelocity, gyro_bias, mean_accel, std::hypot(kLocalGravity, mean_accel)});
   initial.statistics = statistics;
   initial.at_rest = true;
   return initial;
 }
 
-ImuInitialisation gravityOnly(const std::vector<ImuSample>& samples, const Rigid& body_T_imu,
-                              const StandstillOptions& options)
+ImuInitialisation gravityOnly(const std::vector<ImuSample>& samples, const Rigid& body_T_imu, double accel_bias_sigma)
 {
   requireIncreasingStamps(samples);
   const ImuStatistics statistics = statisticsOf(samples);
@@ -165,8 +164,8 @@ ImuInitialisation gravityOnly(const std::vector<ImuSample>& samples, const Rigid
   ImuInitialisation initial;
   initial.state.stamp = samples.back().stamp;
   initial.state.map_T_imu = levelled(up, body_T_imu);
-  initial.covariance = covarianceOf(up, body_T_imu, options.accel_bias_sigma,
-                                    {kMovingVelocity, kMovingGyroBias, kMovingAcceleration, options.accel_bias_sigma});
+  initial.covariance = covarianceOf(up, body_T_imu, accel_bias_sigma,
+                                    {kMovingVelocity, kMovingGyroBias, kMovingAcceleration, accel_bias_sigma});
   initial.statistics = statistics;
   return initial;
 }

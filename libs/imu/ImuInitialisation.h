@@ -18,7 +18,6 @@ struct StandstillOptions
   double max_slow_share = 0.3;
   double max_mean_gyro_deg = 2.0;
   double max_gravity_error = 0.5;
-  double accel_bias_sigma = 0.05;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -36,7 +35,6 @@ struct StandstillOptions
           Field{"max_mean_gyro_deg", "deg/s", "a larger mean rate is a turn, not a bias", above(0)});
     visit(o.max_gravity_error,
           Field{"max_gravity_error", "m/s2", "of the mean accelerometer's length against 9.80665", above(0)});
-    visit(o.accel_bias_sigma, Field{"accel_bias_sigma", "m/s2", "what the accelerometer's bias may be", above(0)});
   }
 };
 
@@ -70,15 +68,15 @@ ImuStatistics statisticsOf(const std::vector<ImuSample>&);
 /**
  * From the last `duration` of the samples; nothing if they are fewer or not at rest. The gyro bias is the mean rate.
  * Of the accelerometer's bias only the part along gravity shows, as |mean| - 9.80665, and is taken (it includes what
- * local gravity differs from standard gravity, at most 0.03 m/s2); across it is left at zero, and tilts the map by
- * bias / gravity. Throws std::invalid_argument if stamps do not increase.
+ * local gravity differs from standard gravity, at most 0.03 m/s2); across it is left at zero, with `accel_bias_sigma`
+ * (m/s2), and tilts the map by bias / gravity. Throws std::invalid_argument if stamps do not increase.
  */
 std::optional<ImuInitialisation> initialiseAtRest(const std::vector<ImuSample>&, const Rigid& body_T_imu,
-                                                  const StandstillOptions&);
+                                                  const StandstillOptions&, double accel_bias_sigma = 0.05);
 
 /**
  * For a start while moving or on too few samples: up is where the mean accelerometer points, biases zero, velocity
  * zero with a wide covariance, at_rest false. Throws std::invalid_argument if there is no sample or no specific force.
  */
-ImuInitialisation gravityOnly(const std::vector<ImuSample>&, const Rigid& body_T_imu, const StandstillOptions&);
+ImuInitialisation gravityOnly(const std::vector<ImuSample>&, const Rigid& body_T_imu, double accel_bias_sigma = 0.05);
 }  // namespace scanloom

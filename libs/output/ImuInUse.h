@@ -20,6 +20,7 @@ class ImuInUse
   ImuInUse(const SensorInput&, const std::string& wanted, Duration delay);
 
   Rigid body_T_imu() const { return body_T_imu_; }
+  bool insideLidar() const { return sensor_ != SensorImu::kBody; }
 
   /** "body" or the name of a lidar. */
   std::string name() const { return nameOf(sensor_); }

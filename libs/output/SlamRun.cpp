@@ -109,7 +109,8 @@ class SlamRun
       lidars_(input.header().lidars),
       coasts_(settings.slam.constant_motion),
       imu_(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms)),
-      slam_(settings, imu_.body_T_imu(), positionsOf(lidars_), boxesOf(settings.crop, lidars_)),
+      settings_(settings),
+      slam_(settingsInUse(), imu_.body_T_imu(), positionsOf(lidars_), boxesOf(settings.crop, lidars_)),
       motion_(imu_.body_T_imu()),
       watch_(imu_.body_T_imu(), warn)
   {
@@ -163,6 +164,15 @@ class SlamRun
   }
 
  private:
+  const ImuNoise& noise() const { return imu_.insideLidar() ? settings_.lidar_imu : settings_.imu; }
+
+  SlamSettings settingsInUse() const
+  {
+    SlamSettings in_use = settings_;
+    in_use.imu = noise();
+    return in_use;
+  }
+
   void take(const SensorImu& read)
   {
     const std::optional<ImuSample> sample = imu_.take(read);
@@ -184,9 +194,9 @@ class SlamRun
     const std::string silent = imu_.name();
     if (!imu_.changeIfSilent(now)) return;
     ++imu_changes_;
-    warn_(fmt::format("the IMU '{}' is silent: '{}' goes on, by the same [imu_noise]", silent, imu_.name()));
+    warn_(fmt::format("the IMU '{}' is silent: '{}' goes on", silent, imu_.name()));
     watch_.change(imu_.body_T_imu());
-    slam_.changeImu(imu_.body_T_imu(), imu_.recent());
+    slam_.changeImu(imu_.body_T_imu(), noise(), imu_.recent());
   }
 
   void keep(const std::vector<StateEstimate>& estimates)
@@ -207,6 +217,7 @@ class SlamRun
   const std::vector<RecordedLidar>& lidars_;
   bool coasts_;
   ImuInUse imu_;
+  SlamSettings settings_;
   LidarInertialSlam slam_;
   ConstantMotion motion_;
   WatchedImu watch_;

@@ -38,12 +38,13 @@ void LidarInertialSlam::addImu(const ImuSample& sample)
   if (!imu_.add(sample)) ++refused_imu_samples_;
 }
 
-void LidarInertialSlam::changeImu(const Rigid& body_T_imu, const std::vector<ImuSample>& samples)
+void LidarInertialSlam::changeImu(const Rigid& body_T_imu, const ImuNoise& noise, const std::vector<ImuSample>& samples)
 {
   const Rigid old_T_new = imu_T_body_ * body_T_imu;
   const Rigid map_T_local = smoother_ ? this->map_T_local() : Rigid::identity();
   body_T_imu_ = body_T_imu;
   imu_T_body_ = body_T_imu.inverse();
+  settings_.imu = noise;
   imu_ = ImuBuffer();
   for (const ImuSample& sample : samples) addImu(sample);
   if (!smoother_) return;
@@ -78,7 +79,7 @@ Matrix15d LidarInertialSlam::covarianceAt(const Rigid& imu_T_other) const
   covariance.diagonal().segment<3>(3).array() += kTilt * kTilt;
   covariance.diagonal().segment<3>(6).array() += kVelocity * kVelocity;
   covariance.diagonal().segment<3>(9).setConstant(kGyroBias * kGyroBias);
-  covariance.diagonal().segment<3>(12).setConstant(std::pow(settings_.start.accel_bias_sigma, 2));
+  covariance.diagonal().segment<3>(12).setConstant(std::pow(settings_.imu.accel_bias_sigma, 2));
   return covariance;
 }
 
@@ -144,10 +145,11 @@ bool LidarInertialSlam::start(bool input_ended)
   const Timestamp to = std::min(enough, std::max(imu_.samples().back().stamp, waiting_.front().end()));
   const std::vector<ImuSample> samples = imu_.between(first, to);
   requireGravity(samples, body_T_imu_);
-  std::optional<ImuInitialisation> initial = initialiseAtRest(samples, body_T_imu_, settings_.start);
+  std::optional<ImuInitialisation> initial =
+      initialiseAtRest(samples, body_T_imu_, settings_.start, settings_.imu.accel_bias_sigma);
   if (!initial)
   {
-    initial = gravityOnly(samples, body_T_imu_, settings_.start);
+    initial = gravityOnly(samples, body_T_imu_, settings_.imu.accel_bias_sigma);
     initial->state.stamp = first;
     initial->state.velocity = velocityOfFirstScans(*initial);
     initialising_until_ = enough;

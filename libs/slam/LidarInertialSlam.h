@@ -34,7 +34,7 @@ class LidarInertialSlam
    * Another IMU, elsewhere in the body, from the newest state on; `samples` are its own so far and reach back to that
    * state. The map stays, the biases are unknown again.
    */
-  void changeImu(const Rigid& body_T_imu, const std::vector<ImuSample>& samples);
+  void changeImu(const Rigid& body_T_imu, const ImuNoise&, const std::vector<ImuSample>& samples);
 
   /** The estimates that became possible (throws what requireGravity() does at the start): a scan waits until the IMU
    * covers it, the first ones until the start is known.

@@ -33,9 +33,10 @@ struct SlamOptions
     visit(o.every_nth, Field{"every_nth", "", "only every N-th scan is used; the IMU always is", atLeast(1)});
     visit(
         o.imu,
-        Field{"imu", "",
-              "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first lidar's, and "
-              "another one where that falls silent"});
+        Field{
+            "imu", "",
+            "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first lidar's, and "
+            "another one where that falls silent"});
     visit(
         o.constant_motion,
         Field{"constant_motion", "",
@@ -67,6 +68,7 @@ struct SlamSettings
   SlamOptions slam;
   StandstillOptions start;
   ImuNoise imu;
+  ImuNoise lidar_imu = insideLidar();
   CropOptions crop;
   NdtOptions scan_cells = cells(2.5);
   NdtOptions fine_cells = cells(1.0);
@@ -82,7 +84,8 @@ struct SlamSettings
   {
     visit(s.slam, Section{"slam", "lidar-inertial localisation"});
     visit(s.start, Section{"start", "the first attitude and gyro bias, from standstill"});
-    visit(s.imu, Section{"imu_noise", "how far the IMU is trusted"});
+    visit(s.imu, Section{"imu_noise", "how far the body's IMU is trusted"});
+    visit(s.lidar_imu, Section{"lidar_imu_noise", "the same of an IMU inside a lidar, where it is the one in use"});
     visit(s.crop, Section{"crop", "the machine's own points, and the ranges that are used"});
     visit(s.scan_cells, Section{"scan_cells", "NDT cells of a scan for the rough alignment"});
     visit(s.fine_cells, Section{"fine_cells", "NDT cells of a scan for the fine alignment"});
@@ -95,6 +98,17 @@ struct SlamSettings
   }
 
  private:
+  /** A consumer's chip, as Ouster's are (assumed). */
+  static ImuNoise insideLidar()
+  {
+    ImuNoise noise;
+    noise.gyro_noise_deg = 0.015;
+    noise.accel_noise = 2.5e-3;
+    noise.gyro_bias_walk_deg = 1e-3;
+    noise.accel_bias_walk = 5e-4;
+    noise.accel_bias_sigma = 0.2;
+    return noise;
+  }
   static NdtOptions cells(double size)
   {
     NdtOptions options;

@@ -107,14 +107,14 @@ TEST(ImuInitialisation, refusesReadingsInUnitsOfG)
 TEST(ImuInitialisation, covarianceCoversTiltByAnUnknownAccelerometerBias)
 {
   // The biases have six degrees of freedom; tilt and the IMU's swing about the body's origin follow from them.
-  const StandstillOptions options;
+  constexpr double kAccelBias = 0.07;  // m/s2
   Noise random(3);
   double nees = 0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run)
   {
-    const ImuBias bias{random.normal<3>(0.002), random.normal<3>(options.accel_bias_sigma)};
-    const auto start = initialiseAtRest(atRest(kTilted, bias, 0), kBodyFromImu, options);
+    const ImuBias bias{random.normal<3>(0.002), random.normal<3>(kAccelBias)};
+    const auto start = initialiseAtRest(atRest(kTilted, bias, 0), kBodyFromImu, {}, kAccelBias);
     ASSERT_TRUE(start);
     NavState truth = start->state;
     truth.map_T_imu = kTilted * kBodyFromImu;
@@ -132,7 +132,7 @@ TEST(ImuInitialisation, hasGravityFromAFewSamplesOnTheMove)
 {
   const AnalyticDrive drive;
   const auto samples = drive.samples(Timestamp{1s}, Timestamp{1300ms}, 10ms);
-  const ImuInitialisation start = gravityOnly(samples, Rigid::identity(), {});
+  const ImuInitialisation start = gravityOnly(samples, Rigid::identity());
   EXPECT_FALSE(start.at_rest);
   EXPECT_EQ(start.state.bias.gyro.norm(), 0);
   const double tilt = tiltBetween(start.state, drive.stateAt(start.state.stamp).map_T_imu);
@@ -142,8 +142,8 @@ TEST(ImuInitialisation, hasGravityFromAFewSamplesOnTheMove)
 
 TEST(ImuInitialisation, needsAForceToTellUp)
 {
-  EXPECT_THROW(gravityOnly({}, kBodyFromImu, {}), std::invalid_argument);
-  EXPECT_THROW(gravityOnly({ImuSample{}}, kBodyFromImu, {}), std::invalid_argument);
+  EXPECT_THROW(gravityOnly({}, kBodyFromImu), std::invalid_argument);
+  EXPECT_THROW(gravityOnly({ImuSample{}}, kBodyFromImu), std::invalid_argument);
 }
 
 TEST(ImuInitialisation, tellsTheStandstillOfARecordingFromItsDrive)

@@ -262,7 +262,7 @@ TEST(LidarInertialSlam, goesOnWithAnotherImuElsewhereWhoseBiasIsNotKnown)
     }
     if (!changed && start >= Timestamp{8500ms})
     {
-      slam.changeImu(body_T_other, other);
+      slam.changeImu(body_T_other, {}, other);
       changed = true;
     }
     for (StateEstimate& e : slam.addScan(stand.scanAt(start, [&](Timestamp t) { return machine.bodyAt(t); })))
