@@ -1,7 +1,9 @@
 #include "dataset/DeskewClouds.h"
 
 #include "dataset/CloudObservation.h"
+#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
+#include "output/SecondsText.h"
 #include "preprocessing/Deskew.h"
 
 #include <fmt/format.h>
@@ -10,6 +12,58 @@
 
 namespace scanloom
 {
+namespace
+{
+std::string spanText(Timestamp first, Timestamp last)
+{
+  return fmt::format("{} s to {} s", secondsText(first), secondsText(last));
+}
+
+class TrajectoryDeskew
+{
+ public:
+  TrajectoryDeskew(Trajectory trajectory, std::optional<RecordingHeader> header)
+    : trajectory_(std::move(trajectory)), header_(std::move(header))
+  {
+    if (trajectory_.empty()) throw std::invalid_argument("the trajectory holds no pose");
+  }
+
+  Observations operator()(const ObservationPtr& observation)
+  {
+    if (!observation) return finish();
+    const auto cloud = cloudIn(observation);
+    if (!cloud) return {observation};
+    const auto points = deskewed(*cloud, trajectory_, header_);
+    if (points)
+      ++deskewed_;
+    else
+      passOver(fromMrpt(cloud->timestamp));
+    return points ? Observations{withPositions(*cloud, *points)} : Observations{};
+  }
+
+ private:
+  void passOver(Timestamp stamp)
+  {
+    if (not_covered_++ == 0) first_ = stamp;
+    last_ = stamp;
+  }
+
+  Observations finish() const
+  {
+    if (deskewed_ == 0 && not_covered_ > 0)
+      throw std::runtime_error(fmt::format(
+          "none of {} clouds ({}) lies within the trajectory ({}): are both of one recording and one clock?",
+          not_covered_, spanText(first_, last_), spanText(trajectory_.front().stamp, trajectory_.back().stamp)));
+    return {};
+  }
+
+  Trajectory trajectory_;
+  std::optional<RecordingHeader> header_;
+  std::uint64_t deskewed_ = 0, not_covered_ = 0;
+  Timestamp first_{}, last_{};
+};
+}  // namespace
+
 Scan timedScanOf(const mrpt::obs::CObservationPointCloud& cloud, const std::optional<RecordingHeader>& header)
 {
   if (!genericCloudOf(cloud).getPointsBufferRef_float_field("t"))
@@ -46,13 +100,6 @@ std::optional<PointCloud> deskewed(const mrpt::obs::CObservationPointCloud& clou
 
 RawlogOperation deskewClouds(const Trajectory& trajectory, const std::optional<RecordingHeader>& header)
 {
-  return [trajectory, header](const ObservationPtr& observation) -> Observations
-  {
-    if (!observation) return {};
-    const auto cloud = cloudIn(observation);
-    if (!cloud) return {observation};
-    const auto points = deskewed(*cloud, trajectory, header);
-    return points ? Observations{withPositions(*cloud, *points)} : Observations{};
-  };
+  return TrajectoryDeskew(trajectory, header);
 }
 }  // namespace scanloom

@@ -23,6 +23,9 @@ ObservationPtr withPositions(const mrpt::obs::CObservationPointCloud&, const Poi
 std::optional<PointCloud> deskewed(const mrpt::obs::CObservationPointCloud&, const Trajectory&,
                                    const std::optional<RecordingHeader>&);
 
-/** Clouds deskewed to their stamp; all fields stay, t too. Clouds where the trajectory does not reach go. */
+/**
+ * Clouds deskewed to their stamp; all fields stay, t too. Clouds where the trajectory does not reach go; at the end of
+ * input throws std::runtime_error if all did. Throws std::invalid_argument for a trajectory without poses.
+ */
 RawlogOperation deskewClouds(const Trajectory&, const std::optional<RecordingHeader>&);
 }  // namespace scanloom

@@ -1,5 +1,8 @@
 #include "mrpt_bridge/Conversions.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace scanloom
 {
 namespace
@@ -19,7 +22,10 @@ mrpt::Clock::time_point toMrpt(Timestamp stamp)
 
 Timestamp fromMrpt(mrpt::Clock::time_point time)
 {
-  return fromNanoseconds((time.time_since_epoch().count() - kTicksAtUnixEpoch) * kNanosecondsPerTick);
+  constexpr std::int64_t kMostTicks = std::numeric_limits<std::int64_t>::max() / kNanosecondsPerTick;
+  const auto ticks = std::clamp<std::int64_t>(time.time_since_epoch().count(), kTicksAtUnixEpoch - kMostTicks,
+                                              kTicksAtUnixEpoch + kMostTicks);
+  return fromNanoseconds((ticks - kTicksAtUnixEpoch) * kNanosecondsPerTick);
 }
 
 mrpt::poses::CPose3D toMrpt(const Rigid& pose)

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <utility>
+#include <vector>
 
 namespace scanloom
 {
@@ -19,6 +20,17 @@ GzipArchive GzipArchive::reading(const std::filesystem::path& path) { return {pa
 GzipArchive GzipArchive::writing(const std::filesystem::path& path, int level)
 {
   return {path, fmt::format("wb{}", level)};
+}
+
+std::uint64_t GzipArchive::uncompressedBytes(const std::filesystem::path& path)
+{
+  GzipArchive archive(path, "rb");
+  std::vector<char> buffer(1 << 18);
+  std::uint64_t bytes = 0;
+  for (int got; (got = gzread(archive.file_, buffer.data(), static_cast<unsigned>(buffer.size()))) != 0; bytes += got)
+    if (got < 0) archive.fail("the compressed data is damaged");
+  archive.atEnd();
+  return bytes;
 }
 
 GzipArchive::GzipArchive(const std::filesystem::path& path, const std::string& mode)

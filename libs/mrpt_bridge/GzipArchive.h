@@ -17,6 +17,8 @@ class GzipArchive : public mrpt::serialization::CArchive
   static GzipArchive reading(const std::filesystem::path&);
   /** Level 0 (stored) to 9. */
   static GzipArchive writing(const std::filesystem::path&, int level);
+  /** Reads it to the end. Throws std::runtime_error if it can't be opened, is cut short or damaged. */
+  static std::uint64_t uncompressedBytes(const std::filesystem::path&);
 
   GzipArchive(GzipArchive&&) noexcept;
   GzipArchive& operator=(GzipArchive&&) = delete;

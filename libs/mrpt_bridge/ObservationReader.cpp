@@ -1,5 +1,6 @@
 #include "mrpt_bridge/ObservationReader.h"
 
+#include "mrpt_bridge/MrptMessage.h"
 #include "mrpt_bridge/registerClasses.h"
 
 #include <fmt/format.h>
@@ -7,18 +8,6 @@
 
 namespace scanloom
 {
-namespace
-{
-/** MRPT puts source file, line and a call stack around its messages: the first line of the innermost is the message. */
-std::string messageOf(const std::exception& e)
-{
-  const std::string what = e.what();
-  const auto message = what.find("Message: ");
-  const auto start = message == std::string::npos ? 0 : what.find_first_not_of(' ', message + 9);
-  return what.substr(start, what.find('\n', start) - start);
-}
-}  // namespace
-
 ObservationReader::ObservationReader(const std::filesystem::path& path) : archive_(GzipArchive::reading(path))
 {
   registerClasses();

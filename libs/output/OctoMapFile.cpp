@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <bitset>
 #include <cstdint>
 #include <fstream>
@@ -90,6 +91,26 @@ std::size_t nodesOfBinary(std::istream& file, unsigned depth = 0)
   return nodes;
 }
 
+/** @param visit takes a leaf's centre and how many voxels it has along an edge. */
+template <typename Visitor>
+void forEachOccupiedLeaf(const octomap::OcTree& tree, Visitor&& visit)
+{
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf)
+    if (tree.isNodeOccupied(*leaf)) visit(leaf.getCoordinate(), 1 << (tree.getTreeDepth() - leaf.getDepth()));
+}
+
+void requireListable(const octomap::OcTree& tree)
+{
+  const std::uint64_t voxels = occupiedVoxels(tree);
+  if (voxels <= kMostListedVoxels) return;
+  int largest = 0;
+  forEachOccupiedLeaf(tree, [&](const auto&, int along_edge) { largest = std::max(largest, along_edge); });
+  throw std::runtime_error(fmt::format(
+      "the map's occupied leaves stand for {} voxels of {} m, more than the {} that are listed one by one; the largest "
+      "is a cube of {:g} m: a coarser map, or a damaged one?",
+      voxels, tree.getResolution(), kMostListedVoxels, largest * tree.getResolution()));
+}
+
 void requireWritten(bool written, const std::filesystem::path& path)
 {
   if (!written) throw std::runtime_error(fmt::format("cannot write the OctoMap '{}'", path.string()));
@@ -143,18 +164,30 @@ void writeBinaryOctoMap(const std::filesystem::path& path, octomap::OcTree& tree
                   });
 }
 
+std::uint64_t occupiedVoxels(const octomap::OcTree& tree)
+{
+  std::uint64_t count = 0;
+  forEachOccupiedLeaf(tree,
+                      [&](const auto&, int along_edge)
+                      {
+                        const auto edge = static_cast<std::uint64_t>(along_edge);
+                        count += edge * edge * edge;
+                      });
+  return count;
+}
+
 void forEachOccupiedVoxel(const octomap::OcTree& tree, const std::function<void(const octomap::point3d&)>& visit)
 {
+  requireListable(tree);
   const double edge = tree.getResolution();
-  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf)
-  {
-    if (!tree.isNodeOccupied(*leaf)) continue;
-    const int voxels = 1 << (tree.getTreeDepth() - leaf.getDepth());  // along an edge
-    const auto offset = [&](int i) { return static_cast<float>((i - 0.5 * (voxels - 1)) * edge); };
-    for (int x = 0; x < voxels; ++x)
-      for (int y = 0; y < voxels; ++y)
-        for (int z = 0; z < voxels; ++z)
-          visit(leaf.getCoordinate() + octomap::point3d(offset(x), offset(y), offset(z)));
-  }
+  forEachOccupiedLeaf(tree,
+                      [&](const octomap::point3d& centre, int voxels)
+                      {
+                        const auto offset = [&](int i) { return static_cast<float>((i - 0.5 * (voxels - 1)) * edge); };
+                        for (int x = 0; x < voxels; ++x)
+                          for (int y = 0; y < voxels; ++y)
+                            for (int z = 0; z < voxels; ++z)
+                              visit(centre + octomap::point3d(offset(x), offset(y), offset(z)));
+                      });
 }
 }  // namespace scanloom

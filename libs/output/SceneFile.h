@@ -22,7 +22,7 @@ class SceneBuilder
  public:
   void addPoints(const std::vector<Eigen::Vector3f>&);
   void addKeyframe(const Keyframe&);
-  void addOccupied(const octomap::OcTree&);  // the voxels' centres
+  void addOccupied(const octomap::OcTree&);  // the voxels' centres, kMostListedVoxels at most
   void addPath(const Trajectory&);
 
   /**

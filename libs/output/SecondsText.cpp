@@ -12,7 +12,7 @@ namespace scanloom
 namespace
 {
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-constexpr std::int64_t kMostSeconds = 9'000'000'000;  // what 64 bits of ns hold
+constexpr std::int64_t kMostSeconds = kFarthestStamp.count() / kNanosecondsPerSecond;
 constexpr std::size_t kDecimals = 9;
 
 std::optional<std::int64_t> parseDigits(const std::string& text)

@@ -7,14 +7,20 @@
 #include <memory>
 #include <vector>
 
+namespace mrpt::obs
+{
+class CObservationPointCloud;
+}
+
 namespace scanloom
 {
 class SimpleMapReader
 {
  public:
   /**
-   * Throws std::runtime_error with the path if it cannot be read or holds no cloud, or if a lidar (a label) moved on
-   * the body, which one origin of rays per lidar cannot express.
+   * Throws std::runtime_error with the path if it cannot be read, is damaged or holds no cloud; with the keyframe's
+   * number, too, if a pose is none or farther than 1e6 m, or if a lidar (a label) moved on the body, which one origin
+   * of rays per lidar cannot express.
    */
   explicit SimpleMapReader(const std::filesystem::path&);
   ~SimpleMapReader();
@@ -23,11 +29,15 @@ class SimpleMapReader
   const std::vector<MountedLidar>& lidars() const { return lidars_; }
   std::size_t size() const;
 
-  /** In the body frame, with intensity and sensor_id: a .simplemap of ours holds no more. */
+  /** In the body frame, with intensity and sensor_id: a .simplemap of ours holds no more. Without points that are NaN.
+   */
   Keyframe keyframe(std::size_t index) const;
 
  private:
+  void addLidarOf(const mrpt::obs::CObservationPointCloud&);
+
   std::unique_ptr<mrpt::maps::CSimpleMap> map_;
+  std::vector<Rigid> map_T_body_;
   std::vector<MountedLidar> lidars_;
 };
 }  // namespace scanloom

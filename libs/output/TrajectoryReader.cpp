@@ -70,6 +70,8 @@ StampedPose parseEuroc(std::string line)
   Eigen::Quaterniond q;
   if (!(words >> stamp >> t.x() >> t.y() >> t.z() >> q.w() >> q.x() >> q.y() >> q.z())) throw mistake();
   if (std::abs(q.norm() - 1.0) > 1e-3 || !t.allFinite()) throw mistake();
+  if (stamp <= -kFarthestStamp.count() || stamp >= kFarthestStamp.count())
+    throw std::invalid_argument(fmt::format("stamp {} ns is not between 1827 and 2112", stamp));
   return {fromNanoseconds(stamp), Rigid{q.normalized(), t}};
 }
 

@@ -9,7 +9,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
 
 namespace scanloom
 {
@@ -47,21 +46,13 @@ void putFaces(std::ostream& file, std::int32_t first_corner)
     for (const std::int32_t corner : face) put(file, first_corner + corner);
   }
 }
-
-std::size_t occupiedVoxels(const octomap::OcTree& tree)
-{
-  std::size_t count = 0;
-  forEachOccupiedVoxel(tree, [&](const octomap::point3d&) { ++count; });
-  return count;
-}
 }  // namespace
 
 std::size_t writeVoxelPly(const std::filesystem::path& path, const octomap::OcTree& tree, VoxelShape shape)
 {
   const bool cubes = shape == VoxelShape::Cubes;
   const std::size_t voxels = occupiedVoxels(tree);
-  if (cubes && voxels > std::numeric_limits<std::int32_t>::max() / kCorners)
-    throw std::runtime_error("too many voxels for faces, whose corners PLY counts with 32 bits: write their centres");
+  static_assert(kMostListedVoxels * kCorners <= std::numeric_limits<std::int32_t>::max(), "faces number their corners");
 
   OutputFile file(path);
   fmt::print(file.stream(),

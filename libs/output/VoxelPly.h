@@ -11,6 +11,9 @@ enum class VoxelShape
   Cubes,    // eight vertices and six faces each, 198 bytes
 };
 
-/** The occupied voxels as binary PLY. @return how many. Throws std::runtime_error if it cannot be written. */
+/**
+ * The occupied voxels as binary PLY. @return how many. Throws std::runtime_error if it cannot be written, or for more
+ * than kMostListedVoxels.
+ */
 std::size_t writeVoxelPly(const std::filesystem::path&, const octomap::OcTree&, VoxelShape);
 }  // namespace scanloom

@@ -159,6 +159,20 @@ TEST_F(Edit, deskewsAlongTrajectoriesOfAllThreeFormats)
   }
 }
 
+TEST_F(Edit, aTrajectoryThatCoversNoScanIsAnErrorThatNamesBothTimes)
+{
+  std::ofstream(folder / "other.tum") << "1600000000 0 0 0 0 0 0 1\n1600000100 2.5 0 0 0 0 0 1\n";
+  const Ended ended = edit(files + "--deskew " + (folder / "other.tum").string());
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_THAT(ended.output, HasSubstr("none of 4 clouds (1700000000.0"));
+  EXPECT_THAT(ended.output, HasSubstr("the trajectory (1600000000.000000000 s to 1600000100.000000000 s)"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+
+  std::ofstream(folder / "empty.tum") << "# stamp x y z qx qy qz qw\n";
+  EXPECT_NE(edit(files + "--deskew " + (folder / "empty.tum").string()).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST_F(Edit, capturesGiveTheSameBytesAsRecordDoes)
 {
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");

@@ -210,5 +210,17 @@ TEST_F(Trajectories, areNotReplacedUnaskedNorMadeIntoMaps)
   EXPECT_EQ(scanloomRuns("map -i " + write("empty.tum", "# none\n") + " -o " + name("t.csv")).status, 1);
 }
 
+TEST_F(Map, refusesToListAHugeLeafAndSaysHowHuge)
+{
+  std::ofstream(name("huge.bt"), std::ios::binary) << "# Octomap OcTree binary file\nid OcTree\nsize 2\nres 0.1\ndata\n"
+                                                   << '\2' << '\0';
+  for (const char* output : {"m.ply", "m.3Dscene"})
+  {
+    const Ended ended = scanloomRuns("map -i " + name("huge.bt") + " -o " + name(output));
+    EXPECT_EQ(ended.status, 1) << ended.output;
+    EXPECT_THAT(ended.output, HasSubstr("35184372088832 voxels"));
+    EXPECT_FALSE(std::filesystem::exists(name(output)));
+  }
+}
 }  // namespace
 }  // namespace scanloom

@@ -1,14 +1,10 @@
 /** What both kinds of capture files have in common for a fuzz target. */
 #pragma once
-#include "require.h"
+#include "MemoryFile.h"
 #include "source/CaptureReader.h"
-
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <array>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace scanloom
@@ -33,12 +29,10 @@ inline Bytes takeRecord(Bytes& input)
 /** An exception that says what is wrong with the file, or datagrams and counters that agree. */
 inline void readCapture(const std::vector<std::uint8_t>& file)
 {
-  static const int memory = memfd_create("capture", 0);  // a file without a disk
-  require(memory >= 0 && ftruncate(memory, 0) == 0);
-  require(pwrite(memory, file.data(), file.size(), 0) == static_cast<ssize_t>(file.size()));
+  static const MemoryFile memory;
   try
   {
-    CaptureReader reader("/proc/self/fd/" + std::to_string(memory));
+    CaptureReader reader(memory.holding(file));
     std::uint64_t delivered = 0;
     for (Datagram datagram; reader.next(datagram);) ++delivered;
     const CaptureCounters c = reader.counters();

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 
 namespace scanloom
@@ -129,6 +130,45 @@ TEST_F(OctoMapFile, cubesHaveFacesThatLookOutwards)
     volume += corner(0).dot(corner(1).cross(corner(2))) / 6 + corner(0).dot(corner(2).cross(corner(3))) / 6;
   }
   EXPECT_NEAR(volume, 10 * 0.125, 1e-3);
+}
+
+/** As a damaged byte makes it: the root's child in a .bt is an occupied leaf of 3276.8 m. */
+struct HugeLeaf : testing::Test
+{
+  TemporaryFolder folder;
+  std::filesystem::path path = folder / "huge.bt";
+
+  HugeLeaf()
+  {
+    constexpr char kFirstChildIsOccupied = 2;
+    std::ofstream file(path, std::ios::binary);
+    file << "# Octomap OcTree binary file\nid OcTree\nsize 2\nres 0.1\ndata\n" << kFirstChildIsOccupied << '\0';
+  }
+};
+
+TEST_F(HugeLeaf, isOneLeafToOctomapAndHasTheVolumeOfAllItsVoxels)
+{
+  octomap::OcTree stock(path.string());
+  ASSERT_EQ(stock.size(), 2U);
+  ASSERT_TRUE(stock.isNodeOccupied(*stock.begin_leafs()));
+  EXPECT_DOUBLE_EQ(static_cast<double>(occupiedVoxels(*readOctoMap(path))),
+                   std::pow(stock.begin_leafs().getSize() / 0.1, 3));
+}
+
+TEST_F(HugeLeaf, isNotListedVoxelByVoxel)
+{
+  const auto tree = readOctoMap(path);
+  for (const VoxelShape shape : {VoxelShape::Centres, VoxelShape::Cubes}) try
+    {
+      writeVoxelPly(folder / "m.ply", *tree, shape);
+      FAIL() << "35184372088832 voxels were written";
+    }
+    catch (const std::runtime_error& error)
+    {
+      EXPECT_THAT(error.what(), testing::HasSubstr("35184372088832 voxels of 0.1 m"));
+      EXPECT_THAT(error.what(), testing::HasSubstr("a cube of 3276.8 m"));
+    }
+  EXPECT_FALSE(std::filesystem::exists(folder / "m.ply"));
 }
 }  // namespace
 }  // namespace scanloom

@@ -100,5 +100,16 @@ TEST_F(ForeignTrajectories, nameFileAndLineOfWhatIsWrong)
   write("01.txt", "1 0 0 4 0 1 0 5 0 0 1 6\n");
   EXPECT_THAT(messageOf([&] { readTrajectory(kitti); }), testing::HasSubstr("1 poses, but 2 stamps"));
 }
+
+/** Found by output_trajectory_fuzz: such poses could be read, but neither written as TUM nor interpolated. */
+TEST_F(ForeignTrajectories, stampsWhoseDifferenceOverflowsAreRefused)
+{
+  const std::string pose = ",1,2,3,1,0,0,0\n";
+  EXPECT_THROW(readTrajectory(write("late.csv", "9223372036854775807" + pose)), std::invalid_argument);
+  EXPECT_THROW(readEuroc(write("early.csv", "-9223372036854775807" + pose)), std::invalid_argument);
+  EXPECT_THROW(readTrajectory(write("both.tum", "-8999999999 1 2 3 0 0 0 1\n8999999999 1 2 3 0 0 0 1\n")),
+               std::invalid_argument);
+  EXPECT_EQ(readTrajectory(write("2111.csv", "4449999999999999999" + pose)).size(), 1U);
+}
 }  // namespace
 }  // namespace scanloom

@@ -1,0 +1,27 @@
+#include "mrpt_bridge/Conversions.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace scanloom
+{
+namespace
+{
+TEST(Conversions, agreeWithMrptAboutAnInstant)
+{
+  const mrpt::Clock::time_point time = mrpt::Clock::fromDouble(1'750'000'000.25);
+  EXPECT_EQ(fromMrpt(time), fromNanoseconds(1'750'000'000'250'000'000));
+  EXPECT_EQ(toMrpt(fromMrpt(time)), time);
+}
+
+TEST(Conversions, takeTheNearestInstantWhereNanosecondsEnd)
+{
+  const auto of = [](std::int64_t ticks) { return fromMrpt(mrpt::Clock::time_point(mrpt::Clock::duration(ticks))); };
+  using Limits = std::numeric_limits<std::int64_t>;
+  EXPECT_LT(of(0), fromNanoseconds(-9'000'000'000'000'000'000)) << "MRPT's invalid stamp: 1601";
+  EXPECT_LT(of(Limits::min()), fromNanoseconds(-9'000'000'000'000'000'000));
+  EXPECT_GT(of(Limits::max()), fromNanoseconds(9'000'000'000'000'000'000));
+}
+}  // namespace
+}  // namespace scanloom
