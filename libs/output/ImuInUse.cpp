@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace scanloom
 {
 namespace
 {
-constexpr Duration kPatience = 500ms;  // a second before localisation is LOST
-constexpr Duration kKept = 5s;         // longer than any scan waits
+constexpr Duration kKept = 5s;  // longer than any scan waits
 }  // namespace
 
 ImuInUse::ImuInUse(const SensorInput& input, const std::string& wanted, Duration delay)
@@ -24,7 +24,7 @@ ImuInUse::ImuInUse(const SensorInput& input, const std::string& wanted, Duration
   const auto found = may_change_ ? names.begin() : std::find(names.begin(), names.end(), wanted);
   if (found == names.end())
     throw ConfigError(fmt::format("[slam] imu = {}: the input has no such IMU: {}", wanted, suggestion(wanted, names)));
-  sensor_ = first_ = sensors[static_cast<std::size_t>(found - names.begin())];
+  sensor_ = previous_ = first_ = sensors[static_cast<std::size_t>(found - names.begin())];
   body_T_imu_ = *input_.body_T_imu(sensor_);
 }
 
@@ -48,12 +48,13 @@ std::optional<ImuSample> ImuInUse::take(const SensorImu& read)
   std::deque<ImuSample>& kept = samples_[read.sensor];
   kept.push_back(read.sample);
   while (kept.back().stamp - kept.front().stamp > kKept) kept.pop_front();
-  return read.sensor == sensor_ ? std::optional(inTime(read.sample)) : std::nullopt;
+  return read.sensor == sensor_ ? std::optional(inTime(read)) : std::nullopt;
 }
 
-ImuSample ImuInUse::inTime(ImuSample sample) const
+ImuSample ImuInUse::inTime(const SensorImu& read) const
 {
-  if (sensor_ == first_) sample.stamp -= delay_;
+  ImuSample sample = read.sample;
+  if (read.sensor == first_) sample.stamp -= delay_;
   return sample;
 }
 
@@ -63,24 +64,30 @@ bool ImuInUse::silent(int sensor, Timestamp now) const
   return samples == samples_.end() || samples->second.back().stamp < now - kPatience;
 }
 
+bool ImuInUse::reaches(Timestamp t) const
+{
+  const auto samples = samples_.find(sensor_);
+  return samples != samples_.end() && inTime({sensor_, samples->second.back()}).stamp >= t;
+}
+
 bool ImuInUse::changeIfSilent(Timestamp now)
 {
   if (!may_change_ || !silent(sensor_, now)) return false;
   for (const int sensor : candidates())
   {
     if (silent(sensor, now)) continue;
-    sensor_ = sensor;
+    previous_ = std::exchange(sensor_, sensor);
     body_T_imu_ = *input_.body_T_imu(sensor);
     return true;
   }
   return false;
 }
 
-std::vector<ImuSample> ImuInUse::recent() const
+std::vector<ImuSample> ImuInUse::samplesOf(int sensor) const
 {
-  std::vector<ImuSample> recent;
-  if (const auto samples = samples_.find(sensor_); samples != samples_.end())
-    for (const ImuSample& sample : samples->second) recent.push_back(inTime(sample));
-  return recent;
+  std::vector<ImuSample> samples;
+  if (const auto found = samples_.find(sensor); found != samples_.end())
+    for (const ImuSample& sample : found->second) samples.push_back(inTime({sensor, sample}));
+  return samples;
 }
 }  // namespace scanloom

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <deque>
+
 namespace scanloom
 {
 namespace
@@ -128,6 +130,8 @@ class SlamRun
 
   void finish()
   {
+    ended_ = true;
+    release();
     keep(slam_.finish());
     watch_.look();
     warnOfTooMuch(slam_.cropped(), lidars_, warn_);
@@ -179,14 +183,31 @@ class SlamRun
     if (!sample) return;
     watch_.add(*sample);
     if (!motion_.known()) slam_.addImu(*sample);
+    release();
   }
 
   void take(Scan scan)
   {
     ++scans_;
-    if (!coasts_) changeImuIfSilent(scan.end());
-    for (const ImuSample& imagined : motion_.samplesUntil(scan.end())) slam_.addImu(imagined);
-    keep(slam_.addScan(std::move(scan)));
+    waiting_.push_back(std::move(scan));
+    release();
+  }
+
+  /** Not before it is clear which IMU a scan is to be seen with: readings that were held would bend the way there. */
+  void release()
+  {
+    while (!waiting_.empty())
+    {
+      const Timestamp end = waiting_.front().end(), now = waiting_.back().end();
+      if (!coasts_ && !imu_.reaches(end))
+      {
+        if (!ended_ && imu_.mayChange() && now - end < ImuInUse::kPatience) return;
+        changeImuIfSilent(now);
+      }
+      for (const ImuSample& imagined : motion_.samplesUntil(end)) slam_.addImu(imagined);
+      keep(slam_.addScan(std::move(waiting_.front())));
+      waiting_.pop_front();
+    }
   }
 
   void changeImuIfSilent(Timestamp now)
@@ -196,7 +217,7 @@ class SlamRun
     ++imu_changes_;
     warn_(fmt::format("the IMU '{}' is silent: '{}' goes on", silent, imu_.name()));
     watch_.change(imu_.body_T_imu());
-    slam_.changeImu(imu_.body_T_imu(), noise(), imu_.recent());
+    slam_.changeImu({imu_.body_T_imu(), noise(), imu_.recent(), imu_.previous()});
   }
 
   void keep(const std::vector<StateEstimate>& estimates)
@@ -223,6 +244,8 @@ class SlamRun
   WatchedImu watch_;
   StageTimes times_;
   HealthCounts health_;
+  std::deque<Scan> waiting_;  // for the IMU
+  bool ended_ = false;
   std::uint64_t scans_ = 0, imu_changes_ = 0;
 };
 }  // namespace

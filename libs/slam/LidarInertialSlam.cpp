@@ -1,6 +1,7 @@
 #include "slam/LidarInertialSlam.h"
 
 #include "core/So3.h"
+#include "imu/BiasBeside.h"
 #include "ndt/Rivals.h"
 #include "preprocessing/Deskew.h"
 #include "slam/ImuWatch.h"
@@ -38,35 +39,38 @@ void LidarInertialSlam::addImu(const ImuSample& sample)
   if (!imu_.add(sample)) ++refused_imu_samples_;
 }
 
-void LidarInertialSlam::changeImu(const Rigid& body_T_imu, const ImuNoise& noise, const std::vector<ImuSample>& samples)
+void LidarInertialSlam::changeImu(const ImuChange& change)
 {
-  const Rigid old_T_new = imu_T_body_ * body_T_imu;
+  const Rigid old_T_new = imu_T_body_ * change.body_T_imu;
   const Rigid map_T_local = smoother_ ? this->map_T_local() : Rigid::identity();
-  body_T_imu_ = body_T_imu;
-  imu_T_body_ = body_T_imu.inverse();
-  settings_.imu = noise;
+  body_T_imu_ = change.body_T_imu;
+  imu_T_body_ = body_T_imu_.inverse();
+  settings_.imu = change.noise;
   imu_ = ImuBuffer();
-  for (const ImuSample& sample : samples) addImu(sample);
+  for (const ImuSample& sample : change.samples) addImu(sample);
   if (!smoother_) return;
 
   NavState state = smoother_->newest();
-  const Eigen::Vector3d lever = old_T_new.rotation.conjugate() * old_T_new.translation;
+  const std::optional<ImuBias> bias = biasBeside(change.previous, state.bias, change.samples, old_T_new);
+  const Matrix15d covariance = covarianceAt(old_T_new, bias.has_value());
+  state.bias = bias.value_or(ImuBias{});
   const std::vector<ImuSample> then = imu_.between(state.stamp, state.stamp + 1ms);
-  const Eigen::Vector3d rate = then.empty() ? Eigen::Vector3d::Zero() : then.front().gyro;
+  const Eigen::Vector3d rate =
+      then.empty() ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(then.front().gyro - state.bias.gyro);
+  const Eigen::Vector3d lever = old_T_new.rotation.conjugate() * old_T_new.translation;
   state.map_T_imu = state.map_T_imu * old_T_new;
   state.velocity += state.map_T_imu.rotation * rate.cross(lever);
-  state.bias = {};
-  const Matrix15d covariance = covarianceAt(old_T_new);
   const bool anchored = smoother_->hasAnchor();
   smoother_.emplace(state, covariance, body_T_imu_, settings_.imu, settings_.smoother);
   if (anchored) anchorAt(map_T_local.inverse() * bodyAt(state));
 }
 
-/** Of the newest state, seen from an IMU of which nothing is known but where it is; the old one was silent for a while.
- */
-Matrix15d LidarInertialSlam::covarianceAt(const Rigid& imu_T_other) const
+/** Of the newest state, seen from the new IMU. The old one was silent for a while, and its last reading was held. */
+Matrix15d LidarInertialSlam::covarianceAt(const Rigid& imu_T_other, bool biases_known) const
 {
-  constexpr double kGyroBias = 0.02, kTilt = 0.005, kVelocity = 0.3;  // rad/s, rad, m/s
+  constexpr double kTilt = 0.005, kVelocity = 0.3;            // rad, m/s
+  constexpr double kGyroBias = 0.02, kKnownGyroBias = 0.001;  // rad/s
+  constexpr double kKnownAccelBias = 0.02;                    // m/s2: of the lever's accelerations
   const Eigen::Matrix3d other_R_imu = imu_T_other.rotation.conjugate().toRotationMatrix();
   Matrix6d pose = Matrix6d::Zero();
   pose.topLeftCorner<3, 3>() = pose.bottomRightCorner<3, 3>() = other_R_imu;
@@ -78,8 +82,11 @@ Matrix15d LidarInertialSlam::covarianceAt(const Rigid& imu_T_other) const
   covariance.block<3, 3>(6, 6) = known.block<3, 3>(6, 6);
   covariance.diagonal().segment<3>(3).array() += kTilt * kTilt;
   covariance.diagonal().segment<3>(6).array() += kVelocity * kVelocity;
-  covariance.diagonal().segment<3>(9).setConstant(kGyroBias * kGyroBias);
+  covariance.diagonal().segment<3>(9).setConstant(std::pow(biases_known ? kKnownGyroBias : kGyroBias, 2));
   covariance.diagonal().segment<3>(12).setConstant(std::pow(settings_.imu.accel_bias_sigma, 2));
+  if (biases_known)
+    covariance.bottomRightCorner<3, 3>() = other_R_imu * known.bottomRightCorner<3, 3>() * other_R_imu.transpose() +
+                                           std::pow(kKnownAccelBias, 2) * Eigen::Matrix3d::Identity();
   return covariance;
 }
 

@@ -16,6 +16,15 @@
 
 namespace scanloom
 {
+/** Another IMU, elsewhere in the body. */
+struct ImuChange
+{
+  Rigid body_T_imu;
+  ImuNoise noise;
+  std::vector<ImuSample> samples;   // its own so far, back to the newest state or farther
+  std::vector<ImuSample> previous;  // what the one before read at the same time, as far as it did
+};
+
 /**
  * The map frame: z up, origin and yaw those of the body at the start of the first scan. The same samples and scans in
  * the same order give the same bits.
@@ -30,11 +39,8 @@ class LidarInertialSlam
   /** In time order; a sample out of order or not finite is refused and counted. */
   void addImu(const ImuSample&);
 
-  /**
-   * Another IMU, elsewhere in the body, from the newest state on; `samples` are its own so far and reach back to that
-   * state. The map stays, the biases are unknown again.
-   */
-  void changeImu(const Rigid& body_T_imu, const ImuNoise&, const std::vector<ImuSample>& samples);
+  /** From the newest state on. The map stays, and so does what the old one told of the biases of the new one. */
+  void changeImu(const ImuChange&);
 
   /** The estimates that became possible (throws what requireGravity() does at the start): a scan waits until the IMU
    * covers it, the first ones until the start is known.
@@ -67,7 +73,7 @@ class LidarInertialSlam
   void addToSmoother(const RegistrationResult&);
   bool recover(const std::vector<View>&, StateEstimate&);
   void anchorAt(const Rigid& local_T_body);
-  Matrix15d covarianceAt(const Rigid& imu_T_other) const;
+  Matrix15d covarianceAt(const Rigid& imu_T_other, bool biases_known) const;
   void restartAt(const Rigid& map_T_body, const Matrix6d& covariance);
   void updateMap(PointCloud, const std::vector<View>&, StateEstimate&);
   void addKeyframe(PointCloud, const std::vector<View>&, StateEstimate&);

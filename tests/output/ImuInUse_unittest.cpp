@@ -67,21 +67,24 @@ TEST(ImuInUse, isRefusedWithTheOnesThereAre)
   EXPECT_THAT(messageOf({}, "auto"), testing::HasSubstr("no such IMU"));
 }
 
-TEST(ImuInUse, givesWayToAnotherAfterHalfASecondOfSilenceWithWhatThatSaidSinceThen)
+TEST(ImuInUse, givesWayToAnotherAfterAFifthOfASecondOfSilenceWithWhatThatSaidSinceThen)
 {
   const InputWithImus input({kLeft, kRight});
   ImuInUse imu(input, "auto", {});
   EXPECT_TRUE(imu.take(sampleAt(kLeft, 1s)));
-  for (const Duration t : {1s + 0ms, 1s + 400ms, 1s + 600ms}) EXPECT_FALSE(imu.take(sampleAt(kRight, t)));
+  for (const Duration t : {1s + 0ms, 1s + 100ms, 1s + 300ms}) EXPECT_FALSE(imu.take(sampleAt(kRight, t)));
 
-  EXPECT_FALSE(imu.changeIfSilent(Timestamp{1500ms}));
-  EXPECT_TRUE(imu.changeIfSilent(Timestamp{1600ms}));
+  EXPECT_TRUE(imu.reaches(Timestamp{1s}));
+  EXPECT_FALSE(imu.reaches(Timestamp{1001ms}));
+  EXPECT_FALSE(imu.changeIfSilent(Timestamp{1200ms}));
+  EXPECT_TRUE(imu.changeIfSilent(Timestamp{1300ms}));
 
   EXPECT_EQ(imu.name(), "right");
   EXPECT_EQ(imu.body_T_imu().translation.x(), kRight);
   EXPECT_EQ(imu.recent().size(), 3U);
-  EXPECT_TRUE(imu.take(sampleAt(kRight, 1700ms)));
-  EXPECT_FALSE(imu.changeIfSilent(Timestamp{1700ms})) << "the first one has not come back";
+  EXPECT_EQ(imu.previous().size(), 1U);
+  EXPECT_TRUE(imu.take(sampleAt(kRight, 1400ms)));
+  EXPECT_FALSE(imu.changeIfSilent(Timestamp{1400ms})) << "the first one has not come back";
 }
 
 TEST(ImuInUse, staysWithASilentOneIfNoOtherSpeaksOrItWasChosenByName)
