@@ -8,13 +8,6 @@ namespace scanloom
 {
 namespace
 {
-TEST(Conversions, agreeWithMrptAboutAnInstant)
-{
-  const mrpt::Clock::time_point time = mrpt::Clock::fromDouble(1'750'000'000.25);
-  EXPECT_EQ(fromMrpt(time), fromNanoseconds(1'750'000'000'250'000'000));
-  EXPECT_EQ(toMrpt(fromMrpt(time)), time);
-}
-
 TEST(Conversions, takeTheNearestInstantWhereNanosecondsEnd)
 {
   const auto of = [](std::int64_t ticks) { return fromMrpt(mrpt::Clock::time_point(mrpt::Clock::duration(ticks))); };
