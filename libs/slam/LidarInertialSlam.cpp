@@ -154,6 +154,7 @@ StateEstimate LidarInertialSlam::track(Scan scan)
   const NavState state = times_.measure("smoother", [&] { return smoother_->optimise(); });
 
   estimate.map_T_body = bodyAt(state);
+  estimate.covariance = smoother_->bodyCovarianceAfter(estimate.covariance);
   estimate.velocity = state.velocity;
   estimate.since_last = posesBetween(before, state, samples);
   estimate.health = healthOf(estimate);
@@ -204,9 +205,9 @@ std::vector<Rigid> LidarInertialSlam::bodyAtColumns(const Scan& scan, const NavS
  */
 void LidarInertialSlam::locate(const std::vector<View>& views, StateEstimate& estimate)
 {
+  estimate.covariance = times_.measure("smoother", [&] { return smoother_->newestBodyCovariance(); });
   if (local_map_.empty() || estimate.points == 0) return;
-  const PoseGuess guess(map_T_local().inverse() * bodyAt(smoother_->newest()),
-                        times_.measure("smoother", [&] { return smoother_->newestBodyCovariance(); }));
+  const PoseGuess guess(map_T_local().inverse() * bodyAt(smoother_->newest()), estimate.covariance);
   estimate.registration = registerScan(local_map_.ndt(), views, guess, settings_, times_);
   const RegistrationResult& registration = *estimate.registration;
   if (registration.outcome == Outcome::LowOverlap) return;

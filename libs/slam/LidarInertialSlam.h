@@ -29,12 +29,16 @@ class LidarInertialSlam
   /** In time order; a sample out of order or not finite is refused and counted. */
   void addImu(const ImuSample&);
 
-  /** The estimates that became possible (throws what requireGravity() does at the start): a scan waits until the IMU covers it, the first ones until the start is known.
+  /** The estimates that became possible (throws what requireGravity() does at the start): a scan waits until the IMU
+   * covers it, the first ones until the start is known.
    */
   std::vector<StateEstimate> addScan(Scan);
 
   /** No more input: what waits is processed with the samples there are. */
   std::vector<StateEstimate> finish();
+
+  /** The window of states, for whoever asks more of it than an estimate tells; none before the start. */
+  const std::optional<FixedLagSmoother>& smoother() const { return smoother_; }
 
   const StageTimes& times() const { return times_; }
   std::uint64_t refusedImuSamples() const { return refused_imu_samples_; }
