@@ -12,7 +12,9 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <deque>
 #include <map>
+#include <memory>
 
 namespace scanloom
 {
@@ -23,18 +25,18 @@ struct Arguments
   std::string stand = "sparse";
   int runs = 50;
   int first_seed = 1;
-  double duration = 18;
-  int every_nth = 1;
+  double duration = 15;
   int beams = 32, columns = 512;
   std::vector<std::string> lidars;
   std::vector<std::string> assignments;
+  std::vector<std::string> arms{"slam.every_nth=1", "slam.every_nth=15"};
   bool histograms = false;
 };
 
 struct Settings
 {
   SimulationSettings simulation;
-  SlamSettings slam;
+  std::vector<SlamSettings> arms;
   BatcherOptions batcher;
 };
 
@@ -47,12 +49,17 @@ Settings settingsOf(const Arguments& a)
   all.set(fmt::format("simulated_drive.duration={}", a.duration));
   all.set(fmt::format("simulated_lidars.lidar1_model=OS0-{}", a.beams));
   all.set(fmt::format("simulated_lidars.lidar1_mode={}x10", a.columns));
-  all.set(fmt::format("slam.every_nth={}", a.every_nth));
   for (const std::string& assignment : a.assignments) all.set(assignment);
   Schema known = schemaOf<SimulationSettings>();
   for (const SectionDescription& section : schemaOf<SlamSettings>()) known.push_back(section);
-  return {readSettings<SimulationSettings>(all, known), readSettings<SlamSettings>(all, known),
-          all.read<BatcherOptions>("lidars")};
+  Settings settings{readSettings<SimulationSettings>(all, known), {}, all.read<BatcherOptions>("lidars")};
+  for (const std::string& arm : a.arms)
+  {
+    Configuration of_arm = all;
+    for (const std::string& assignment : CLI::detail::split(arm, ',')) of_arm.set(assignment);
+    settings.arms.push_back(readSettings<SlamSettings>(of_arm, known));
+  }
+  return settings;
 }
 
 /** One estimate beside the truth. */
@@ -116,8 +123,9 @@ Sample poseSample(const Rigid& truth, const Rigid& estimate, const Matrix6d& cov
 class Truth
 {
  public:
+  /** The scene must outlive it. */
   Truth(const Scene& scene, const Rigid& body_T_imu, Timestamp first_scan_start)
-    : scene_(scene), body_T_imu_(body_T_imu)
+    : scene_(&scene), body_T_imu_(body_T_imu)
   {
     const Rigid start = motionAt(first_scan_start).world_T_body;
     const Rigid level = Rigid::fromXyzYawPitchRoll(start.translation.x(), start.translation.y(), start.translation.z(),
@@ -139,9 +147,9 @@ class Truth
   }
 
  private:
-  Motion motionAt(Timestamp stamp) const { return scene_.scenery.drive().at(scene_.span.secondsAt(stamp)); }
+  Motion motionAt(Timestamp stamp) const { return scene_->scenery.drive().at(scene_->span.secondsAt(stamp)); }
 
-  const Scene& scene_;
+  const Scene* scene_;
   Rigid body_T_imu_, map_T_world_;
 };
 
@@ -149,7 +157,10 @@ class Truth
 class Comparison
 {
  public:
-  Comparison(const Scene& scene, const Rigid& body_T_imu) : scene_(scene), body_T_imu_(body_T_imu) {}
+  Comparison(std::shared_ptr<const Scene> scene, const Rigid& body_T_imu)
+    : scene_(std::move(scene)), body_T_imu_(body_T_imu)
+  {
+  }
 
   void add(const StateEstimate& e, const FixedLagSmoother& smoother)
   {
@@ -171,7 +182,7 @@ class Comparison
   void begin(const StateEstimate& e, const FixedLagSmoother& smoother)
   {
     constexpr Duration kScan = 100ms;
-    truth_.emplace(scene_, body_T_imu_, e.stamp - kScan);
+    truth_.emplace(*scene_, body_T_imu_, e.stamp - kScan);
     first_ = {e.stamp, e.map_T_body};
     anchor_ = {smoother.anchor().stamp, e.map_T_body};
   }
@@ -211,7 +222,7 @@ class Comparison
     samples_[kTilt].push_back(sampleOf(tilt, turns.topLeftCorner<2, 2>(), tilt.norm() * 180 / M_PI));
   }
 
-  const Scene& scene_;
+  std::shared_ptr<const Scene> scene_;
   Rigid body_T_imu_;
   std::optional<Truth> truth_;
   std::optional<StampedPose> first_;
@@ -220,25 +231,26 @@ class Comparison
   bool lost_ = false;
 };
 
-/** Nothing if it was LOST: then only health is promised. */
-std::optional<Samples> drive(const Settings& settings, const std::vector<std::string>& lidars, std::uint64_t seed)
+/** A drive localised in all arms at once: to simulate it takes longer. */
+std::vector<Comparison> drive(const Settings& settings, const std::vector<std::string>& lidars, std::uint64_t seed)
 {
   const auto scene = std::make_shared<const Scene>(makeScene(settings.simulation, seed));
   const Rig rig = rigOf(*scene, settings.batcher, lidars);
   std::vector<Eigen::Vector3d> positions;
   for (const RigSensor& sensor : rig.sensors) positions.push_back(sensor.body_T_sensor.translation);
-  LidarInertialSlam slam(settings.slam, rig.body_T_imu, positions);
-  Comparison comparison(*scene, rig.body_T_imu);
+  std::deque<LidarInertialSlam> slams;
+  for (const SlamSettings& arm : settings.arms) slams.emplace_back(arm, rig.body_T_imu, positions);
+  std::vector<Comparison> comparisons(slams.size(), Comparison(scene, rig.body_T_imu));
   const auto input = makeSceneInput(scene, rig);
   while (std::optional<SensorEvent> event = input->next({}))
-  {
-    if (const auto* sample = std::get_if<SensorImu>(&*event); sample && sample->sensor == SensorImu::kBody)
-      slam.addImu(sample->sample);
-    if (auto* scan = std::get_if<Scan>(&*event))
-      for (const StateEstimate& e : slam.addScan(std::move(*scan))) comparison.add(e, *slam.smoother());
-  }
-  if (comparison.lost()) return std::nullopt;
-  return comparison.samples();
+    for (std::size_t arm = 0; arm < slams.size(); ++arm)
+    {
+      if (const auto* sample = std::get_if<SensorImu>(&*event); sample && sample->sensor == SensorImu::kBody)
+        slams[arm].addImu(sample->sample);
+      if (const auto* scan = std::get_if<Scan>(&*event))
+        for (const StateEstimate& e : slams[arm].addScan(*scan)) comparisons[arm].add(e, *slams[arm].smoother());
+    }
+  return comparisons;
 }
 
 double meanOf(const std::vector<double>& values)
@@ -310,21 +322,39 @@ void print(const std::vector<Samples>& runs, bool histograms)
   }
 }
 
+void printProgress(std::uint64_t seed, const std::string& arm, const Comparison& run)
+{
+  std::string means;
+  for (const auto& [what, samples] : run.samples())
+  {
+    std::vector<double> nees;
+    for (const Sample& sample : samples) nees.push_back(sample.nees);
+    means += fmt::format(" {:.3f}", meanOf(nees));
+  }
+  fmt::print(stderr, "seed {} {} {}{}\n", seed, arm, run.lost() ? "LOST" : "followed", means);
+}
+
 void run(const Arguments& arguments)
 {
   const Settings settings = settingsOf(arguments);
-  std::vector<Samples> runs;
+  std::vector<std::vector<Samples>> runs(
+      settings.arms.size());  // LOST ones are left out: health says so, no covariance
   for (int i = 0; i < arguments.runs; ++i)
   {
     const auto seed = static_cast<std::uint64_t>(arguments.first_seed + i);
-    std::optional<Samples> samples = drive(settings, arguments.lidars, seed);
-    fmt::print(stderr, "seed {}: {}\n", seed, samples ? "followed" : "LOST");
-    if (samples) runs.push_back(std::move(*samples));
+    const std::vector<Comparison> comparisons = drive(settings, arguments.lidars, seed);
+    for (std::size_t arm = 0; arm < runs.size(); ++arm)
+    {
+      printProgress(seed, arguments.arms[arm], comparisons[arm]);
+      if (!comparisons[arm].lost()) runs[arm].push_back(comparisons[arm].samples());
+    }
   }
-  fmt::print("{} drives of {} s, {}, every {}. scan; {} LOST, which are left out\n\n", arguments.runs,
-             arguments.duration, arguments.stand, arguments.every_nth,
-             static_cast<std::size_t>(arguments.runs) - runs.size());
-  if (!runs.empty()) print(runs, arguments.histograms);
+  for (std::size_t arm = 0; arm < runs.size(); ++arm)
+  {
+    fmt::print("\n{}: {} drives of {} s, {}; {} LOST, which are left out\n\n", arguments.stand, arguments.runs,
+               arguments.duration, arguments.arms[arm], static_cast<std::size_t>(arguments.runs) - runs[arm].size());
+    if (!runs[arm].empty()) print(runs[arm], arguments.histograms);
+  }
 }
 }  // namespace
 }  // namespace scanloom
@@ -337,7 +367,8 @@ int main(int argc, char** argv)
   app.add_option("--runs", a.runs, "each in a stand of its own")->check(CLI::PositiveNumber)->capture_default_str();
   app.add_option("--first-seed", a.first_seed)->capture_default_str();
   app.add_option("--duration", a.duration, "s, at rest at both ends")->capture_default_str();
-  app.add_option("--every-nth", a.every_nth)->check(CLI::PositiveNumber)->capture_default_str();
+  app.add_option("--arm", a.arms, "slam's section.key=value,..., compared on the same drives (repeatable)")
+      ->capture_default_str();
   app.add_option("--beams", a.beams)->capture_default_str();
   app.add_option("--columns", a.columns)->capture_default_str();
   app.add_option("--lidars", a.lidars, "left, right; all where none is named")->delimiter(',');
