@@ -167,17 +167,40 @@ Matrix6d FixedLagSmoother::newestBodyCovariance() const
   std::vector<StateBlocks> window = blocks();
   // A measurement of unit information whose Jacobian is that of the pose asked for.
   const std::size_t newest_index = states_.size() - 1, anchor_index = hasAnchor() ? indexOf(anchor_) : newest_index;
-  const Rigid map_T_body = newest().map_T_imu * body_T_imu_.inverse();
+  const Rigid map_T_body = bodyAt(newest());
   Factor pose{std::make_unique<PosePriorFactor>(map_T_body, Matrix6d::Identity(), body_T_imu_), {newest_index}};
   if (anchor_index != newest_index)
   {
-    const Rigid anchor_T_body = (anchor().map_T_imu * body_T_imu_.inverse()).inverse() * map_T_body;
+    const Rigid anchor_T_body = bodyAt(anchor()).inverse() * map_T_body;
     pose = {std::make_unique<RelativePoseFactor>(anchor_T_body, Matrix6d::Identity(), body_T_imu_),
             {anchor_index, newest_index}};
   }
   const LinearFactor seen = linearise(pose, window);
   return seen.jacobian * marginalCovariance(linearFactors(window), seen.states) * seen.jacobian.transpose();
 }
+
+Matrix6d FixedLagSmoother::bodyCovarianceAfter(const Matrix6d& before) const
+{
+  Matrix6d information = Matrix6d::Zero();
+  for (const LidarPose& l : lidar_poses_)
+    if (l.stamp == newest().stamp) information += informationOf(l);
+  const Matrix6d after = (Matrix6d::Identity() + before * information).partialPivLu().solve(before);
+  return 0.5 * (after + after.transpose());
+}
+
+/** About the newest body as it is now, with the weight that the robust loss leaves it. */
+Matrix6d FixedLagSmoother::informationOf(const LidarPose& l) const
+{
+  const Rigid map_T_reference = l.reference ? bodyAt(states_[indexOf(*l.reference)]) : Rigid::identity();
+  const Rigid reference_T_body = map_T_reference.inverse() * bodyAt(newest());
+  const Vector6d residual = boxMinus(reference_T_body, l.pose);
+  const Matrix6d by_step = boxMinusByStep(reference_T_body, l.pose);
+  const double norm = std::sqrt(residual.dot(l.information * residual));
+  const double weight = options_.huber > 0 && norm > options_.huber ? options_.huber / norm : 1;
+  return weight * by_step.transpose() * l.information * by_step;
+}
+
+Rigid FixedLagSmoother::bodyAt(const NavState& state) const { return state.map_T_imu * body_T_imu_.inverse(); }
 
 void FixedLagSmoother::anchorNewest() { anchor_ = newest().stamp; }
 

@@ -90,6 +90,12 @@ class FixedLagSmoother
   /** Of the newest body as seen from the anchor's, or from the map without an anchor; tangent of boxPlus at it. */
   Matrix6d newestBodyCovariance() const;
 
+  /**
+   * The same to first order and at next to no cost, from what newestBodyCovariance() was `before` the newest state had
+   * lidar poses, which must be relative to the anchor if there is one.
+   */
+  Matrix6d bodyCovarianceAfter(const Matrix6d& before) const;
+
   const SmootherReport& report() const { return report_; }
 
  private:
@@ -103,6 +109,8 @@ class FixedLagSmoother
 
   void forget(std::size_t index);
   void add(const LidarPose&);
+  Matrix6d informationOf(const LidarPose&) const;
+  Rigid bodyAt(const NavState&) const;
   std::vector<Factor> factors() const;
   std::vector<LinearFactor> linearFactors(std::vector<StateBlocks>& window) const;
   std::vector<StateBlocks> blocks() const;

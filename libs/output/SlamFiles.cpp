@@ -1,6 +1,7 @@
 #include "output/SlamFiles.h"
 
 #include <fmt/ostream.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -38,7 +39,7 @@ SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<Reco
     csv_(folder / "trajectory.csv")
 {
   csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
-                   "surprise,trusted,recovered\n";
+                   "surprise,trusted,recovered,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,sigma_rz\n";
   if (octomap) maps_.emplace(folder, lidars, *octomap);
 }
 
@@ -50,9 +51,11 @@ void SlamFiles::add(const StateEstimate& e)
 
   const RegistrationResult none;
   const RegistrationResult& r = e.registration ? *e.registration : none;
-  fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d}\n", nanoseconds(e.stamp),
-             toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap, r.score, r.iterations,
-             e.points, e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise, e.trusted, e.recovered);
+  const Vector6d sigma = e.covariance.diagonal().cwiseSqrt();
+  fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d},{:.3e}\n",
+             nanoseconds(e.stamp), toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap,
+             r.score, r.iterations, e.points, e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise,
+             e.trusted, e.recovered, fmt::join(sigma.begin(), sigma.end(), ","));
   for (TumWriter* writer : {&trajectory_, &trajectory_imu_}) writer->flush();
   csv_.stream().flush();
   if (maps_ && e.keyframe) maps_->add(*e.keyframe);

@@ -1,6 +1,7 @@
 #include "slam/LidarInertialSlam.h"
 
 #include "core/So3.h"
+#include "graph/PosePriorFactor.h"
 #include "imu/BiasBeside.h"
 #include "ndt/Rivals.h"
 #include "preprocessing/Deskew.h"
@@ -54,6 +55,7 @@ void LidarInertialSlam::changeImu(const ImuChange& change)
   const std::optional<ImuBias> bias = biasBeside(change.previous, state.bias, change.samples, old_T_new);
   const Matrix15d covariance = covarianceAt(old_T_new, bias.has_value());
   state.bias = bias.value_or(ImuBias{});
+  if (last_seen_) last_seen_->bias = state.bias;
   const std::vector<ImuSample> then = imu_.between(state.stamp, state.stamp + 1ms);
   const Eigen::Vector3d rate =
       then.empty() ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(then.front().gyro - state.bias.gyro);
@@ -202,6 +204,7 @@ StateEstimate LidarInertialSlam::track(Scan scan)
   const NavState state = times_.measure("smoother", [&] { return smoother_->optimise(); });
 
   estimate.map_T_body = bodyAt(state);
+  estimate.covariance = smoother_->bodyCovarianceAfter(estimate.covariance);
   estimate.velocity = state.velocity;
   estimate.since_last = posesBetween(before, state, samples);
   estimate.health = healthOf(estimate);
@@ -255,9 +258,9 @@ std::vector<Rigid> LidarInertialSlam::bodyAtColumns(const Scan& scan, const NavS
  */
 void LidarInertialSlam::locate(const std::vector<View>& views, StateEstimate& estimate)
 {
+  estimate.covariance = times_.measure("smoother", [&] { return smoother_->newestBodyCovariance(); });
   if (local_map_.empty() || estimate.points == 0) return;
-  const PoseGuess guess(map_T_local().inverse() * bodyAt(smoother_->newest()),
-                        times_.measure("smoother", [&] { return smoother_->newestBodyCovariance(); }));
+  const PoseGuess guess(map_T_local().inverse() * bodyAt(smoother_->newest()), estimate.covariance);
   estimate.registration = registerScan(local_map_.ndt(), views, guess, settings_, times_);
   const RegistrationResult& registration = *estimate.registration;
   if (registration.outcome == Outcome::LowOverlap) return;
@@ -307,39 +310,50 @@ bool LidarInertialSlam::recover(const std::vector<View>& views, StateEstimate& e
   tried_to_recover_ = estimate.stamp;
   tried_all_around_ = all_around;
 
-  const Rigid map_T_local = this->map_T_local();
   const double since = seconds(estimate.stamp - last_trusted_);
   const SearchArea area{
-      {(map_T_local.inverse() * estimate.map_T_body).rotation, last_seen_->target_T_source.translation},
+      {(map_T_local().inverse() * estimate.map_T_body).rotation, last_seen_->registration.target_T_source.translation},
       std::min(kFarthest, kSpeed * since),
       all_around ? 8 : 1};
   const auto found = times_.measure("recovery", [&] { return relocalise(local_map_.ndt(), views, area, settings_); });
-  if (!found || found->score > kAsGood * last_seen_->score) return false;  // scores are negative
+  if (!found || found->score > kAsGood * last_seen_->registration.score) return false;  // scores are negative
+  restartAt(found->target_T_source, covarianceWithin(area, *found));
   estimate.registration = found;
-  estimate.map_T_body = map_T_local * found->target_T_source;
+  estimate.map_T_body = bodyAt(smoother_->newest());
+  estimate.covariance = smoother_->newestBodyCovariance();
+  estimate.velocity = smoother_->newest().velocity;
   estimate.trusted = estimate.recovered = true;
   ++recoveries_;
   tried_to_recover_.reset();
-  restartAt(estimate.map_T_body, found->covariance);
   return true;
 }
 
-/** A new window from here. The local map stays where it lies in the map. */
-void LidarInertialSlam::restartAt(const Rigid& map_T_body, const Matrix6d& covariance)
+/**
+ * A new window from here. Map, local map and biases lie to each other as when the body was last seen: what the IMU
+ * said since, and registrations that contradicted it, would tilt them.
+ */
+void LidarInertialSlam::restartAt(const Rigid& local_T_body, const Matrix6d& covariance)
 {
   constexpr double kVelocity = 1;  // m/s: found, but not how fast it goes
-  const Rigid map_T_local = this->map_T_local();
+  const Rigid map_T_body = last_seen_->map_T_local * local_T_body;
+  const Eigen::Matrix3d body_R_map = map_T_body.rotation.conjugate().toRotationMatrix();
+  const double level = settings_.start.accel_bias_sigma / kGravity;  // rad: how well the map is
+  Matrix6d of_body = covariance;
+  of_body.bottomRightCorner<3, 3>() += level * level * body_R_map.leftCols<2>() * body_R_map.leftCols<2>().transpose();
+
+  const Matrix6d imu_by_body = bodyStepByImuStep(body_T_imu_);
   NavState state = smoother_->newest();
   Matrix15d around = smoother_->newestCovariance();
   around.topRows<9>().setZero();
   around.leftCols<9>().setZero();
-  around.topLeftCorner<6, 6>() = covariance;
+  around.topLeftCorner<6, 6>() = imu_by_body * of_body * imu_by_body.transpose();
   around.diagonal().segment<3>(6).setConstant(kVelocity * kVelocity);
   state.map_T_imu = map_T_body * body_T_imu_;
   state.velocity.setZero();
+  state.bias = last_seen_->bias;
   smoother_.emplace(state, around, body_T_imu_, settings_.imu, settings_.smoother);
   last_registered_.reset();
-  anchorAt(map_T_local.inverse() * map_T_body);
+  anchorAt(local_T_body);
 }
 
 void LidarInertialSlam::anchorAt(const Rigid& local_T_body)
@@ -359,6 +373,8 @@ void LidarInertialSlam::updateMap(PointCloud cloud, const std::vector<View>& vie
   {
     ++map_restarts_;
     local_map_.clear();
+    last_seen_.reset();
+    tried_to_recover_.reset();
     last_trusted_ = estimate.stamp;
   }
   const bool trusted = estimate.trusted && estimate.registration->outcome == Outcome::Converged;
@@ -393,7 +409,7 @@ Health LidarInertialSlam::healthOf(const StateEstimate& estimate)
   const bool opens_the_map = local_map_.empty() && estimate.points > 0;
   const bool trusted = opens_the_map || estimate.trusted;
   if (trusted) last_trusted_ = estimate.stamp;
-  if (estimate.trusted) last_seen_ = estimate.registration;
+  if (estimate.trusted) last_seen_ = {*estimate.registration, map_T_local(), smoother_->newest().bias};
   if (estimate.stamp - last_trusted_ > fromSeconds(settings_.slam.lost_after)) return Health::Lost;
   if (initialising_until_ && estimate.stamp <= *initialising_until_) return Health::Initialising;
   return trusted ? Health::Ok : Health::Degenerate;

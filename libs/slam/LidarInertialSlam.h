@@ -50,6 +50,9 @@ class LidarInertialSlam
   /** No more input: what waits is processed with the samples there are. */
   std::vector<StateEstimate> finish();
 
+  /** The window of states, for whoever asks more of it than an estimate tells; none before the start. */
+  const std::optional<FixedLagSmoother>& smoother() const { return smoother_; }
+
   const StageTimes& times() const { return times_; }
   std::uint64_t refusedImuSamples() const { return refused_imu_samples_; }
   std::uint64_t skippedScans() const { return skipped_scans_; }
@@ -60,6 +63,14 @@ class LidarInertialSlam
   const std::vector<CropCounts>& cropped() const { return cropped_; }
 
  private:
+  /** What was known when a registration was last trusted: before the IMU could bend it. */
+  struct Seen
+  {
+    RegistrationResult registration;
+    Rigid map_T_local;
+    ImuBias bias;
+  };
+
   std::vector<StateEstimate> processWaiting(bool input_ended);
   bool isCutStart(const Scan&);
   bool start(bool input_ended);
@@ -74,7 +85,7 @@ class LidarInertialSlam
   bool recover(const std::vector<View>&, StateEstimate&);
   void anchorAt(const Rigid& local_T_body);
   Matrix15d covarianceAt(const Rigid& imu_T_other, bool biases_known) const;
-  void restartAt(const Rigid& map_T_body, const Matrix6d& covariance);
+  void restartAt(const Rigid& local_T_body, const Matrix6d& covariance);
   void updateMap(PointCloud, const std::vector<View>&, StateEstimate&);
   void addKeyframe(PointCloud, const std::vector<View>&, StateEstimate&);
   Health healthOf(const StateEstimate&);
@@ -90,11 +101,11 @@ class LidarInertialSlam
   std::deque<Scan> waiting_;
   std::optional<Timestamp> first_start_, last_end_;  // of cut scans before the first whole one; of those that waited
   std::uint64_t scans_seen_ = 0, skipped_scans_ = 0, refused_imu_samples_ = 0, recoveries_ = 0, map_restarts_ = 0;
-  std::optional<FixedLagSmoother> smoother_;     // none before the start
-  LocalMap local_map_;                           // rigid, in a frame of its own
-  Rigid local_T_anchor_;                         // where the smoother's anchor, the first keyframe's state, is in it
-  std::optional<Rigid> last_registered_;         // in the local map
-  std::optional<RegistrationResult> last_seen_;  // the last trusted one
+  std::optional<FixedLagSmoother> smoother_;  // none before the start
+  LocalMap local_map_;                        // rigid, in a frame of its own
+  Rigid local_T_anchor_;                      // where the smoother's anchor, the first keyframe's state, is in it
+  std::optional<Rigid> last_registered_;      // in the local map
+  std::optional<Seen> last_seen_;
   std::optional<Timestamp> tried_to_recover_;
   bool tried_all_around_ = false;
   std::optional<Timestamp> initialising_until_;

@@ -2,6 +2,8 @@
 
 #include "ndt/LidarInformation.h"
 
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +13,8 @@ namespace scanloom
 namespace
 {
 constexpr std::array kFactors{8, 4, 2, 1};  // of the map's cells, coarse ones first
+
+constexpr double kStep = 3;  // m: a start finds what is within 2 m of it
 
 // Times the scan's cells: from further away the score of those draws nowhere, or to the wrong stem.
 constexpr double kReachOfCells = 0.3;
@@ -48,7 +52,6 @@ bool isFarFrom(const Rigid& pose, const Rigid& other)
 
 std::vector<Rigid> startsWithin(const SearchArea& area)
 {
-  constexpr double kStep = 3;  // m: a start finds what is within 2 m of it
   const int reach = static_cast<int>(std::ceil(area.radius / kStep));
   std::vector<Rigid> starts;
   for (int heading = 0; heading < area.headings; ++heading)
@@ -78,6 +81,16 @@ RegistrationResult registerScan(const NdtMap& map, const std::vector<View>& view
   const Rigid& start = rough.trustworthy() ? rough.target_T_source : guess.target_T_source;
   const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, settings.fine_cells); });
   return times.measure("fine_alignment", [&] { return align(map, scan, start, settings.fine); });
+}
+
+Matrix6d covarianceWithin(const SearchArea& area, const RegistrationResult& found)
+{
+  constexpr double kDegree = M_PI / 180;
+  constexpr double kTilt = 15 * kDegree, kHeading = 25 * kDegree;
+  Vector6d most;
+  most << Eigen::Vector3d::Constant(area.radius + kStep), kTilt, kTilt, area.headings > 1 ? M_PI : kHeading;
+  const Matrix6d expected = most.cwiseAbs2().cwiseInverse().asDiagonal();
+  return (found.information + expected).llt().solve(Matrix6d::Identity());
 }
 
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views, const SearchArea& area,

@@ -24,6 +24,12 @@ struct SearchArea
   int headings = 8;  // what is within 25 deg of one is found: 8 are all around
 };
 
+/**
+ * Of a pose found there: the lidar's, but what the lidar leaves open is known as well as the search knew it before. At
+ * most the area to each side, any heading or 25 deg, and a tilt that is off by 15 deg.
+ */
+Matrix6d covarianceWithin(const SearchArea&, const RegistrationResult&);
+
 /** Nothing if no pose in it is trustworthy, or if another one far from the best is nearly as good. */
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& seen_from_body,
                                              const SearchArea&, const SlamSettings&);

@@ -22,6 +22,13 @@ struct StateEstimate
 {
   Timestamp stamp;  // the instant at which the body was there: the scan's end
   Rigid map_T_body;
+  /**
+   * Of boxMinus(truth, estimate) for the body as seen from the smoother's anchor, the body at the first keyframe or
+   * where it was found again: translation (m), rotation (rad), along the body's own axes. The local map passes for
+   * exact: how far its keyframes drifted is not in it, nor how far the anchor is off. For the first scan, and with
+   * relative = false, it is of map_T_body.
+   */
+  Matrix6d covariance = Matrix6d::Zero();
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the IMU, in the map frame
   Health health = Health::Ok;
   bool scan_complete = true;

@@ -3,6 +3,7 @@
  * that came with them. NEES = e' information e; its mean over many pairs is 6 where the covariances are right.
  */
 #include "benchmarks/ForestScans.h"
+#include "benchmarks/NeesHistogram.h"
 #include "dataset/Statistics.h"
 #include "evaluation/RegistrationTrials.h"
 #include "ndt/Registration.h"
@@ -91,26 +92,6 @@ void writePair(const Pair& pair, const std::filesystem::path& folder, int index)
   std::ofstream(path("truth.txt")) << std::setprecision(17) << pair.target_T_source.matrix() << '\n';
 }
 
-/** Of six independent squares of standard normal numbers. */
-double chiSquaredBelow(double x) { return 1 - std::exp(-x / 2) * (1 + x / 2 + x * x / 8); }
-
-void printHistogram(const std::vector<double>& nees)
-{
-  constexpr std::array kEdges{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 12.0, 15.0, 20.0, 1e9};
-  fmt::print("\n| NEES | share | of chi squared, 6 | |\n|---|--:|--:|---|\n");
-  for (std::size_t i = 0; i + 1 < kEdges.size(); ++i)
-  {
-    const auto in = [&](double v) { return v >= kEdges[i] && v < kEdges[i + 1]; };
-    const double share =
-        static_cast<double>(std::count_if(nees.begin(), nees.end(), in)) / static_cast<double>(nees.size());
-    const double expected = chiSquaredBelow(kEdges[i + 1]) - chiSquaredBelow(kEdges[i]);
-    fmt::print(
-        "| {} | {:.0f} % | {:.0f} % | {} |\n",
-        kEdges[i + 1] < 1e9 ? fmt::format("{} to {}", kEdges[i], kEdges[i + 1]) : fmt::format("from {}", kEdges[i]),
-        100 * share, 100 * expected, std::string(static_cast<std::size_t>(100 * share / 2 + 0.5), '#'));
-  }
-}
-
 void run(const Arguments& arguments)
 {
   constexpr double kDegree = M_PI / 180;
@@ -161,7 +142,7 @@ void run(const Arguments& arguments)
   double sum = 0;
   for (const double v : nees) sum += v;
   fmt::print("mean NEES {:.2f}, median {:.2f} (of chi squared, 6: 6, 5.35)\n", sum / n, quantileOfSorted(nees, 0.5));
-  printHistogram(nees);
+  printHistogram(nees, 6);
 }
 }  // namespace
 }  // namespace scanloom

@@ -271,6 +271,36 @@ TEST(FixedLagSmoother, bodySeenFromTheAnchorIsAsFarOffAsItsCovarianceSays)
   EXPECT_LT(std::sqrt(largest), 2 * noise.pose);  // however uncertain the map is that both are in
 }
 
+TEST(FixedLagSmoother, tellsWhatALidarPoseLeavesOfTheCovarianceWithoutComputingItAnew)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 25, 200ms, noise, 31);
+  for (const bool anchored : {false, true})
+    for (const double off : {0.0, 0.5})  // m: the second is beyond the robust loss's reach
+    {
+      FixedLagSmoother smoother = smootherFor(drive, noise, {});
+      for (std::size_t k = 1; k < drive.truth.size(); ++k)
+      {
+        smoother.addState(drive.motions[k - 1]);
+        const bool last = k + 1 == drive.truth.size();
+        const Rigid map_T_body =
+            boxPlus(drive.map_T_body[k], last ? Vector6d(off * Vector6d::Unit(1)) : Vector6d::Zero());
+        const Matrix6d before = smoother.newestBodyCovariance();
+        if (smoother.hasAnchor())
+          smoother.addRelativePose(smoother.anchor().stamp, drive.map_T_body[1].inverse() * map_T_body,
+                                   drive.information);
+        else
+          smoother.addPosePrior(map_T_body, drive.information);
+        smoother.optimise();
+        if (anchored && k == 1) smoother.anchorNewest();
+        if (!last) continue;
+        const Matrix6d computed = smoother.newestBodyCovariance(), told = smoother.bodyCovarianceAfter(before);
+        EXPECT_LT((told - computed).norm(), 0.02 * computed.norm()) << anchored << ' ' << off;
+        EXPECT_GT((before - computed).norm(), 0.06 * computed.norm()) << anchored << ' ' << off;
+      }
+    }
+}
+
 TEST(FixedLagSmoother, resistsAnOutlier)
 {
   const DriveNoise noise;

@@ -322,6 +322,22 @@ TEST(LidarInertialSlam, beginsANewMapWhereTheOldOneIsOutOfSightForGood)
   EXPECT_EQ(run.estimates.back().health, Health::Ok);
 }
 
+TEST(LidarInertialSlam, everyEstimateComesWithACovarianceThatGrowsWhileItIsBlind)
+{
+  const Machine machine = gentleMachine(3s);
+  const Driven run = runFor(machine, 8s, {},
+                            [](Scan& scan)
+                            {
+                              if (scan.start >= Timestamp{5s} && scan.start < Timestamp{6500ms}) blind(scan);
+                            });
+  const auto metres = [&run](Duration t) { return std::sqrt(run.at(t).covariance.topLeftCorner<3, 3>().trace()); };
+  for (const StateEstimate& e : run.estimates)
+    EXPECT_EQ(e.covariance.llt().info(), Eigen::Success) << nanoseconds(e.stamp);
+  EXPECT_LT(metres(5s), 0.02);
+  EXPECT_GT(metres(6500ms), 2 * metres(5s));
+  EXPECT_LT(metres(8s), 0.02);
+}
+
 TEST(LidarInertialSlam, aScanFromElsewhereIsNotTrusted)
 {
   // As if the machine had jumped by a metre for one scan.
