@@ -1,6 +1,5 @@
 #include "slam/LidarInertialSlam.h"
 
-#include "core/So3.h"
 #include "graph/PosePriorFactor.h"
 #include "imu/BiasBeside.h"
 #include "ndt/Rivals.h"
@@ -74,13 +73,10 @@ Matrix15d LidarInertialSlam::covarianceAt(const Rigid& imu_T_other, bool biases_
   constexpr double kGyroBias = 0.02, kKnownGyroBias = 0.001;  // rad/s
   constexpr double kKnownAccelBias = 0.02;                    // m/s2: of the lever's accelerations
   const Eigen::Matrix3d other_R_imu = imu_T_other.rotation.conjugate().toRotationMatrix();
-  Matrix6d pose = Matrix6d::Zero();
-  pose.topLeftCorner<3, 3>() = pose.bottomRightCorner<3, 3>() = other_R_imu;
-  pose.topRightCorner<3, 3>() = -other_R_imu * skew(imu_T_other.translation);
-
+  const Matrix6d step = bodyStepByImuStep(imu_T_other);
   const Matrix15d known = smoother_->newestCovariance();
   Matrix15d covariance = Matrix15d::Zero();
-  covariance.topLeftCorner<6, 6>() = pose * known.topLeftCorner<6, 6>() * pose.transpose();
+  covariance.topLeftCorner<6, 6>() = step * known.topLeftCorner<6, 6>() * step.transpose();
   covariance.block<3, 3>(6, 6) = known.block<3, 3>(6, 6);
   covariance.diagonal().segment<3>(3).array() += kTilt * kTilt;
   covariance.diagonal().segment<3>(6).array() += kVelocity * kVelocity;
@@ -337,7 +333,7 @@ void LidarInertialSlam::restartAt(const Rigid& local_T_body, const Matrix6d& cov
   constexpr double kVelocity = 1;  // m/s: found, but not how fast it goes
   const Rigid map_T_body = last_seen_->map_T_local * local_T_body;
   const Eigen::Matrix3d body_R_map = map_T_body.rotation.conjugate().toRotationMatrix();
-  const double level = settings_.start.accel_bias_sigma / kGravity;  // rad: how well the map is
+  const double level = settings_.imu.accel_bias_sigma / kGravity;  // rad: how well the map is
   Matrix6d of_body = covariance;
   of_body.bottomRightCorner<3, 3>() += level * level * body_R_map.leftCols<2>() * body_R_map.leftCols<2>().transpose();
 
