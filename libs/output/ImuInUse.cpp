@@ -46,8 +46,10 @@ std::string ImuInUse::nameOf(int sensor) const
 std::optional<ImuSample> ImuInUse::take(const SensorImu& read)
 {
   std::deque<ImuSample>& kept = samples_[read.sensor];
-  kept.push_back(read.sample);
-  while (kept.back().stamp - kept.front().stamp > kKept) kept.pop_front();
+  const ImuSample& sample = read.sample;
+  const bool usable = sample.gyro.allFinite() && sample.accel.allFinite();
+  if (usable && (kept.empty() || sample.stamp > kept.back().stamp)) kept.push_back(sample);
+  while (!kept.empty() && kept.back().stamp - kept.front().stamp > kKept) kept.pop_front();
   return read.sensor == sensor_ ? std::optional(inTime(read)) : std::nullopt;
 }
 
@@ -61,13 +63,13 @@ ImuSample ImuInUse::inTime(const SensorImu& read) const
 bool ImuInUse::silent(int sensor, Timestamp now) const
 {
   const auto samples = samples_.find(sensor);
-  return samples == samples_.end() || samples->second.back().stamp < now - kPatience;
+  return samples == samples_.end() || samples->second.empty() || samples->second.back().stamp < now - kPatience;
 }
 
 bool ImuInUse::reaches(Timestamp t) const
 {
   const auto samples = samples_.find(sensor_);
-  return samples != samples_.end() && inTime({sensor_, samples->second.back()}).stamp >= t;
+  return samples != samples_.end() && !samples->second.empty() && inTime({sensor_, samples->second.back()}).stamp >= t;
 }
 
 bool ImuInUse::changeIfSilent(Timestamp now)

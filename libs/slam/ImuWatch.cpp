@@ -63,6 +63,7 @@ std::optional<std::string> ofClocks(const GyroAgreement& a)
 
 void ImuWatch::add(const ImuSample& sample)
 {
+  if (!sample.gyro.allFinite() || !sample.accel.allFinite()) return;
   if (!samples_.empty() && sample.stamp <= samples_.back().stamp) return;
   samples_.push_back(sample);
   while (samples_.front().stamp < sample.stamp - kKept) samples_.pop_front();

@@ -15,7 +15,7 @@ class ImuWatch
  public:
   explicit ImuWatch(const Rigid& body_T_imu) : body_T_imu_(body_T_imu) {}
 
-  /** In time order; the last minute is kept. */
+  /** In time order, else it is left out, as what is not finite; the last minute is kept. */
   void add(const ImuSample&);
 
   /** Every one: its registration against that of the last one tells a turn that the IMU had no part in. */

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <set>
 
 namespace scanloom
@@ -85,6 +86,22 @@ TEST(ImuInUse, givesWayToAnotherAfterAFifthOfASecondOfSilenceWithWhatThatSaidSin
   EXPECT_EQ(imu.previous().size(), 1U);
   EXPECT_TRUE(imu.take(sampleAt(kRight, 1400ms)));
   EXPECT_FALSE(imu.changeIfSilent(Timestamp{1400ms})) << "the first one has not come back";
+}
+
+TEST(ImuInUse, thatReadsNothingButNanOrOldStampsIsSilent)
+{
+  const InputWithImus input({kLeft, kRight});
+  for (const bool nan : {false, true})
+  {
+    ImuInUse imu(input, "auto", {});
+    imu.take(sampleAt(kLeft, 1s));
+    imu.take(sampleAt(kRight, 2s));
+    SensorImu useless = sampleAt(kLeft, nan ? 2s : 500ms);
+    if (nan) useless.sample.gyro.setConstant(NAN);
+    EXPECT_TRUE(imu.take(useless)) << "for whoever counts what is refused";
+
+    EXPECT_TRUE(imu.changeIfSilent(Timestamp{2s})) << nan;
+  }
 }
 
 TEST(ImuInUse, staysWithASilentOneIfNoOtherSpeaksOrItWasChosenByName)

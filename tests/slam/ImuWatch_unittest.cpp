@@ -87,6 +87,19 @@ TEST(ImuWatch, namesAGyroscopeInDegreesAndALeftHandedOne)
   EXPECT_THAT(watched([](ImuSample& s) { s.gyro *= -1; }).complaint().value_or(""), HasSubstr("left-handed"));
 }
 
+TEST(ImuWatch, leavesOutWhatIsNotFinite)
+{
+  int number = 0;
+  const ImuWatch watch = watched(
+      [&](ImuSample& s)
+      {
+        if (++number % 10 == 0) s.gyro.x() = std::nan("");
+      });
+  ASSERT_TRUE(watch.agreement());
+  EXPECT_TRUE(watch.agreement()->rotation.allFinite());
+  EXPECT_FALSE(watch.complaint());
+}
+
 TEST(ImuWatch, saysNothingWithoutRegistrationsOrMotion)
 {
   ImuWatch watch(kBodyTImu);

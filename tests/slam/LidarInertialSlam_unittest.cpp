@@ -51,7 +51,7 @@ Machine gentleMachine(Duration standstill)
 struct Driven
 {
   std::vector<StateEstimate> estimates;
-  std::uint64_t skipped = 0, recoveries = 0, map_restarts = 0;
+  std::uint64_t skipped = 0, recoveries = 0, map_restarts = 0, searches = 0;
 
   const StateEstimate& at(Duration t) const { return estimates[static_cast<std::size_t>(t / 100ms - 2)]; }
 };
@@ -89,6 +89,8 @@ Driven runFor(
   run.skipped = slam.skippedScans();
   run.recoveries = slam.recoveries();
   run.map_restarts = slam.mapRestarts();
+  const auto& stages = slam.times().stages();
+  if (const auto search = stages.find("recovery"); search != stages.end()) run.searches = search->second.runs;
   return run;
 }
 
@@ -294,6 +296,43 @@ TEST(LidarInertialSlam, goesOnWithAnotherImuOfWhichNothingIsKnown)
   EXPECT_LT(largestError(run, machine), 0.15);
 }
 
+TEST(LidarInertialSlam, isFoundAgainWhereAWrongImuTiltedIt)
+{
+  // Gravity then accelerates it, too: blind for four seconds, 7 degrees are 3 m and 2.4 m/s.
+  const Machine machine = gentleMachine(3s);
+  const Timestamp from{6s}, to{10s};
+  for (const int axis : {0, 1})
+    for (const double degrees : {-7.0, 7.0})
+    {
+      const Driven run = runFor(
+          machine, 14s, {},
+          [&](Scan& scan)
+          {
+            if (scan.start >= from && scan.start < to) blind(scan);
+          },
+          [&](ImuSample& sample)
+          {
+            if (sample.stamp >= from && sample.stamp < to) sample.gyro[axis] += degrees * M_PI / 180 / 4;
+          });
+      EXPECT_EQ(run.recoveries, 1u) << axis << ' ' << degrees;
+      const Rigid world_T_map =
+          machine.bodyAt(run.estimates.front().stamp) * run.estimates.front().map_T_body.inverse();
+      const StateEstimate& end = run.estimates.back();
+      EXPECT_EQ(end.health, Health::Ok) << axis << ' ' << degrees;
+      const Vector6d off = boxMinus(world_T_map * end.map_T_body, machine.bodyAt(end.stamp));
+      EXPECT_LT(off.head<3>().norm(), 0.05) << axis << ' ' << degrees;
+      EXPECT_LT(off.tail<3>().norm(), 0.01) << axis << ' ' << degrees;
+
+      const auto found =
+          std::find_if(run.estimates.begin(), run.estimates.end(), [](const StateEstimate& e) { return e.recovered; });
+      ASSERT_NE(found, run.estimates.end());
+      EXPECT_EQ(found->velocity.norm(), 0);  // not that of the IMU that was lost
+      const Eigen::Vector3d metres = found->covariance.diagonal().head<3>().cwiseSqrt(),
+                            of_lidar = found->registration->covariance.diagonal().head<3>().cwiseSqrt();
+      EXPECT_LT((metres - of_lidar).norm(), 0.01 * of_lidar.norm());
+    }
+}
+
 TEST(LidarInertialSlam, addsNoKeyframeWhileItIsNotHealthy)
 {
   const Driven run = runFor(gentleMachine(3s), 14s, {},
@@ -336,6 +375,29 @@ TEST(LidarInertialSlam, everyEstimateComesWithACovarianceThatGrowsWhileItIsBlind
   EXPECT_LT(metres(5s), 0.02);
   EXPECT_GT(metres(6500ms), 2 * metres(5s));
   EXPECT_LT(metres(8s), 0.02);
+}
+
+TEST(LidarInertialSlam, looksForNothingOfTheMapThatItGaveUp)
+{
+  SlamSettings settings;
+  settings.slam.lost_after = 1;
+  settings.slam.restart_after = 1.5;
+  const StandOfStems stand;
+  const Machine machine = gentleMachine(3s);
+  const auto rises = [&](Scan& scan)  // out of sight of the map, and again of the one that begins at 7.6 s
+  {
+    if (scan.start < Timestamp{5s}) return;
+    const double height = scan.start < Timestamp{7600ms} ? 30 : 60;
+    const auto above = [&](Timestamp t)
+    { return Rigid::fromXyzYawPitchRoll(0, 0, height, 0, 0, 0) * machine.bodyAt(t); };
+    scan = stand.scanAt(scan.start, above);
+  };
+  const Driven once = runFor(machine, 7400ms, settings, rises), longer = runFor(machine, 9500ms, settings, rises);
+  EXPECT_EQ(once.map_restarts, 0u);
+  EXPECT_GE(once.searches, 1u);
+  EXPECT_EQ(longer.map_restarts, 1u);
+  EXPECT_EQ(longer.estimates.back().health, Health::Lost);
+  EXPECT_EQ(longer.searches, once.searches);
 }
 
 TEST(LidarInertialSlam, aScanFromElsewhereIsNotTrusted)

@@ -61,6 +61,42 @@ TEST(ScanRegistration, relocalisesFromAnywhereNearby)
   EXPECT_LT(distance(found->target_T_source, truth), 0.05);
 }
 
+TEST(ScanRegistration, relocalisesFromTiltsThatAreFarOff)
+{
+  const SlamSettings settings;
+  const NdtMap map = mapOfOneScan(settings);
+  const Rigid truth = Rigid::fromXyzYawPitchRoll(2, 1, 0, 0.3, 0, 0);
+  const std::vector<View> cloud = viewsAt(kMapPose * truth);
+  for (const double degrees : {7.0, 15.0})
+    for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0.3, 0), Eigen::Vector3d(-0.3, 1, 0)})
+    {
+      Rigid start = truth * Rigid::fromXyzYawPitchRoll(-2, 1.2, 0, 0.05, 0, 0);
+      start.rotation = Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()) * start.rotation;
+      const auto found = relocalise(map, cloud, SearchArea{start, 3, 1}, settings);
+      ASSERT_TRUE(found) << degrees;
+      EXPECT_LT(distance(found->target_T_source, truth), 0.05) << degrees;
+    }
+}
+
+TEST(ScanRegistration, whatTheLidarLeavesOpenIsKnownAsWellAsTheSearchKnewIt)
+{
+  RegistrationResult sharp, open;
+  sharp.covariance = 1e-4 * Matrix6d::Identity();
+  sharp.information = sharp.covariance.inverse();
+  open.covariance = sharp.covariance;
+  open.covariance(0, 0) = open.covariance(3, 3) = 1e6;
+  open.information = open.covariance.inverse();
+  const SearchArea area{{}, 5, 8};
+
+  EXPECT_LT((covarianceWithin(area, sharp) - sharp.covariance).norm(), 0.01 * sharp.covariance.norm());
+  const Matrix6d bounded = covarianceWithin(area, open);
+  EXPECT_NEAR(std::sqrt(bounded(0, 0)), 8, 0.1);                 // m: how far the search reaches
+  EXPECT_NEAR(std::sqrt(bounded(3, 3)), 15 * M_PI / 180, 1e-3);  // the tilt that it mends
+  EXPECT_NEAR(bounded(1, 1), sharp.covariance(1, 1), 1e-6);
+  EXPECT_EQ(bounded.llt().info(), Eigen::Success);
+  EXPECT_LT(covarianceWithin(area, RegistrationResult{}).norm(), 8 * 8 * 2);  // no information at all
+}
+
 TEST(ScanRegistration, doesNotRelocaliseInAnotherStand)
 {
   const SlamSettings settings;
