@@ -79,7 +79,10 @@ Layout plyLayout(const std::string& file)
   for (std::string line; std::getline(lines, line) && line != "end_header";)
   {
     const auto words = wordsOf(line);
-    if (words[0] == "format") EXPECT_EQ(words[1], "binary_little_endian");
+    if (words[0] == "format")
+    {
+      EXPECT_EQ(words[1], "binary_little_endian");
+    }
     if (words[0] == "element") layout.points = std::stoul(words[2]);
     if (words[0] == "property") layout.add(words[2], words[1], sizes.at(words[1]));
   }
