@@ -147,9 +147,10 @@ class SlamRun
   {
     SlamRunResult result;
     RunSummary& summary = result.summary;
-    result.passed = health_.passed() && !watch_.complained();
+    const bool whole = slam_.mapRestarts() == 0;
+    result.passed = health_.passed() && whole && !watch_.complained();
     summary.imu = watch_.agreement();
-    summary.outcome = interrupted ? "INTERRUPTED" : health_.outcome();
+    summary.outcome = interrupted ? "INTERRUPTED" : whole ? health_.outcome() : "LOST";
     summary.counts = input_.counts();
     summary.counts["scans"] = scans_;
     summary.counts["scans_skipped"] = slam_.skippedScans();

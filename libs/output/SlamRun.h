@@ -19,14 +19,17 @@ struct RunProgress
   double busy = 0;      // s, without waiting for input
 };
 
-/** Called after each scan, and when none came for a while; false stops the run, keeping what there is. */
+/** Called after each event, and when none came for a while; false stops the run, keeping what there is. */
 using KeepGoing = std::function<bool(const RunProgress&)>;
 
 struct SlamRunResult
 {
   RunSummary summary;  // counts, stages, outcome: OK, INITIALISING, DEGENERATE, LOST, NOTHING or INTERRUPTED
-  bool passed =
-      true;  // false: LOST at the end or for more than 5 % of the scans, or not a single pose; as far as it came
+  /**
+   * False: LOST at the end or for more than 5 % of the scans, a map that was given up, so that the trajectory has a
+   * break, an IMU at fault, or not a single pose; as far as it came.
+   */
+  bool passed = true;
 };
 
 /**

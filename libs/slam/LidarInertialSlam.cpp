@@ -204,7 +204,8 @@ StateEstimate LidarInertialSlam::track(Scan scan)
   estimate.velocity = state.velocity;
   estimate.since_last = posesBetween(before, state, samples);
   estimate.health = healthOf(estimate);
-  if (estimate.health == Health::Lost && recover(views, estimate)) estimate.health = healthOf(estimate);
+  const bool blind = estimate.health == Health::Lost && !contradicts();
+  if (blind && recover(views, estimate)) estimate.health = healthOf(estimate);
   way_to_last_ = estimate.recovered ? Trajectory{} : estimate.since_last;
   updateMap(std::move(cloud), views, estimate);
   imu_.forgetBefore(state.stamp);
@@ -255,13 +256,15 @@ std::vector<Rigid> LidarInertialSlam::bodyAtColumns(const Scan& scan, const NavS
 void LidarInertialSlam::locate(const std::vector<View>& views, StateEstimate& estimate)
 {
   estimate.covariance = times_.measure("smoother", [&] { return smoother_->newestBodyCovariance(); });
-  if (local_map_.empty() || estimate.points == 0) return;
+  const bool known = estimate.covariance.allFinite() && estimate.covariance.llt().info() == Eigen::Success;
+  if (local_map_.empty() || estimate.points == 0 || !known) return;
   const PoseGuess guess(map_T_local().inverse() * bodyAt(smoother_->newest()), estimate.covariance);
   estimate.registration = registerScan(local_map_.ndt(), views, guess, settings_, times_);
   const RegistrationResult& registration = *estimate.registration;
   if (registration.outcome == Outcome::LowOverlap) return;
   const PoseGuess either(guess.target_T_source, *guess.covariance + registration.covariance);
   estimate.surprise = std::sqrt(surprise(either, registration.target_T_source));
+  contradiction_.add(estimate.stamp, estimate.surprise);
   estimate.trusted =
       registration.trustworthy() && (settings_.slam.gate == 0 || estimate.surprise <= settings_.slam.gate);
   addToSmoother(registration);
@@ -321,6 +324,7 @@ bool LidarInertialSlam::recover(const std::vector<View>& views, StateEstimate& e
   estimate.trusted = estimate.recovered = true;
   ++recoveries_;
   tried_to_recover_.reset();
+  contradiction_.clear();
   return true;
 }
 
@@ -371,9 +375,10 @@ void LidarInertialSlam::updateMap(PointCloud cloud, const std::vector<View>& vie
     local_map_.clear();
     last_seen_.reset();
     tried_to_recover_.reset();
+    contradiction_.clear();
     last_trusted_ = estimate.stamp;
   }
-  const bool trusted = estimate.trusted && estimate.registration->outcome == Outcome::Converged;
+  const bool trusted = estimate.trusted && !contradicts() && estimate.registration->outcome == Outcome::Converged;
   if (local_map_.empty() || (trusted && local_map_.wants(map_T_local().inverse() * estimate.map_T_body)))
     addKeyframe(std::move(cloud), views, estimate);
 }
@@ -404,11 +409,17 @@ Health LidarInertialSlam::healthOf(const StateEstimate& estimate)
 {
   const bool opens_the_map = local_map_.empty() && estimate.points > 0;
   const bool trusted = opens_the_map || estimate.trusted;
-  if (trusted) last_trusted_ = estimate.stamp;
+  if (trusted && !contradicts()) last_trusted_ = estimate.stamp;
   if (estimate.trusted) last_seen_ = {*estimate.registration, map_T_local(), smoother_->newest().bias};
-  if (estimate.stamp - last_trusted_ > fromSeconds(settings_.slam.lost_after)) return Health::Lost;
+  const bool for_long = estimate.stamp - last_trusted_ > fromSeconds(settings_.slam.lost_after);
+  if (for_long || contradicts()) return Health::Lost;
   if (initialising_until_ && estimate.stamp <= *initialising_until_) return Health::Initialising;
   return trusted ? Health::Ok : Health::Degenerate;
+}
+
+bool LidarInertialSlam::contradicts() const
+{
+  return settings_.slam.contradiction > 0 && contradiction_.median() > settings_.slam.contradiction;
 }
 
 /** The smoother's two states joined by the IMU; what does not close is spread over the time between. */

@@ -6,6 +6,7 @@
 #include "batching/Scan.h"
 #include "core/StageTimes.h"
 #include "imu/ImuBuffer.h"
+#include "slam/Contradiction.h"
 #include "slam/SlamSettings.h"
 #include "slam/StateEstimate.h"
 
@@ -89,6 +90,7 @@ class LidarInertialSlam
   void updateMap(PointCloud, const std::vector<View>&, StateEstimate&);
   void addKeyframe(PointCloud, const std::vector<View>&, StateEstimate&);
   Health healthOf(const StateEstimate&);
+  bool contradicts() const;
   Rigid map_T_local() const;
   Trajectory posesBetween(const NavState& from, const NavState& to, const std::vector<ImuSample>&) const;
   Rigid bodyAt(const NavState&) const;
@@ -106,6 +108,7 @@ class LidarInertialSlam
   Rigid local_T_anchor_;                      // where the smoother's anchor, the first keyframe's state, is in it
   std::optional<Rigid> last_registered_;      // in the local map
   std::optional<Seen> last_seen_;
+  Contradiction contradiction_;  // of registrations and IMU
   std::optional<Timestamp> tried_to_recover_;
   bool tried_all_around_ = false;
   std::optional<Timestamp> initialising_until_;

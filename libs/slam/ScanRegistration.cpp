@@ -50,6 +50,14 @@ bool isFarFrom(const Rigid& pose, const Rigid& other)
   return way.head<3>().norm() > kMetres || way.tail<3>().norm() > kRadians;
 }
 
+/** Not only trustworthy, which is enough where the pose is known roughly. */
+bool isPlace(const RegistrationResult& result)
+{
+  constexpr double kGoodOverlap = 0.5, kSurely = 0.3;  // m
+  return result.outcome == Outcome::Converged && result.overlap >= kGoodOverlap &&
+         result.covariance.topLeftCorner<3, 3>().trace() < kSurely * kSurely;
+}
+
 std::vector<Rigid> startsWithin(const SearchArea& area)
 {
   const int reach = static_cast<int>(std::ceil(area.radius / kStep));
@@ -97,13 +105,12 @@ std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vecto
                                              const SlamSettings& settings)
 {
   constexpr double kRivals = 0.8;  // of the best score, at another place: no telling which
-  constexpr double kGoodOverlap = 0.5;
   const Pyramid pyramid(map, views, settings.fine_cells);
   std::vector<RegistrationResult> found;
   for (const Rigid& start : startsWithin(area))
   {
     RegistrationResult result = pyramid.align(start, settings.fine);
-    if (result.trustworthy() && result.overlap >= kGoodOverlap) found.push_back(std::move(result));
+    if (isPlace(result)) found.push_back(std::move(result));
   }
   if (found.empty()) return std::nullopt;
   const auto best = std::min_element(found.begin(), found.end(), [](auto& a, auto& b) { return a.score < b.score; });

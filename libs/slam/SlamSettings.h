@@ -25,6 +25,7 @@ struct SlamOptions
   bool relative = true;
   double correlation = 2.0;
   double gate = 40.0;
+  double contradiction = 6.0;
   double restart_after = 10.0;
 
   template <typename Self, typename Visitor>
@@ -56,6 +57,10 @@ struct SlamOptions
                                "registrations err together over so much travel: so many count as one", atLeast(0)});
     visit(o.gate, Field{"gate", "sigma", "a registration farther from what the IMU predicts is not trusted; 0: all are",
                         atLeast(0)});
+    visit(o.contradiction,
+          Field{"contradiction", "sigma",
+                "registrations and IMU so far apart in the median over ten seconds: the state is LOST; 0: never",
+                atLeast(0)});
     visit(o.restart_after,
           Field{"restart_after", "s", "LOST for so long, a new local map begins where the IMU says", atLeast(0)});
     visit(o.lost_after,
