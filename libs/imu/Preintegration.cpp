@@ -59,6 +59,20 @@ Eigen::Matrix<double, 6, 1> densities(const ImuNoise& noise)
   return d;
 }
 
+/**
+ * Of the mean over a step between readings that lie far apart, or of one that is held: what a machine that sways, turns
+ * and starts does in between is on no straight line.
+ */
+Eigen::Matrix<double, 6, 1> unseenMotion(double dt)
+{
+  constexpr double kGap = 0.025, kWholeCycle = 0.2;  // s
+  constexpr double kRate = 0.15, kForce = 1.0;       // rad/s, m/s2
+  const double share = dt > kGap ? std::min(1.0, dt / kWholeCycle) : 0;
+  Eigen::Matrix<double, 6, 1> variance;
+  variance << Eigen::Vector3d::Constant(kRate * kRate), Eigen::Vector3d::Constant(kForce * kForce);
+  return share * share * variance;
+}
+
 void requireStepsInTimeOrder(const std::vector<ImuSample>& samples)
 {
   if (samples.size() < 2)
@@ -79,7 +93,8 @@ Preintegration preintegrate(std::vector<ImuSample> samples, const ImuBias& bias,
   {
     const ImuDelta end = advance(delta, samples[k], samples[k + 1], bias);
     const StepJacobians j = jacobiansOfStep(delta, end, samples[k], samples[k + 1], bias);
-    const Eigen::Matrix<double, 6, 1> variance = density / seconds(samples[k + 1].stamp - samples[k].stamp);
+    const double dt = seconds(samples[k + 1].stamp - samples[k].stamp);
+    const Eigen::Matrix<double, 6, 1> variance = density / dt + unseenMotion(dt);
 
     covariance = j.by_start * covariance * j.by_start.transpose() +
                  j.by_reading * variance.asDiagonal() * j.by_reading.transpose();  // eq. (63)

@@ -178,7 +178,7 @@ TEST(FaultyImu, oneThatWorksIsTheMeasureOfTheOthers)
   EXPECT_LT(outcome.largestErrorWhile("OK"), 0.1);
 }
 
-TEST(FaultyImu, silentForGoodItIsCarriedByItsLastReadingAndHealthSaysSo)
+TEST(FaultyImu, silentForGoodTheLidarCarriesOnAndEveryScanWithoutImuIsCounted)
 {
   constexpr Duration kEnds = 12500ms;
   Timestamp last;
@@ -190,9 +190,8 @@ TEST(FaultyImu, silentForGoodItIsCarriedByItsLastReadingAndHealthSaysSo)
         return sample;
       });
   EXPECT_EQ(silent.count("scans_without_full_imu"), posesWithin(silent, smallDrive().since(last), 1h));
-  EXPECT_GT(silent.count("poses_degenerate") + silent.count("poses_lost"), 0u);
   EXPECT_EQ(silent.count("imu_samples_refused"), 0u);
-  EXPECT_NE(silent.summary.at("outcome"), "OK");
+  EXPECT_LT(silent.largestErrorWhile("OK"), 0.5);
 
   // Nothing but NaN is as good as silence.
   std::uint64_t spoilt = 0;
@@ -209,7 +208,7 @@ TEST(FaultyImu, silentForGoodItIsCarriedByItsLastReadingAndHealthSaysSo)
   EXPECT_EQ(nan.csv, silent.csv);
 }
 
-TEST(FaultyImu, silentForFiveSecondsEveryScanHasAPoseAndNoneThatIsFarOffPassesForOk)
+TEST(FaultyImu, silentForFiveSecondsTheLidarCarriesOnAndEveryScanHasAPose)
 {
   Timestamp last, first_again = Timestamp::max();
   const LeftBehind outcome = localise(
@@ -225,8 +224,7 @@ TEST(FaultyImu, silentForFiveSecondsEveryScanHasAPoseAndNoneThatIsFarOffPassesFo
   const std::uint64_t silent = posesWithin(outcome, smallDrive().since(last), smallDrive().since(first_again));
   EXPECT_GE(outcome.count("scans_without_full_imu"), silent - 1);
   EXPECT_LE(outcome.count("scans_without_full_imu"), silent + 1);
-  EXPECT_NE(outcome.summary.at("outcome"), "OK");
-  EXPECT_LT(outcome.largestErrorWhile("OK"), 5);
+  EXPECT_LT(outcome.largestErrorWhile("OK"), 0.5);
 }
 
 TEST(FaultyImu, whatIsNotFiniteIsRefusedAndCounted)
@@ -283,7 +281,7 @@ TEST(FaultyImu, aClockThatGoesBackForGoodIsRefusedUntilItHasCaughtUp)
   EXPECT_EQ(outcome.count("imu_samples_refused"), behind);
   // Those of the step, and each after it: none is covered in time. One is that of the step itself.
   EXPECT_GE(outcome.count("scans_without_full_imu"), posesWithin(outcome, kGone, 1h));
-  EXPECT_NE(outcome.summary.at("outcome"), "OK");
+  EXPECT_LT(outcome.largestErrorWhile("OK"), 0.5);
 }
 
 TEST(FaultyImu, silentForGoodAnotherOneGoesOnAsIfNothingWereMissing)

@@ -130,6 +130,25 @@ TEST(Preintegration, errorsOfFiftyRunsAreAsLargeAsTheCovarianceSays)
   EXPECT_LT(nees, 10.2) << "seed 11";
 }
 
+TEST(Preintegration, isAsUnsureAcrossAGapAsAMovingMachineIsUnseenThere)
+{
+  double nees = 0;
+  constexpr int kRuns = 50;
+  for (int run = 0; run < kRuns; ++run)
+  {
+    const Timestamp from{1s + run * 100ms};
+    const auto truth = kDrive.samples(from, from + 500ms, 5ms);
+    const Vector9d straight = difference(deltaOf(preintegrate(truth, {}, {})), {});
+    std::vector<ImuSample> samples = truth;
+    samples.erase(samples.begin() + 20, samples.begin() + 60);
+    const Preintegration motion = preintegrate(samples, {}, {});
+    const Vector9d error = difference(deltaOf(motion), {}) - straight;
+    nees += error.dot(motion.covariance.ldlt().solve(error)) / kRuns;
+    EXPECT_LT(motion.covariance(0, 0), 0.04 * 0.04);
+  }
+  EXPECT_LT(nees, 9);
+}
+
 TEST(Preintegration, biasJacobiansEqualCentralDifferences)
 {
   const auto samples = kDrive.samples(Timestamp{1s}, Timestamp{2s}, 5ms, kBias);
