@@ -56,7 +56,10 @@ void PointCloud::keep(const std::vector<std::uint8_t>& keep)
                {
                  std::size_t kept = 0;
                  for (std::size_t i = 0; i < field.size(); ++i)
-                   if (keep[i]) field[kept++] = field[i];
+                 {
+                   field[kept] = field[i];  // without a branch, which no processor would foresee
+                   kept += keep[i] != 0;
+                 }
                  field.resize(kept);
                });
 }

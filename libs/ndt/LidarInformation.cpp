@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace scanloom
 {
@@ -198,17 +199,45 @@ Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& unsure_m
   return covariance;
 }
 
-/** What is left of the score after a long step either way. Leaves the neighbourhoods where they were. */
-double keptBy(const Vector6d& direction, Neighbourhoods& all, const Rigid& target_T_source, double d2)
+std::vector<GaussianCell> sampleOf(const std::vector<GaussianCell>& cells)
 {
-  const Vector6d step = std::max(kLongStep, all.sourceEdge()) * stepOfMetres().cwiseProduct(direction);
-  const double there = std::min(normalEquations(all, boxPlus(target_T_source, step), d2).value,
-                                normalEquations(all, boxPlus(target_T_source, -step), d2).value);
-  const double here = normalEquations(all, target_T_source, d2).value;
-  return here < 0 ? there / here : 1;
+  constexpr std::size_t kEnough = 1000;  // a share of the score is then known to 0.015
+  const std::size_t every = std::max<std::size_t>(1, cells.size() / kEnough);
+  std::vector<GaussianCell> sample;
+  for (std::size_t i = 0; i < cells.size(); i += every) sample.push_back(cells[i]);
+  return sample;
 }
 
-std::vector<Vector6d> directionsWithoutStructure(const Evidence& evidence, Neighbourhoods& all,
+/** What is left of the score after a long step: of a sample, since all neighbours are looked up anew for each. */
+class LongSteps
+{
+ public:
+  LongSteps(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
+    : sample_(sampleOf(all.source())),
+      pairs_(all.targetMap(), sample_, all.sourceEdge(), all.neighbours()),
+      from_(target_T_source),
+      d2_(d2),
+      here_(normalEquations(pairs_, from_, d2_).value)
+  {
+  }
+
+  /** By the better one of both ways along `direction`. */
+  double keptBy(const Vector6d& direction)
+  {
+    const Vector6d step = std::max(kLongStep, pairs_.sourceEdge()) * stepOfMetres().cwiseProduct(direction);
+    const double there = std::min(normalEquations(pairs_, boxPlus(from_, step), d2_).value,
+                                  normalEquations(pairs_, boxPlus(from_, -step), d2_).value);
+    return here_ < 0 ? there / here_ : 1;
+  }
+
+ private:
+  std::vector<GaussianCell> sample_;
+  Neighbourhoods pairs_;
+  Rigid from_;
+  double d2_, here_;
+};
+
+std::vector<Vector6d> directionsWithoutStructure(const Evidence& evidence, const Neighbourhoods& all,
                                                  const Rigid& target_T_source, double d2)
 {
   const Matrix6d target_of_step = targetOfMetres(target_T_source);
@@ -216,14 +245,16 @@ std::vector<Vector6d> directionsWithoutStructure(const Evidence& evidence, Neigh
   Matrix6d resistance = target_of_step.transpose() * evidence.resistance * target_of_step;
   resistance += 1e-9 * (1 + resistance.trace()) * Matrix6d::Identity();
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> shares(structure, resistance);
+  std::optional<LongSteps> long_steps;
   std::vector<Vector6d> directions;
   for (int i = 0; i < 6 && shares.eigenvalues()[i] < kSuspicious; ++i)
   {
     Vector6d direction = shares.eigenvectors().col(i).normalized();
     for (const Vector6d& before : directions) direction -= before.dot(direction) * before;
     direction.normalize();
-    if (shares.eigenvalues()[i] < kBare || keptBy(direction, all, target_T_source, d2) > kUnchanged)
-      directions.push_back(direction);
+    const bool bare = shares.eigenvalues()[i] < kBare;
+    if (!bare && !long_steps) long_steps.emplace(all, target_T_source, d2);
+    if (bare || long_steps->keptBy(direction) > kUnchanged) directions.push_back(direction);
   }
   return directions;
 }
@@ -245,12 +276,12 @@ double largestDeviation(const Matrix6d& covariance)
 
 double scorePerInformation(double d2) { return d2 / kMostIndependentPoints; }
 
-std::vector<Vector6d> degenerateDirections(Neighbourhoods& all, const Rigid& target_T_source, double d2)
+std::vector<Vector6d> degenerateDirections(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
   return directionsWithoutStructure(evidenceOf(all, target_T_source, d2), all, target_T_source, d2);
 }
 
-LidarInformation lidarInformation(Neighbourhoods& all, const Rigid& target_T_source, double d2)
+LidarInformation lidarInformation(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
   const Evidence evidence = evidenceOf(all, target_T_source, d2);
   Matrix6d metres = kUnmodelled * covarianceOf(placesOf(all, evidence, target_T_source), evidence.unsure_means,

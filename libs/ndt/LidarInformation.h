@@ -28,8 +28,8 @@ struct LidarInformation
 };
 
 /** The steps in metres that nothing resists, orthonormal. Neighbourhoods as for lidarInformation. */
-std::vector<Vector6d> degenerateDirections(Neighbourhoods&, const Rigid& target_T_source, double d2);
+std::vector<Vector6d> degenerateDirections(const Neighbourhoods&, const Rigid& target_T_source, double d2);
 
-/** Neighbourhoods must have been moved to the pose, and are left there. */
-LidarInformation lidarInformation(Neighbourhoods&, const Rigid& target_T_source, double d2);
+/** Neighbourhoods must have been moved to the pose. */
+LidarInformation lidarInformation(const Neighbourhoods&, const Rigid& target_T_source, double d2);
 }  // namespace scanloom

@@ -34,12 +34,13 @@ GaussianCell nowhere()
 }
 }  // namespace
 
-Neighbourhoods::Neighbourhoods(const NdtMap& target, const NdtMap& source, int neighbours)
-  : target_(target), source_(source), neighbours_(neighbours)
+Neighbourhoods::Neighbourhoods(const NdtMap& target, const std::vector<GaussianCell>& source, double source_edge,
+                               int neighbours)
+  : target_(target), source_(source), source_edge_(source_edge), neighbours_(neighbours)
 {
   if (neighbours != 1 && neighbours != 7 && neighbours != 27)
     throw std::invalid_argument(fmt::format("RegistrationOptions: neighbours = {}: must be 1, 7 or 27", neighbours));
-  const std::size_t cells = source.cells().size();
+  const std::size_t cells = source.size();
   for (std::size_t first = 0; first < cells; first += kChunk)
   {
     const std::size_t count = std::min(kChunk, cells - first);
@@ -66,7 +67,7 @@ void Neighbourhoods::moveTo(const Rigid& target_T_source, std::size_t index)
   for (std::size_t i = 0; i < chunk.cells.size(); ++i)
   {
     TurnedCell& cell = chunk.cells[i];
-    cell = turned(source_.cells()[chunk.first + i], rotation, target_T_source.translation);
+    cell = turned(source_[chunk.first + i], rotation, target_T_source.translation);
     const Eigen::Vector3i centre = target_.indexOf({cell.x, cell.y, cell.z});
     if (centre != chunk.centres[i]) lookUp(chunk, i, centre);
   }

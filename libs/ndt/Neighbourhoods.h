@@ -15,7 +15,7 @@ namespace scanloom
  * larger ratios still work, but see less and less of their own extent.
  *
  * Source cells come in chunks of a fixed size, so that sums over them do not depend on the number of threads; different
- * chunks may be used by different threads at a time. Keeps references to both maps.
+ * chunks may be used by different threads at a time. Keeps references to target and source.
  */
 class Neighbourhoods
 {
@@ -23,7 +23,11 @@ class Neighbourhoods
   static constexpr std::size_t kChunk = 256;  // source cells
 
   /** Throws std::invalid_argument unless `neighbours` is 1, 7 or 27. */
-  Neighbourhoods(const NdtMap& target, const NdtMap& source, int neighbours);
+  Neighbourhoods(const NdtMap& target, const NdtMap& source, int neighbours)
+    : Neighbourhoods(target, source.cells(), source.options().cell_size, neighbours)
+  {
+  }
+  Neighbourhoods(const NdtMap& target, const std::vector<GaussianCell>& source, double source_edge, int neighbours);
 
   std::size_t chunks() const { return chunks_.size(); }
 
@@ -64,15 +68,18 @@ class Neighbourhoods
     return {first, first + chunk.counts[i]};
   }
 
+  const NdtMap& targetMap() const { return target_; }
   const std::vector<GaussianCell>& target() const { return target_.cells(); }
-  const std::vector<GaussianCell>& source() const { return source_.cells(); }
-  double sourceEdge() const { return source_.options().cell_size; }
+  const std::vector<GaussianCell>& source() const { return source_; }
+  double sourceEdge() const { return source_edge_; }
+  int neighbours() const { return neighbours_; }
 
  private:
   void lookUp(Chunk&, std::size_t i, const Eigen::Vector3i& centre);
 
   const NdtMap& target_;
-  const NdtMap& source_;
+  const std::vector<GaussianCell>& source_;
+  double source_edge_;
   int neighbours_;
   std::vector<Chunk> chunks_;
 };
