@@ -48,6 +48,7 @@ Neighbourhoods::Neighbourhoods(const NdtMap& target, const std::vector<GaussianC
     chunk.first = first;
     chunk.cells.resize(count);
     chunk.ranges.assign(count, {0, 0});
+    chunk.blocks.reserve(2 * count);  // what a scan of a forest needs
     chunk.found.resize(count * static_cast<std::size_t>(neighbours));
     chunk.counts.assign(count, 0);
     chunk.centres.assign(count, Eigen::Vector3i::Constant(std::numeric_limits<int>::min()));
