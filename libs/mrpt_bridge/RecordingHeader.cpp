@@ -51,6 +51,13 @@ RecordedLidar recordedLidar(const std::string& name, const LidarDescription& des
           description.clock};
 }
 
+std::vector<MountedLidar> mountedLidars(const std::vector<RecordedLidar>& recorded)
+{
+  std::vector<MountedLidar> lidars;
+  for (const RecordedLidar& lidar : recorded) lidars.push_back({lidar.name, lidar.body_T_sensor});
+  return lidars;
+}
+
 std::string toJson(const RecordingHeader& header)
 {
   json lidars = json::array();

@@ -4,7 +4,7 @@
  * label).
  */
 #pragma once
-#include "core/Rigid.h"
+#include "core/MountedLidar.h"
 #include "core/Time.h"
 #include "lidar/PacketDecoder.h"
 
@@ -37,6 +37,8 @@ struct RecordingHeader
 };
 
 RecordedLidar recordedLidar(const std::string& name, const LidarDescription&);
+
+std::vector<MountedLidar> mountedLidars(const std::vector<RecordedLidar>&);
 
 std::string toJson(const RecordingHeader&);
 

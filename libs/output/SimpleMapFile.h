@@ -5,7 +5,7 @@
  */
 #pragma once
 #include "core/Keyframe.h"
-#include "output/MountedLidar.h"
+#include "core/MountedLidar.h"
 
 #include <filesystem>
 #include <memory>

@@ -24,20 +24,13 @@ std::vector<Eigen::Vector3d> positionsOf(const std::vector<RecordedLidar>& lidar
   return positions;
 }
 
-std::vector<LidarBox> boxesOf(const CropOptions& crop, const std::vector<RecordedLidar>& lidars)
-{
-  std::vector<NamedPose> poses;
-  for (const RecordedLidar& lidar : lidars) poses.push_back({lidar.name, lidar.body_T_sensor});
-  return lidarBoxes(crop.lidar_boxes, poses);
-}
-
 /** As `<name>.points_<fate>`. */
 void addCounts(const std::vector<CropCounts>& cropped, const std::vector<RecordedLidar>& lidars,
                std::map<std::string, std::uint64_t>& counts)
 {
   for (std::size_t i = 0; i < cropped.size(); ++i)
-    CropCounts::forEach(cropped[i], [&](const char* fate, std::uint64_t count)
-                        { counts[fmt::format("{}.points_{}", lidars.at(i).name, fate)] = count; });
+    CropCounts::forEach([&](const char* name, auto fate)
+                        { counts[fmt::format("{}.points_{}", lidars.at(i).name, name)] = cropped[i].*fate; });
 }
 
 /** A box too large, or in another frame than was thought, is the first mistake that a person makes. */
@@ -112,7 +105,8 @@ class SlamRun
       coasts_(settings.slam.constant_motion),
       imu_(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms)),
       settings_(settings),
-      slam_(settingsInUse(), imu_.body_T_imu(), positionsOf(lidars_), boxesOf(settings.crop, lidars_)),
+      slam_(settingsInUse(), imu_.body_T_imu(), positionsOf(lidars_),
+            lidarBoxes(settings.crop.lidar_boxes, mountedLidars(lidars_))),
       motion_(imu_.body_T_imu()),
       watch_(imu_.body_T_imu(), warn)
   {

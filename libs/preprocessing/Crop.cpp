@@ -40,14 +40,16 @@ class Fates
 };
 }  // namespace
 
+std::uint64_t CropCounts::all() const
+{
+  std::uint64_t sum = 0;
+  forEach([&](const char*, auto fate) { sum += this->*fate; });
+  return sum;
+}
+
 CropCounts& CropCounts::operator+=(const CropCounts& other)
 {
-  not_finite += other.not_finite;
-  machine += other.machine;
-  lidar_box += other.lidar_box;
-  too_near += other.too_near;
-  too_far += other.too_far;
-  kept += other.kept;
+  forEach([&](const char*, auto fate) { this->*fate += other.*fate; });
   return *this;
 }
 

@@ -52,18 +52,19 @@ struct CropCounts
   std::uint64_t too_far = 0;
   std::uint64_t kept = 0;
 
-  std::uint64_t all() const { return not_finite + machine + lidar_box + too_near + too_far + kept; }
+  std::uint64_t all() const;
   CropCounts& operator+=(const CropCounts&);
 
-  template <typename Self, typename Visitor>
-  static void forEach(Self& c, Visitor&& visit)
+  /** Calls visit(name, member) for each. */
+  template <typename Visitor>
+  static void forEach(Visitor&& visit)
   {
-    visit("not_finite", c.not_finite);
-    visit("machine", c.machine);
-    visit("lidar_box", c.lidar_box);
-    visit("too_near", c.too_near);
-    visit("too_far", c.too_far);
-    visit("kept", c.kept);
+    visit("not_finite", &CropCounts::not_finite);
+    visit("machine", &CropCounts::machine);
+    visit("lidar_box", &CropCounts::lidar_box);
+    visit("too_near", &CropCounts::too_near);
+    visit("too_far", &CropCounts::too_far);
+    visit("kept", &CropCounts::kept);
   }
 };
 

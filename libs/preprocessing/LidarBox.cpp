@@ -13,7 +13,7 @@ namespace scanloom
 {
 namespace
 {
-LidarBox parseLidarBox(const std::string& text, const std::vector<NamedPose>& lidars)
+LidarBox parseLidarBox(const std::string& text, const std::vector<MountedLidar>& lidars)
 {
   std::istringstream words(text);
   std::string name, corners;
@@ -27,7 +27,7 @@ LidarBox parseLidarBox(const std::string& text, const std::vector<NamedPose>& li
   std::vector<std::string> names;
   for (std::size_t i = 0; i < lidars.size(); ++i)
   {
-    if (lidars[i].name == name) return {static_cast<std::uint8_t>(i), lidars[i].pose.inverse(), *box};
+    if (lidars[i].name == name) return {static_cast<std::uint8_t>(i), lidars[i].body_T_sensor.inverse(), *box};
     names.push_back(lidars[i].name);
   }
   throw ConfigError(fmt::format("[crop] lidar_boxes: no lidar is called '{}': {}", name, suggestion(name, names)));
@@ -50,7 +50,7 @@ std::optional<Eigen::AlignedBox3d> parseBox(const std::string& text)
   return Eigen::AlignedBox3d(low, high);
 }
 
-std::vector<LidarBox> lidarBoxes(const std::string& text, const std::vector<NamedPose>& lidars)
+std::vector<LidarBox> lidarBoxes(const std::string& text, const std::vector<MountedLidar>& lidars)
 {
   std::vector<LidarBox> boxes;
   std::istringstream parts(text);

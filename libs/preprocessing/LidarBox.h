@@ -1,5 +1,5 @@
 #pragma once
-#include "core/Rigid.h"
+#include "core/MountedLidar.h"
 
 #include <Eigen/Geometry>
 
@@ -21,15 +21,9 @@ struct LidarBox
 /** "x0 y0 z0 x1 y1 z1", the first corner below the second on each axis; nothing if it is anything else. */
 std::optional<Eigen::AlignedBox3d> parseBox(const std::string&);
 
-struct NamedPose
-{
-  std::string name;
-  Rigid pose;
-};
-
 /**
  * Of "left -1 -1 -1 1 1 1, right ..."; a lidar may have several. Throws ConfigError for a name that none of the lidars
- * (by sensor id, with their poses in the body) has, and for what is no box.
+ * (by sensor id) has, and for what is no box.
  */
-std::vector<LidarBox> lidarBoxes(const std::string& text, const std::vector<NamedPose>& lidars);
+std::vector<LidarBox> lidarBoxes(const std::string& text, const std::vector<MountedLidar>& lidars);
 }  // namespace scanloom

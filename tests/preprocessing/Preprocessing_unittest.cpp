@@ -75,8 +75,8 @@ TEST(Crop, countsEveryPointOnceByLidarAndByWhatRemovedIt)
 TEST(Crop, removesFromEachLidarWhatIsInItsOwnBoxAndLeavesItToTheOthers)
 {
   // The right lidar is 20 m ahead of the body and turned by 90 deg: its x is the body's y.
-  const std::vector<NamedPose> lidars{{"left", Rigid::identity()},
-                                      {"right", Rigid::fromXyzYawPitchRoll(20, 0, 0, M_PI / 2, 0, 0)}};
+  const std::vector<MountedLidar> lidars{{"left", Rigid::identity()},
+                                         {"right", Rigid::fromXyzYawPitchRoll(20, 0, 0, M_PI / 2, 0, 0)}};
   Scan scan = scanOf({{20, 5, 0}, {20, 5, 0}, {15, 0, 0}});
   for (const std::size_t i : {1, 2}) scan.columns[i].sensor_id = scan.points.sensor_id[i] = 1;
 
@@ -90,7 +90,7 @@ TEST(Crop, removesFromEachLidarWhatIsInItsOwnBoxAndLeavesItToTheOthers)
 
 TEST(LidarBox, isRefusedWithItsNameIfItIsNoneOrOfNoLidar)
 {
-  const std::vector<NamedPose> lidars{{"left", Rigid::identity()}};
+  const std::vector<MountedLidar> lidars{{"left", Rigid::identity()}};
   const auto messageOf = [&](const char* text)
   {
     try

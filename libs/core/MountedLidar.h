@@ -1,16 +1,17 @@
 #pragma once
-#include "mrpt_bridge/RecordingHeader.h"
+#include "core/Rigid.h"
+
+#include <string>
+#include <vector>
 
 namespace scanloom
 {
-/** What a map needs to know of a lidar. */
+/** A lidar by its name, and where it is on the body. */
 struct MountedLidar
 {
   std::string name;
   Rigid body_T_sensor;
 };
-
-std::vector<MountedLidar> mountedLidars(const std::vector<RecordedLidar>&);
 
 std::vector<Rigid> posesOf(const std::vector<MountedLidar>&);
 }  // namespace scanloom
