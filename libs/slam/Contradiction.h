@@ -17,11 +17,12 @@ class Contradiction
   void add(Timestamp, double surprise);
 
   /** The median of the last ten seconds; 0 until they are over, or if they hold fewer than five registrations. */
-  double median() const;
+  double median() const { return median_; }
 
-  void clear() { last_.clear(); }
+  void clear() { *this = {}; }
 
  private:
   std::deque<std::pair<Timestamp, double>> last_;
+  double median_ = 0;
 };
 }  // namespace scanloom
