@@ -28,6 +28,12 @@ inline Eigen::Vector3d gravityInMap() { return {0, 0, -kGravity}; }
 using Vector15d = Eigen::Matrix<double, 15, 1>;
 using Matrix15d = Eigen::Matrix<double, 15, 15>;
 
+struct NavEstimate
+{
+  NavState state;
+  Matrix15d covariance = Matrix15d::Zero();
+};
+
 NavState boxPlus(const NavState&, const Vector15d& step);
 
 /** The step with boxPlus(from, step) = to; stamps are not looked at. */

@@ -1,13 +1,12 @@
 #include "slam/LidarInertialSlam.h"
 
-#include "graph/PosePriorFactor.h"
-#include "imu/BiasBeside.h"
 #include "ndt/Rivals.h"
 #include "preprocessing/Deskew.h"
 #include "slam/ImuWatch.h"
 #include "slam/ScanRegistration.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace scanloom
 {
@@ -41,51 +40,19 @@ void LidarInertialSlam::addImu(const ImuSample& sample)
 
 void LidarInertialSlam::changeImu(const ImuChange& change)
 {
-  const Rigid old_T_new = imu_T_body_ * change.body_T_imu;
+  const Rigid body_T_imu_before = std::exchange(body_T_imu_, change.body_T_imu);
   const Rigid map_T_local = smoother_ ? this->map_T_local() : Rigid::identity();
-  body_T_imu_ = change.body_T_imu;
   imu_T_body_ = body_T_imu_.inverse();
   settings_.imu = change.noise;
   imu_ = ImuBuffer();
   for (const ImuSample& sample : change.samples) addImu(sample);
   if (!smoother_) return;
 
-  NavState state = smoother_->newest();
-  const std::optional<ImuBias> bias = biasBeside(change.previous, state.bias, change.samples, old_T_new);
-  const Matrix15d covariance = covarianceAt(old_T_new, bias.has_value());
-  state.bias = bias.value_or(ImuBias{});
-  if (last_seen_) last_seen_->bias = state.bias;
-  const std::vector<ImuSample> then = imu_.between(state.stamp, state.stamp + 1ms);
-  const Eigen::Vector3d rate =
-      then.empty() ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(then.front().gyro - state.bias.gyro);
-  const Eigen::Vector3d lever = old_T_new.rotation.conjugate() * old_T_new.translation;
-  state.map_T_imu = state.map_T_imu * old_T_new;
-  state.velocity += state.map_T_imu.rotation * rate.cross(lever);
+  const NavEstimate start = continuedBy(change, newest(), body_T_imu_before);
   const bool anchored = smoother_->hasAnchor();
-  smoother_.emplace(state, covariance, body_T_imu_, settings_.imu, settings_.smoother);
-  if (anchored) anchorAt(map_T_local.inverse() * bodyAt(state));
-}
-
-/** Of the newest state, seen from the new IMU. The old one was silent for a while, and its last reading was held. */
-Matrix15d LidarInertialSlam::covarianceAt(const Rigid& imu_T_other, bool biases_known) const
-{
-  constexpr double kTilt = 0.005, kVelocity = 0.3;            // rad, m/s
-  constexpr double kGyroBias = 0.02, kKnownGyroBias = 0.001;  // rad/s
-  constexpr double kKnownAccelBias = 0.02;                    // m/s2: of the lever's accelerations
-  const Eigen::Matrix3d other_R_imu = imu_T_other.rotation.conjugate().toRotationMatrix();
-  const Matrix6d step = bodyStepByImuStep(imu_T_other);
-  const Matrix15d known = smoother_->newestCovariance();
-  Matrix15d covariance = Matrix15d::Zero();
-  covariance.topLeftCorner<6, 6>() = step * known.topLeftCorner<6, 6>() * step.transpose();
-  covariance.block<3, 3>(6, 6) = known.block<3, 3>(6, 6);
-  covariance.diagonal().segment<3>(3).array() += kTilt * kTilt;
-  covariance.diagonal().segment<3>(6).array() += kVelocity * kVelocity;
-  covariance.diagonal().segment<3>(9).setConstant(std::pow(biases_known ? kKnownGyroBias : kGyroBias, 2));
-  covariance.diagonal().segment<3>(12).setConstant(std::pow(settings_.imu.accel_bias_sigma, 2));
-  if (biases_known)
-    covariance.bottomRightCorner<3, 3>() = other_R_imu * known.bottomRightCorner<3, 3>() * other_R_imu.transpose() +
-                                           std::pow(kKnownAccelBias, 2) * Eigen::Matrix3d::Identity();
-  return covariance;
+  begin(start);
+  if (anchored) anchorAt(map_T_local.inverse() * bodyAt(start.state));
+  if (last_seen_) last_seen_->bias = start.state.bias;
 }
 
 std::vector<StateEstimate> LidarInertialSlam::addScan(Scan scan)
@@ -160,14 +127,14 @@ bool LidarInertialSlam::start(bool input_ended)
     initialising_until_ = enough;
   }
   initial->state.stamp = first;
-  begin(*initial);
+  last_trusted_ = first;
+  begin({initial->state, initial->covariance});
   return true;
 }
 
-void LidarInertialSlam::begin(const ImuInitialisation& initial)
+void LidarInertialSlam::begin(const NavEstimate& first)
 {
-  last_trusted_ = initial.state.stamp;
-  smoother_.emplace(initial.state, initial.covariance, body_T_imu_, settings_.imu, settings_.smoother);
+  smoother_.emplace(first.state, first.covariance, body_T_imu_, settings_.imu, settings_.smoother);
 }
 
 /** A first pass over the first scans, as if from rest: what it finds between them is the velocity to start with. */
@@ -176,7 +143,8 @@ Eigen::Vector3d LidarInertialSlam::velocityOfFirstScans(const ImuInitialisation&
   const std::size_t scans = std::min({waiting_.size(), kScansOfFirstPass, std::size_t(settings_.smoother.window - 1)});
   LidarInertialSlam trial(settings_, body_T_imu_, lidars_);
   trial.imu_ = imu_;
-  trial.begin(at_rest);
+  trial.last_trusted_ = at_rest.state.stamp;
+  trial.begin({at_rest.state, at_rest.covariance});
   for (std::size_t i = 0; i < scans; ++i) trial.track(waiting_[i]);
   return trial.smoother_->states().front().velocity;  // the window still holds the first state
 }
@@ -334,27 +302,13 @@ bool LidarInertialSlam::recover(const std::vector<View>& views, StateEstimate& e
  */
 void LidarInertialSlam::restartAt(const Rigid& local_T_body, const Matrix6d& covariance)
 {
-  constexpr double kVelocity = 1;  // m/s: found, but not how fast it goes
-  const Rigid map_T_body = last_seen_->map_T_local * local_T_body;
-  const Eigen::Matrix3d body_R_map = map_T_body.rotation.conjugate().toRotationMatrix();
-  const double level = settings_.imu.accel_bias_sigma / kGravity;  // rad: how well the map is
-  Matrix6d of_body = covariance;
-  of_body.bottomRightCorner<3, 3>() += level * level * body_R_map.leftCols<2>() * body_R_map.leftCols<2>().transpose();
-
-  const Matrix6d imu_by_body = bodyStepByImuStep(body_T_imu_);
-  NavState state = smoother_->newest();
-  Matrix15d around = smoother_->newestCovariance();
-  around.topRows<9>().setZero();
-  around.leftCols<9>().setZero();
-  around.topLeftCorner<6, 6>() = imu_by_body * of_body * imu_by_body.transpose();
-  around.diagonal().segment<3>(6).setConstant(kVelocity * kVelocity);
-  state.map_T_imu = map_T_body * body_T_imu_;
-  state.velocity.setZero();
-  state.bias = last_seen_->bias;
-  smoother_.emplace(state, around, body_T_imu_, settings_.imu, settings_.smoother);
+  begin(foundAt(last_seen_->map_T_local * local_T_body, covariance, newest(), last_seen_->bias, body_T_imu_,
+                settings_.imu.accel_bias_sigma));
   last_registered_.reset();
   anchorAt(local_T_body);
 }
+
+NavEstimate LidarInertialSlam::newest() const { return {smoother_->newest(), smoother_->newestCovariance()}; }
 
 void LidarInertialSlam::anchorAt(const Rigid& local_T_body)
 {

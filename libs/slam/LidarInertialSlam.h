@@ -9,6 +9,7 @@
 #include "slam/Contradiction.h"
 #include "slam/SlamSettings.h"
 #include "slam/StateEstimate.h"
+#include "slam/WindowStart.h"
 
 #include <deque>
 #include <memory>
@@ -17,15 +18,6 @@
 
 namespace scanloom
 {
-/** Another IMU, elsewhere in the body. */
-struct ImuChange
-{
-  Rigid body_T_imu;
-  ImuNoise noise;
-  std::vector<ImuSample> samples;   // its own so far, back to the newest state or farther
-  std::vector<ImuSample> previous;  // what the one before read at the same time, as far as it did
-};
-
 /**
  * The map frame: z up, origin and yaw those of the body at the start of the first scan. The same samples and scans in
  * the same order give the same bits.
@@ -75,7 +67,7 @@ class LidarInertialSlam
   std::vector<StateEstimate> processWaiting(bool input_ended);
   bool isCutStart(const Scan&);
   bool start(bool input_ended);
-  void begin(const ImuInitialisation&);
+  void begin(const NavEstimate&);
   Eigen::Vector3d velocityOfFirstScans(const ImuInitialisation& at_rest) const;
   bool covered(const Scan&) const;
   StateEstimate track(Scan);
@@ -85,8 +77,8 @@ class LidarInertialSlam
   void addToSmoother(const RegistrationResult&);
   bool recover(const std::vector<View>&, StateEstimate&);
   void anchorAt(const Rigid& local_T_body);
-  Matrix15d covarianceAt(const Rigid& imu_T_other, bool biases_known) const;
   void restartAt(const Rigid& local_T_body, const Matrix6d& covariance);
+  NavEstimate newest() const;
   void updateMap(PointCloud, const std::vector<View>&, StateEstimate&);
   void addKeyframe(PointCloud, const std::vector<View>&, StateEstimate&);
   Health healthOf(const StateEstimate&);
