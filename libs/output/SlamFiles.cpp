@@ -15,12 +15,9 @@ const std::filesystem::path& created(const std::filesystem::path& folder)
   return folder;
 }
 
-double lengthOf(const Trajectory& poses)
+double distance(const StampedPose& a, const StampedPose& b)
 {
-  double length = 0;
-  for (std::size_t i = 1; i < poses.size(); ++i)
-    length += (poses[i].map_T_body.translation - poses[i - 1].map_T_body.translation).norm();
-  return length;
+  return (a.map_T_body.translation - b.map_T_body.translation).norm();
 }
 }  // namespace
 
@@ -45,8 +42,8 @@ SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<Reco
 
 void SlamFiles::add(const StateEstimate& e)
 {
-  poses_.push_back({e.stamp, e.map_T_body});
-  trajectory_.add(poses_.back());
+  extendWay({e.stamp, e.map_T_body});
+  trajectory_.add({e.stamp, e.map_T_body});
   for (const StampedPose& pose : e.since_last) trajectory_imu_.add(pose);
 
   const RegistrationResult none;
@@ -61,13 +58,24 @@ void SlamFiles::add(const StateEstimate& e)
   if (maps_ && e.keyframe) maps_->add(*e.keyframe);
 }
 
+void SlamFiles::extendWay(const StampedPose& pose)
+{
+  constexpr double kApart = 0.05;  // m
+  if (!way_.empty()) path_length_ += distance(way_.back(), pose);
+  const bool near = way_.size() > 1 && distance(way_[way_.size() - 2], way_.back()) < kApart;
+  if (near)
+    way_.back() = pose;
+  else
+    way_.push_back(pose);
+}
+
 void SlamFiles::close(RunSummary summary)
 {
   trajectory_.close();
   trajectory_imu_.close();
   csv_.commit();
-  if (maps_) maps_->close(poses_, summary);
-  summary.path_length = lengthOf(poses_);
+  if (maps_) maps_->close(way_, summary);
+  summary.path_length = path_length_;
   summary.peak_memory = peakMemory();
   writeSummary(folder_ / "summary.json", summary);
 }

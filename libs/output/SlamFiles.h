@@ -46,10 +46,13 @@ class SlamFiles
   void close(RunSummary);
 
  private:
+  void extendWay(const StampedPose&);
+
   std::filesystem::path folder_;
   TumWriter trajectory_, trajectory_imu_;
   OutputFile csv_;
-  Trajectory poses_;
+  Trajectory way_;  // the newest pose, and those before it some way apart: an hour at rest is no way
+  double path_length_ = 0;
   std::optional<SlamMaps> maps_;
 };
 }  // namespace scanloom
