@@ -35,8 +35,9 @@ SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<Reco
     trajectory_imu_(folder / "trajectory_imu.tum"),
     csv_(folder / "trajectory.csv")
 {
-  csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
-                   "surprise,trusted,recovered,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,sigma_rz\n";
+  csv_.stream()
+      << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
+         "surprise,trusted,recovered,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,sigma_rz,correction_m,correction_deg\n";
   if (octomap) maps_.emplace(folder, lidars, *octomap);
 }
 
@@ -49,10 +50,11 @@ void SlamFiles::add(const StateEstimate& e)
   const RegistrationResult none;
   const RegistrationResult& r = e.registration ? *e.registration : none;
   const Vector6d sigma = e.covariance.diagonal().cwiseSqrt();
-  fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d},{:.3e}\n",
+  fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d},{:.3e},{:.4f},{:.4f}\n",
              nanoseconds(e.stamp), toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap,
              r.score, r.iterations, e.points, e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise,
-             e.trusted, e.recovered, fmt::join(sigma.begin(), sigma.end(), ","));
+             e.trusted, e.recovered, fmt::join(sigma.begin(), sigma.end(), ","), e.correction.head<3>().norm(),
+             180 / M_PI * e.correction.tail<3>().norm());
   for (TumWriter* writer : {&trajectory_, &trajectory_imu_}) writer->flush();
   csv_.stream().flush();
   if (maps_ && e.keyframe) maps_->add(*e.keyframe);

@@ -161,6 +161,8 @@ StateEstimate LidarInertialSlam::track(Scan scan)
   smoother_->addState(
       times_.measure("preintegration", [&] { return preintegrate(samples, before.bias, settings_.imu); }));
 
+  const Rigid predicted = bodyAt(smoother_->newest());
+
   PointCloud cloud = times_.measure("preprocessing", [&] { return preprocess(std::move(scan), before, samples); });
   const std::vector<View> views = times_.measure("preprocessing", [&] { return viewsOf(cloud, lidars_); });
   estimate.points = cloud.size();
@@ -168,6 +170,7 @@ StateEstimate LidarInertialSlam::track(Scan scan)
   const NavState state = times_.measure("smoother", [&] { return smoother_->optimise(); });
 
   estimate.map_T_body = bodyAt(state);
+  estimate.correction = boxMinus(estimate.map_T_body, predicted);
   estimate.covariance = smoother_->bodyCovarianceAfter(estimate.covariance);
   estimate.velocity = state.velocity;
   estimate.since_last = posesBetween(before, state, samples);

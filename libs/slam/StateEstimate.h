@@ -29,6 +29,7 @@ struct StateEstimate
    * relative = false, it is of map_T_body.
    */
   Matrix6d covariance = Matrix6d::Zero();
+  Vector6d correction = Vector6d::Zero();  // boxMinus(map_T_body, where the IMU alone saw it since the last scan)
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the IMU, in the map frame
   Health health = Health::Ok;
   bool scan_complete = true;
