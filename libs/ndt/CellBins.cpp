@@ -130,4 +130,24 @@ std::vector<Bin> coarserBins(const std::vector<Bin>& fine, std::int64_t cell_qua
   }
   return sortedBins(parents, [&](std::uint32_t i) { return sums[i]; });
 }
+
+std::vector<Bin> thinned(const std::vector<Bin>& bins, int least_points, std::size_t most)
+{
+  const auto counts = [&](const Bin& bin) { return bin.moments.n >= least_points; };
+  const auto isFew = [&](const Bin& bin) { return counts(bin) && bin.moments.n < GaussianCell::kTellsItsSpread; };
+  const auto all = static_cast<std::size_t>(std::count_if(bins.begin(), bins.end(), counts));
+  const auto few = static_cast<std::size_t>(std::count_if(bins.begin(), bins.end(), isFew));
+  if (all <= most) return bins;
+
+  const std::size_t room = most - std::min(most, all - few);
+  std::vector<Bin> kept;
+  std::size_t place = 0;  // among the few
+  for (const Bin& bin : bins)
+  {
+    const bool fits = !isFew(bin) || (place + 1) * room / few != place * room / few;
+    if (isFew(bin)) ++place;
+    if (fits) kept.push_back(bin);
+  }
+  return kept;
+}
 }  // namespace scanloom

@@ -44,6 +44,12 @@ std::vector<Bin> sumOf(const std::vector<Bin>&, const std::vector<Bin>&);
 /** The same points in cells `factor` times as large: no point is looked at again. */
 std::vector<Bin> coarserBins(const std::vector<Bin>&, std::int64_t cell_quanta, int factor);
 
+/**
+ * Without some of those with fewer than GaussianCell::kTellsItsSpread points, evenly, if more than `most` bins have
+ * `least_points`. Cells of few points hold the angles where there are few cells; of many, a share does.
+ */
+std::vector<Bin> thinned(const std::vector<Bin>&, int least_points, std::size_t most);
+
 /** A coordinate in Moments::kQuantum, without a branch or a library call: |coordinate| < 2^23 m. */
 inline std::int64_t quantaOf(double coordinate)
 {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
+
 namespace scanloom
 {
 namespace
@@ -15,6 +17,12 @@ void forEachSum(Moments& a, const Moments& b, Operation&& apply)
   apply(a.yy, b.yy), apply(a.yz, b.yz), apply(a.zz, b.zz);
 }
 
+Eigen::Matrix3d supposed(const Eigen::Matrix3d& covariance, std::int64_t points)
+{
+  constexpr double kDeviation = 0.15;  // m
+  const double n = static_cast<double>(points);
+  return ((n - 1) * covariance + kDeviation * kDeviation * Eigen::Matrix3d::Identity()) / n;
+}
 }  // namespace
 
 Moments Moments::about(const Eigen::Matrix<std::int64_t, 3, 1>& corner) const
@@ -53,13 +61,15 @@ MeanAndCovariance meanAndCovariance(const Moments& m, const Eigen::Vector3d& cor
   products << static_cast<double>(m.xx), static_cast<double>(m.xy), static_cast<double>(m.xz),  //
       static_cast<double>(m.xy), static_cast<double>(m.yy), static_cast<double>(m.yz),          //
       static_cast<double>(m.xz), static_cast<double>(m.yz), static_cast<double>(m.zz);
+  const double freedom = std::max(1.0, n - 1);
   return {corner + Moments::kQuantum * mean,
-          (products - n * mean * mean.transpose()) * (Moments::kQuantum * Moments::kQuantum / (n - 1))};
+          (products - n * mean * mean.transpose()) * (Moments::kQuantum * Moments::kQuantum / freedom)};
 }
 
 GaussianCell gaussianOf(const Moments& m, const Eigen::Vector3d& corner, double edge, double min_deviation)
 {
-  const auto [mean, covariance] = meanAndCovariance(m, corner);
+  const auto [mean, seen] = meanAndCovariance(m, corner);
+  const Eigen::Matrix3d covariance = m.n < GaussianCell::kTellsItsSpread ? supposed(seen, m.n) : seen;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(covariance);
   const Eigen::Array3d variances = eigen.eigenvalues().array().max(min_deviation * min_deviation);

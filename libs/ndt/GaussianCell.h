@@ -12,6 +12,10 @@ struct GaussianCell
   Eigen::Vector3d mean;        // m
   Eigen::Matrix3d covariance;  // m^2, no eigenvalue below the floor of the map's options
   std::uint32_t points = 0;
+
+  /** Fewer points do not say how they are spread. */
+  static constexpr int kTellsItsSpread = 4;
+
   /**
    * Takes away the directions in which the points fill the cell (variance near edge^2 / 12). There the mean tells where
    * the grid lies, not where the world does: a wall's cells resist sliding along it although nothing in the wall does.
@@ -54,12 +58,14 @@ struct MeanAndCovariance
   Eigen::Matrix3d covariance;  // m^2
 };
 
-/** Of at least two points whose sums are about `corner`. */
+/** Of points whose sums are about `corner`; a single one has no covariance. */
 MeanAndCovariance meanAndCovariance(const Moments&, const Eigen::Vector3d& corner);
 
 /**
- * The Gaussian of at least two points in a cell of `edge` m whose sums are about its `corner`. Eigenvalues below
- * min_deviation^2 are raised to it: walls and stems are thinner than the noise of their cells is known.
+ * The Gaussian of the points in a cell of `edge` m whose sums are about its `corner`. Eigenvalues below
+ * min_deviation^2 are raised to it: walls and stems are thinner than the noise of their cells is known. Of fewer than
+ * kTellsItsSpread points the covariance is that of one more with a deviation of 15 cm to all sides: what a beam meets
+ * far away is some stem or branch, and where in it is open.
  */
 GaussianCell gaussianOf(const Moments&, const Eigen::Vector3d& corner, double edge, double min_deviation);
 }  // namespace scanloom

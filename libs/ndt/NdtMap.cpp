@@ -39,6 +39,11 @@ Coordinates coordinatesOf(const std::vector<Eigen::Vector3f>& points)
   return {first, first + 1, first + 2, 3, points.size()};
 }
 
+Coordinates coordinatesOf(const PointCloud& cloud)
+{
+  return {cloud.x.data(), cloud.y.data(), cloud.z.data(), 1, cloud.size()};
+}
+
 /** What of one axis lies in one block: the cells from -1 to 1 around the centre, and the centre alone. */
 struct AxisInBlock
 {
@@ -76,27 +81,40 @@ NdtMap::NdtMap(const NdtOptions& options, std::int64_t cell_quanta, const std::v
   combine(bins, [](Moments& a, const Moments& b) { a += b; });
 }
 
-NdtMap::NdtMap(const PointCloud& points, const NdtOptions& options) : NdtMap(options) { add(points); }
+NdtMap::NdtMap(const PointCloud& points, const NdtOptions& options) : NdtMap(options)
+{
+  begin(countInto(coordinatesOf(points), cell_quanta_));
+}
 
-NdtMap::NdtMap(const std::vector<Eigen::Vector3f>& points, const NdtOptions& options) : NdtMap(options) { add(points); }
+NdtMap::NdtMap(const std::vector<Eigen::Vector3f>& points, const NdtOptions& options) : NdtMap(options)
+{
+  begin(countInto(coordinatesOf(points), cell_quanta_));
+}
 
 NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options) : NdtMap(options)
 {
-  std::vector<Bin> all;
+  CellBins all;
   for (const View& view : views)
   {
     CellBins counted = countInto(coordinatesOf(view.points), cell_quanta_);
-    points_left_out_ += counted.left_out;
-    if (view.viewpoint) moveToAxes(counted.bins, cell_quanta_, *view.viewpoint, options_.min_points);
-    all = all.empty() ? std::move(counted.bins) : sumOf(all, counted.bins);
+    all.left_out += counted.left_out;
+    const int least_points = std::max(options_.min_points, GaussianCell::kTellsItsSpread);
+    if (view.viewpoint) moveToAxes(counted.bins, cell_quanta_, *view.viewpoint, least_points);
+    all.bins = all.bins.empty() ? std::move(counted.bins) : sumOf(all.bins, counted.bins);
   }
-  combine(all, [](Moments& a, const Moments& b) { a += b; });
+  begin(all);
 }
 
-void NdtMap::add(const PointCloud& cloud)
+void NdtMap::begin(const CellBins& counted)
 {
-  add(Coordinates{cloud.x.data(), cloud.y.data(), cloud.z.data(), 1, cloud.size()});
+  points_left_out_ = counted.left_out;
+  const bool limited = options_.max_cells > 0;
+  combine(
+      limited ? thinned(counted.bins, options_.min_points, static_cast<std::size_t>(options_.max_cells)) : counted.bins,
+      [](Moments& a, const Moments& b) { a += b; });
 }
+
+void NdtMap::add(const PointCloud& cloud) { add(coordinatesOf(cloud)); }
 
 void NdtMap::add(const std::vector<Eigen::Vector3f>& points) { add(coordinatesOf(points)); }
 

@@ -18,13 +18,16 @@ struct NdtOptions
   double cell_size = 1.0;
   int min_points = 4;
   double min_deviation = 0.03;
+  int max_cells = 0;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.cell_size, Field{"cell_size", "m", "edge of a cell", between(0.05, 10)});
-    visit(o.min_points, Field{"min_points", "", "points that a cell needs to count", atLeast(4)});
+    visit(o.min_points, Field{"min_points", "", "points that a cell needs to count", atLeast(1)});
     visit(o.min_deviation, Field{"min_deviation", "m", "floor of a cell's standard deviations", above(0)});
+    visit(o.max_cells,
+          Field{"max_cells", "", "a cloud with more loses, evenly, cells of fewer than 4 points; 0: none", atLeast(0)});
   }
 };
 
@@ -88,6 +91,7 @@ class NdtMap
   NdtMap(const NdtOptions&, std::int64_t cell_quanta, const std::vector<Bin>&);
 
   void add(const Coordinates&);
+  void begin(const CellBins&);
   template <typename Combine>
   void combine(const std::vector<Bin>& others, Combine&&);
   void requireSameCells(const NdtMap& other) const;

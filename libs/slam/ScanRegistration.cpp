@@ -23,8 +23,9 @@ constexpr double kReachOfCells = 0.3;
 class Pyramid
 {
  public:
-  Pyramid(const NdtMap& map, const std::vector<View>& views, const NdtOptions& cells)
+  Pyramid(const NdtMap& map, const std::vector<View>& views, NdtOptions cells)
   {
+    cells.min_points = std::max(cells.min_points, GaussianCell::kTellsItsSpread);  // far off, the others draw anywhere
     std::vector<double> sizes;
     for (const int factor : kFactors)
     {

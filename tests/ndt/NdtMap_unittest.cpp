@@ -53,6 +53,28 @@ TEST(NdtMap, putsNegativeCoordinatesIntoTheirOwnCells)
   EXPECT_EQ(map.indexOf({-0.00002, 0.00002, -1}), Eigen::Vector3i(-1, 0, -1));
 }
 
+TEST(NdtMap, ofTooManyCellsLosesThoseOfFewPointsEvenly)
+{
+  Points points = together(blockAt({-5, 0, 0}), blockAt({-3, 0, 0}));
+  for (int x = 0; x < 100; ++x) points.emplace_back(static_cast<float>(x) + 0.5f, 0.5f, 0.5f);
+  NdtOptions options;
+  options.min_points = 1;
+  options.max_cells = 52;
+  const NdtMap map(points, options);
+
+  ASSERT_EQ(map.cells().size(), 52u);
+  EXPECT_NE(map.cellAt({-5, 0, 0}), nullptr);
+  EXPECT_NE(map.cellAt({-3, 0, 0}), nullptr);
+  for (int x = 0; x < 100; x += 4)
+  {
+    int cells = 0;
+    for (int i = 0; i < 4; ++i) cells += map.cellAt({x + i, 0, 0}) != nullptr;
+    EXPECT_EQ(cells, 2) << x;
+  }
+  options.max_cells = 102;
+  EXPECT_EQ(NdtMap(points, options).cells().size(), 102u);
+}
+
 TEST(NdtMap, givesTheSameBitsForAnyOrderOfPoints)
 {
   Points points = scanFrom(forest(1), Rigid::identity(), 2);
