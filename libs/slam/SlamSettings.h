@@ -76,9 +76,9 @@ struct SlamSettings
   ImuNoise lidar_imu = insideLidar();
   CropOptions crop;
   NdtOptions scan_cells = cells(2.5);
-  NdtOptions fine_cells = cells(1.0, 1, kMostCells);
-  NdtOptions map_cells = cells(1.0, 1);
-  NdtOptions keyframe_cells = cells(0.5, 1, kMostCells);
+  NdtOptions fine_cells = cells(1.0);
+  NdtOptions map_cells = cells(1.0);
+  NdtOptions keyframe_cells = cells(0.5);
   RegistrationOptions rough = reach(0.3);
   RegistrationOptions fine = reach(1.0);
   LocalMapOptions local_map;
@@ -114,13 +114,10 @@ struct SlamSettings
     noise.accel_bias_sigma = 0.2;
     return noise;
   }
-  static constexpr int kMostCells = 5000;  // for the time that a scan may take
-  static NdtOptions cells(double size, int min_points = 4, int max_cells = 0)
+  static NdtOptions cells(double size)
   {
     NdtOptions options;
     options.cell_size = size;
-    options.min_points = min_points;
-    options.max_cells = max_cells;
     return options;
   }
   static RegistrationOptions reach(double d2)
