@@ -108,10 +108,10 @@ NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options) : NdtM
 void NdtMap::begin(const CellBins& counted)
 {
   points_left_out_ = counted.left_out;
-  const bool limited = options_.max_cells > 0;
-  combine(
-      limited ? thinned(counted.bins, options_.min_points, static_cast<std::size_t>(options_.max_cells)) : counted.bins,
-      [](Moments& a, const Moments& b) { a += b; });
+  const auto fill = [this](const std::vector<Bin>& bins)
+  { combine(bins, [](Moments& a, const Moments& b) { a += b; }); };
+  if (options_.max_cells == 0) return fill(counted.bins);
+  fill(thinned(counted.bins, options_.min_points, static_cast<std::size_t>(options_.max_cells)));
 }
 
 void NdtMap::add(const PointCloud& cloud) { add(coordinatesOf(cloud)); }

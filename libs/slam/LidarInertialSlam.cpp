@@ -3,6 +3,7 @@
 #include "ndt/Rivals.h"
 #include "preprocessing/Deskew.h"
 #include "slam/ImuWatch.h"
+#include "slam/PosesOnTheWay.h"
 #include "slam/ScanRegistration.h"
 
 #include <algorithm>
@@ -14,12 +15,6 @@ namespace
 {
 // Enough for a velocity, few enough that it is still that of the first scan.
 constexpr std::size_t kScansOfFirstPass = 4;
-
-/** Never beyond the ends of the way. */
-Rigid poseOn(const Trajectory& way, Timestamp stamp)
-{
-  return *poseAt(way, std::clamp(stamp, way.front().stamp, way.back().stamp));
-}
 }  // namespace
 
 LidarInertialSlam::LidarInertialSlam(const SlamSettings& settings, const Rigid& body_T_imu,
@@ -162,7 +157,6 @@ StateEstimate LidarInertialSlam::track(Scan scan)
       times_.measure("preintegration", [&] { return preintegrate(samples, before.bias, settings_.imu); }));
 
   const Rigid predicted = bodyAt(smoother_->newest());
-
   PointCloud cloud = times_.measure("preprocessing", [&] { return preprocess(std::move(scan), before, samples); });
   const std::vector<View> views = times_.measure("preprocessing", [&] { return viewsOf(cloud, lidars_); });
   estimate.points = cloud.size();
@@ -170,13 +164,13 @@ StateEstimate LidarInertialSlam::track(Scan scan)
   const NavState state = times_.measure("smoother", [&] { return smoother_->optimise(); });
 
   estimate.map_T_body = bodyAt(state);
-  estimate.correction = boxMinus(estimate.map_T_body, predicted);
   estimate.covariance = smoother_->bodyCovarianceAfter(estimate.covariance);
   estimate.velocity = state.velocity;
-  estimate.since_last = posesBetween(before, state, samples);
+  estimate.since_last = posesBetween(before, state, samples, imu_T_body_);
   estimate.health = healthOf(estimate);
   const bool blind = estimate.health == Health::Lost && !contradicts();
   if (blind && recover(views, estimate)) estimate.health = healthOf(estimate);
+  estimate.correction = boxMinus(estimate.map_T_body, predicted);
   way_to_last_ = estimate.recovered ? Trajectory{} : estimate.since_last;
   updateMap(std::move(cloud), views, estimate);
   imu_.forgetBefore(state.stamp);
@@ -186,7 +180,7 @@ StateEstimate LidarInertialSlam::track(Scan scan)
 /** Cropped, and moved to where the body is at the end of the scan. */
 PointCloud LidarInertialSlam::preprocess(Scan scan, const NavState& before, const std::vector<ImuSample>& samples)
 {
-  const std::vector<Rigid> map_T_column = bodyAtColumns(scan, before, samples);
+  const std::vector<Rigid> map_T_column = bodyAtColumns(scan, before, samples, imu_T_body_, way_to_last_);
   const Rigid end_T_map = bodyAt(predictAt(before, samples, {scan.end()}).front()).inverse();
   std::vector<Rigid> end_T_column;
   for (const Rigid& pose : map_T_column) end_T_column.push_back(end_T_map * pose);
@@ -194,30 +188,6 @@ PointCloud LidarInertialSlam::preprocess(Scan scan, const NavState& before, cons
   if (cropped_.size() < cropped.counts.size()) cropped_.resize(cropped.counts.size());
   for (std::size_t i = 0; i < cropped.counts.size(); ++i) cropped_[i] += cropped.counts[i];
   return deskew(std::move(cropped.scan), end_T_column);
-}
-
-/** Whole turns come lidar by lidar, not in order of time, and begin before the scan before them has ended. */
-std::vector<Rigid> LidarInertialSlam::bodyAtColumns(const Scan& scan, const NavState& before,
-                                                    const std::vector<ImuSample>& samples) const
-{
-  std::vector<Timestamp> stamps;
-  for (const Column& column : scan.columns) stamps.push_back(std::max(column.stamp, before.stamp));
-  std::sort(stamps.begin(), stamps.end());
-  stamps.erase(std::unique(stamps.begin(), stamps.end()), stamps.end());
-  const std::vector<NavState> states = predictAt(before, samples, stamps);
-
-  std::vector<Rigid> poses;
-  for (const Column& column : scan.columns)
-  {
-    if (column.stamp < before.stamp && !way_to_last_.empty())
-    {
-      poses.push_back(poseOn(way_to_last_, column.stamp));
-      continue;
-    }
-    const auto stamp = std::lower_bound(stamps.begin(), stamps.end(), std::max(column.stamp, before.stamp));
-    poses.push_back(bodyAt(states[static_cast<std::size_t>(stamp - stamps.begin())]));
-  }
-  return poses;
 }
 
 /**
@@ -377,26 +347,6 @@ Health LidarInertialSlam::healthOf(const StateEstimate& estimate)
 bool LidarInertialSlam::contradicts() const
 {
   return settings_.slam.contradiction > 0 && contradiction_.median() > settings_.slam.contradiction;
-}
-
-/** The smoother's two states joined by the IMU; what does not close is spread over the time between. */
-Trajectory LidarInertialSlam::posesBetween(const NavState& from, const NavState& to,
-                                           const std::vector<ImuSample>& samples) const
-{
-  std::vector<Timestamp> stamps;
-  for (const ImuSample& sample : samples)
-    if (sample.stamp > from.stamp) stamps.push_back(sample.stamp);
-  const std::vector<NavState> states = predictAt(from, samples, stamps);
-  if (states.empty()) return {};
-
-  const Vector6d gap = boxMinus(bodyAt(to), bodyAt(states.back()));
-  Trajectory poses;
-  for (const NavState& state : states)
-  {
-    const double share = seconds(state.stamp - from.stamp) / seconds(to.stamp - from.stamp);
-    poses.push_back({state.stamp, boxPlus(bodyAt(state), share * gap)});
-  }
-  return poses;
 }
 
 Rigid LidarInertialSlam::bodyAt(const NavState& state) const { return state.map_T_imu * imu_T_body_; }

@@ -72,7 +72,6 @@ class LidarInertialSlam
   bool covered(const Scan&) const;
   StateEstimate track(Scan);
   PointCloud preprocess(Scan, const NavState& at_end, const std::vector<ImuSample>&);
-  std::vector<Rigid> bodyAtColumns(const Scan&, const NavState& before, const std::vector<ImuSample>&) const;
   void locate(const std::vector<View>&, StateEstimate&);
   void addToSmoother(const RegistrationResult&);
   bool recover(const std::vector<View>&, StateEstimate&);
@@ -84,7 +83,6 @@ class LidarInertialSlam
   Health healthOf(const StateEstimate&);
   bool contradicts() const;
   Rigid map_T_local() const;
-  Trajectory posesBetween(const NavState& from, const NavState& to, const std::vector<ImuSample>&) const;
   Rigid bodyAt(const NavState&) const;
 
   SlamSettings settings_;
