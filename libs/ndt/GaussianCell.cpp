@@ -19,7 +19,7 @@ void forEachSum(Moments& a, const Moments& b, Operation&& apply)
 
 Eigen::Matrix3d supposed(const Eigen::Matrix3d& covariance, std::int64_t points)
 {
-  constexpr double kDeviation = 0.15;  // m
+  constexpr double kDeviation = 0.08;  // m
   const double n = static_cast<double>(points);
   return ((n - 1) * covariance + kDeviation * kDeviation * Eigen::Matrix3d::Identity()) / n;
 }

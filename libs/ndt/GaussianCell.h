@@ -64,7 +64,7 @@ MeanAndCovariance meanAndCovariance(const Moments&, const Eigen::Vector3d& corne
 /**
  * The Gaussian of the points in a cell of `edge` m whose sums are about its `corner`. Eigenvalues below
  * min_deviation^2 are raised to it: walls and stems are thinner than the noise of their cells is known. Of fewer than
- * kTellsItsSpread points the covariance is that of one more with a deviation of 15 cm to all sides: what a beam meets
+ * kTellsItsSpread points the covariance is that of one more with a deviation of 8 cm to all sides: what a beam meets
  * far away is some stem or branch, and where in it is open.
  */
 GaussianCell gaussianOf(const Moments&, const Eigen::Vector3d& corner, double edge, double min_deviation);

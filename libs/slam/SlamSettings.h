@@ -76,9 +76,9 @@ struct SlamSettings
   ImuNoise lidar_imu = insideLidar();
   CropOptions crop;
   NdtOptions scan_cells = cells(2.5);
-  NdtOptions fine_cells = cells(1.0);
-  NdtOptions map_cells = cells(1.0);
-  NdtOptions keyframe_cells = cells(0.5);
+  NdtOptions fine_cells = thinned(farCells(1.0));
+  NdtOptions map_cells = farCells(1.0);
+  NdtOptions keyframe_cells = thinned(farCells(0.5));
   RegistrationOptions rough = reach(0.3);
   RegistrationOptions fine = reach(1.0);
   LocalMapOptions local_map;
@@ -118,6 +118,18 @@ struct SlamSettings
   {
     NdtOptions options;
     options.cell_size = size;
+    return options;
+  }
+  /** What is far away holds the angles, and few beams meet it. */
+  static NdtOptions farCells(double size)
+  {
+    NdtOptions options = cells(size);
+    options.min_points = 2;
+    return options;
+  }
+  static NdtOptions thinned(NdtOptions options)
+  {
+    options.max_cells = 5000;
     return options;
   }
   static RegistrationOptions reach(double d2)

@@ -31,14 +31,14 @@ std::vector<Eigen::Vector3d> randomPoints(int n, const Eigen::Vector3d& deviatio
   return points;
 }
 
-TEST(GaussianCell, ofOnePointIsItWith15cmToAllSides)
+TEST(GaussianCell, ofOnePointIsItWith8cmToAllSides)
 {
   const Eigen::Vector3d point(3.25, 4.5, 5.75);
   const GaussianCell cell = gaussianOf(momentsOf({point}, {3, 4, 5}), {3, 4, 5}, 1, 0.03);
 
   EXPECT_EQ(cell.points, 1u);
   EXPECT_LT((cell.mean - point).norm(), 1e-9);
-  EXPECT_LT((cell.covariance - 0.0225 * Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_LT((cell.covariance - 0.0064 * Eigen::Matrix3d::Identity()).norm(), 1e-12);
 }
 
 TEST(GaussianCell, ofTwoPointsLiesHalfWayBetweenTheirsAndThatOfOne)
@@ -46,7 +46,7 @@ TEST(GaussianCell, ofTwoPointsLiesHalfWayBetweenTheirsAndThatOfOne)
   const GaussianCell cell = gaussianOf(momentsOf({{3.25, 4.5, 5.5}, {3.75, 4.5, 5.5}}, {3, 4, 5}), {3, 4, 5}, 1, 0.03);
 
   const Eigen::Vector3d variances(0.125, 0, 0);  // 0.25^2 + 0.25^2
-  const Eigen::Matrix3d expected = (variances + Eigen::Vector3d::Constant(0.0225)).asDiagonal();
+  const Eigen::Matrix3d expected = (variances + Eigen::Vector3d::Constant(0.0064)).asDiagonal();
   EXPECT_LT((cell.covariance - expected / 2).norm(), 1e-9);
 }
 
