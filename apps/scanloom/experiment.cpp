@@ -90,6 +90,15 @@ ExperimentOptions withAbsolutePaths(ExperimentOptions options, const ExperimentP
   return options;
 }
 
+/** What repeats the sweep. */
+std::string iniOf(const Loaded<ExperimentSettings>& loaded)
+{
+  std::string text = toIni(loaded);
+  for (const std::string& section : sectionsForRuns(loaded.configuration))
+    if (!loaded.configuration.isSensor(section)) text += toIni(section, loaded.configuration);
+  return text;
+}
+
 double durationOf(const PlannedDrive& drive)
 {
   constexpr double kAssumed = 60;  // s, of a recording
@@ -215,7 +224,7 @@ int run(const ExperimentArguments& arguments)
   catchInterruption();
   std::filesystem::create_directories(output.folder);
   loaded.settings.experiment = withAbsolutePaths(loaded.settings.experiment, plan);
-  writeAtomically(output.folder / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
+  writeAtomically(output.folder / kConfigurationName, [&](std::ostream& file) { file << iniOf(loaded); });
   pointLatestTo(output.folder);
   Sweep sweep{planned, std::move(done), drives, folder, {toText(commandOf("scanloom", arguments)), thisMachine(), {}}};
   const std::vector<RunRecord> records =

@@ -207,14 +207,17 @@ std::string toIni(const Schema& in_effect, const Configuration& configuration)
       text += fmt::format("# {}\n{} = {}\n", origin, key, described.value);
     }
   }
-  for (const std::string& sensor : configuration.sections())
-  {
-    if (!configuration.isSensor(sensor)) continue;
-    text += fmt::format("[{}]\n", sensor);
-    for (const std::string& key : configuration.keys(sensor))
-      text += fmt::format("# {}\n{} = {}\n", toString(configuration.place(sensor, key)), key,
-                          configuration.text(sensor, key));
-  }
+  for (const std::string& section : configuration.sections())
+    if (configuration.isSensor(section)) text += toIni(section, configuration);
+  return text;
+}
+
+std::string toIni(const std::string& section, const Configuration& configuration)
+{
+  std::string text = fmt::format("[{}]\n", section);
+  for (const std::string& key : configuration.keys(section))
+    text += fmt::format("# {}\n{} = {}\n", toString(configuration.place(section, key)), key,
+                        configuration.text(section, key));
   return text;
 }
 

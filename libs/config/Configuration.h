@@ -97,6 +97,9 @@ class Configuration
  */
 std::string toIni(const Schema& in_effect, const Configuration&);
 
+/** A section as it was given. */
+std::string toIni(const std::string& section, const Configuration&);
+
 /** `harvester.ini:12: [ndt] cell_size = -1 m: must be > 0 (edge of a cell)` */
 std::string complaintAbout(const IniEntry&, const Field&, const std::string& constraint);
 

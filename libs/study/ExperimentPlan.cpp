@@ -125,6 +125,28 @@ std::vector<PlannedRun> times(const std::vector<PlannedRun>& runs, std::size_t v
   return product;
 }
 
+bool isSame(std::string_view a, std::string_view b)
+{
+  const CaseInsensitiveLess less;
+  return !less(a, b) && !less(b, a);
+}
+
+/** What the files and --set say beside [experiment] holds for every run, unless an axis says otherwise. */
+std::vector<std::pair<std::string, std::string>> heldFixed(const Configuration& configuration,
+                                                           const std::vector<AxisOptions>& axes)
+{
+  std::vector<std::pair<std::string, std::string>> settings;
+  for (const std::string& section : sectionsForRuns(configuration))
+    for (const std::string& key : configuration.keys(section))
+    {
+      const std::string name = section + '.' + key;
+      const bool varied =
+          std::any_of(axes.begin(), axes.end(), [&](const auto& axis) { return isSame(axis.name, name); });
+      if (!varied) settings.emplace_back(name, configuration.text(section, key));
+    }
+  return settings;
+}
+
 /** Recordings are what they are: only simulations have a seed. */
 std::vector<PlannedRun> timesSeeds(const std::vector<PlannedRun>& runs, const std::vector<std::uint64_t>& seeds)
 {
@@ -157,6 +179,14 @@ std::string namesAndSizes(const std::filesystem::path& folder)
 }
 }  // namespace
 
+std::vector<std::string> sectionsForRuns(const Configuration& configuration)
+{
+  std::vector<std::string> sections = configuration.sections();
+  sections.erase(std::remove_if(sections.begin(), sections.end(), [](const auto& s) { return isSame(s, kSection); }),
+                 sections.end());
+  return sections;
+}
+
 std::string PlannedRun::label() const
 {
   std::string text = fmt::format("{} {} n{}", stand, lidars, every_nth);
@@ -186,6 +216,8 @@ ExperimentPlan planOf(const ExperimentSettings& settings, const Configuration& c
   for (const auto& file : plan.simulations) runs.push_back(onSimulation(file));
   for (const auto& folder : plan.recordings) runs.push_back(onRecording(folder));
   if (runs.empty()) throw complain("simulations", "or recordings must name what runs");
+
+  for (PlannedRun& run : runs) run.settings = heldFixed(configuration, settings.axes);
 
   const std::vector<std::string> lidars = wordsOf(options.lidars);
   if (lidars.empty()) throw complain("lidars", "names no set of lidars");

@@ -18,7 +18,7 @@ struct PlannedRun
   std::filesystem::path recording;   // empty: a simulation
   std::string lidars;                // "left,right"
   int every_nth = 1;
-  std::vector<std::pair<std::string, std::string>> settings;  // "section.key" and its value, per axis
+  std::vector<std::pair<std::string, std::string>> settings;  // "section.key" and its value: held fixed, then per axis
   std::uint64_t seed = 0;                                     // 0: a recording, nothing is drawn
 
   /** `sparse left+right n5 seed 3`; runs that differ in settings alone share it. */
@@ -30,6 +30,9 @@ struct ExperimentPlan
   std::vector<std::filesystem::path> simulations, recordings, configurations;
   std::vector<PlannedRun> runs;  // stands first, then lidars, N, axes, and the seeds as the fastest
 };
+
+/** All but [experiment]: what they say holds for every run, unless an axis says otherwise. */
+std::vector<std::string> sectionsForRuns(const Configuration&);
 
 /** Throws ConfigError naming the value that is wrong, or the file that is not there. */
 ExperimentPlan planOf(const ExperimentSettings&, const Configuration&);

@@ -80,8 +80,9 @@ TEST(ExperimentVerb, aDriveThatCannotBeSimulatedIsARowForEachOfItsRuns)
 {
   const TemporaryFolder folder;
 
-  const Ended ended =
-      experiment(folder, "--set 'experiment.axis2_values=OS0-16 | OS9-16' --set experiment.lidars=left");
+  const Ended ended = experiment(folder,
+                                 "--set experiment.axis1_name=simulated_lidars.lidar1_model --set "
+                                 "'experiment.axis1_values=OS0-16 | OS9-16' --set experiment.lidars=left");
 
   EXPECT_EQ(ended.status, 4);
   EXPECT_THAT(outcomesOf(folder), ElementsAre(HasSubstr("left OK"), "left FAILED "));
@@ -113,7 +114,7 @@ TEST(ExperimentVerb, aRunOnTheSharedPacketsEqualsSlamThatSimulatesOnTheWay)
   ASSERT_EQ(experiment(folder, "--set experiment.lidars=left,right").status, 0);
   ASSERT_EQ(scanloom("slam -c " SCANLOOM_SOURCE_DIR "/params/simulated_rig.ini --simulate " SCANLOOM_SOURCE_DIR
                      "/params/simulation/sparse.ini --set simulated_drive.duration=20 --set "
-                     "simulated_lidars.lidar1_model=OS0-16 --set output.maps=false --out-dir " +
+                     "simulated_work.work_min=0 --set simulated_work.work_max=1 --set output.maps=false --out-dir " +
                      (folder / "alone").string())
                 .status,
             0);
@@ -152,7 +153,8 @@ TEST(ExperimentVerb, refusesAParameterThatNoVerbHas)
 {
   const TemporaryFolder folder;
 
-  const Ended ended = experiment(folder, "--set experiment.axis2_name=octomap.resolutoin");
+  const Ended ended =
+      experiment(folder, "--set experiment.axis1_name=octomap.resolutoin --set experiment.axis1_values=1");
 
   EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.output, HasSubstr("did you mean 'resolution'"));

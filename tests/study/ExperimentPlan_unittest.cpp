@@ -34,7 +34,10 @@ class ExperimentPlanOf : public testing::Test
     const auto file = folder_ / "experiment.ini";
     std::ofstream(file) << "[experiment]\nconfigurations = slam.ini\n" << lines;
     const Configuration configuration = Configuration::fromFiles({file});
-    return planOf(readSettings<ExperimentSettings>(configuration, schemaOf<ExperimentSettings>()), configuration);
+    ExperimentSettings settings;
+    ExperimentSettings::sections(
+        settings, [&](auto& options, const Section& section) { configuration.readInto(options, section); });
+    return planOf(settings, configuration);
   }
 
   std::string complaintAbout(const std::string& lines) const
@@ -80,6 +83,17 @@ TEST_F(ExperimentPlanOf, variesAnyParameterByValuesWithBarsBetween)
   ASSERT_EQ(two.runs.size(), 2U);
   EXPECT_THAT(two.runs[0].settings, ElementsAre(std::pair("slam.imu", "left"), std::pair("a.pose", "0 0 1")));
   EXPECT_THAT(two.runs[1].settings, ElementsAre(std::pair("slam.imu", "left"), std::pair("a.pose", "0 0 2")));
+}
+
+TEST_F(ExperimentPlanOf, holdsFixedWhatOtherSectionsSayUnlessAnAxisVariesIt)
+{
+  const ExperimentPlan two = plan(
+      "simulations = stands/easy.ini\nlidars = left\nseeds = 1\n"
+      "axis1_name = slam.imu\naxis1_values = left | right\n[Slam]\nIMU = body\ngate = 4\n");
+
+  ASSERT_EQ(two.runs.size(), 2U);
+  EXPECT_THAT(two.runs[0].settings, ElementsAre(std::pair("Slam.gate", "4"), std::pair("slam.imu", "left")));
+  EXPECT_THAT(two.runs[1].settings, ElementsAre(std::pair("Slam.gate", "4"), std::pair("slam.imu", "right")));
 }
 
 TEST_F(ExperimentPlanOf, drawsNothingInRecordings)
