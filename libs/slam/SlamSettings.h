@@ -25,7 +25,7 @@ struct SlamOptions
   bool relative = true;
   double correlation = 2.0;
   double gate = 40.0;
-  double contradiction = 6.0;
+  double contradiction = 9.0;
   double restart_after = 10.0;
 
   template <typename Self, typename Visitor>
