@@ -1,61 +1,62 @@
 #include "Arguments.h"
 
-#include "config/AtomicFile.h"
-
-#include <map>
+#include "core/AtomicFile.h"
 
 namespace scanloom
 {
-CLI::Option* addConfiguration(CLI::App& app, ConfigurationArguments& arguments)
+Option addConfiguration(CLI::App& app, ConfigurationArguments& arguments)
 {
-  app.add_option("--set", arguments.assignments, "a value on top of the files, e.g. ndt.cell_size=0.5 (repeatable)")
-      ->type_name("SECTION.KEY=VALUE")
-      ->allow_extra_args(false);
-  app.add_flag("--dry-run", arguments.dry_run, "check everything, print what would run, and stop");
-  return app.add_option("-c,--config", arguments.files, "INI file; later ones add sections (repeatable)")
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+  addOption(app, "--set", arguments.assignments,
+            "set a key, instead of its value in the files, e.g. map_cells.cell_size=0.5 (repeatable)")
+      .typeName("SECTION.KEY=VALUE")
+      .repeatable();
+  addFlag(app, "--dry-run", arguments.dry_run, "check everything, print the values in effect, and stop");
+  return addOption(app, "-c,--config", arguments.files,
+                   "configuration file (INI); several files are read together (repeatable)")
+      .typeName("FILE")
+      .repeatable();
 }
 
-CLI::Option* addOutputFolder(CLI::App& app, OutputFolderArguments& arguments)
+Option addOutputFolder(CLI::App& app, OutputFolderArguments& arguments)
 {
   addOverwrite(app, arguments.overwrite);
-  return app.add_option("--out-dir", arguments.folder, "folder of the results, created if it is missing")
-      ->type_name("DIR");
+  return addOption(app, "--out-dir", arguments.folder, "folder for the results; it is created if it does not exist")
+      .typeName("DIR");
 }
 
 void refuseExisting(const OutputFolderArguments& arguments, const std::vector<std::string>& names)
 {
   const auto& folder = arguments.folder;
   if (std::filesystem::exists(folder) && !std::filesystem::is_directory(folder))
-    throw UsageError("--out-dir " + folder.string() + ": is not a folder");
+    throw UsageError("--out-dir " + folder.string() + ": exists and is not a folder");
 
   std::vector<std::filesystem::path> files;
   for (const std::string& name : names) files.push_back(folder / name);
   refuseExisting(files, arguments.overwrite);
 }
 
-CLI::Option* addSeconds(CLI::App& app, double& seconds)
+Option addSeconds(CLI::App& app, double& seconds)
 {
-  return app.add_option("--seconds", seconds, "live: stop after so long; 0: when interrupted")
-      ->check(CLI::NonNegativeNumber);
+  return addOption(app, "--seconds", seconds, "live lidars: stop after this time, in s; 0: run until Ctrl-C")
+      .notNegative();
 }
 
 void refuseSeconds(double seconds)
 {
-  if (seconds > 0) throw UsageError("--seconds is for live lidars: captures and simulated drives end by themselves");
+  if (seconds > 0)
+    throw UsageError("--seconds is for live lidars only: captures and simulated drives end by themselves");
 }
 
-CLI::Option* addOverwrite(CLI::App& app, bool& overwrite)
+Option addOverwrite(CLI::App& app, bool& overwrite)
 {
-  return app.add_flag("-w,--overwrite", overwrite, "replace outputs that exist");
+  return addFlag(app, "-w,--overwrite", overwrite, "replace output files that exist");
 }
 
-CLI::Option* addJson(CLI::App& app, bool& json) { return app.add_flag("--json", json, "results as JSON on stdout"); }
+Option addJson(CLI::App& app, bool& json) { return addFlag(app, "--json", json, "print the results as JSON"); }
 
-CLI::Option* addSeed(CLI::App& app, std::uint64_t& seed)
+Option addSeed(CLI::App& app, std::uint64_t& seed)
 {
-  return app.add_option("--seed", seed, "of the random numbers")->capture_default_str();
+  return addOption(app, "--seed", seed, "seed of the random numbers").showDefault();
 }
 
 ConfigurationArguments withScene(ConfigurationArguments arguments, const SceneArguments& scene)
@@ -64,31 +65,16 @@ ConfigurationArguments withScene(ConfigurationArguments arguments, const SceneAr
   return arguments;
 }
 
-CLI::Option* addScene(CLI::App& app, SceneArguments& arguments)
+Option addScene(CLI::App& app, SceneArguments& arguments)
 {
   addSeed(app, arguments.seed);
-  return app
-      .add_option("--simulate", arguments.file,
-                  "a simulation's INI file: its packets are made on the way, in place of captures and sockets")
-      ->check(CLI::ExistingFile);
+  return addOption(app, "--simulate", arguments.file,
+                   "INI file of a simulated drive, which is used instead of captures or live lidars")
+      .existingFile();
 }
 
-CLI::Option* addJobs(CLI::App& app, int& jobs)
+Option addJobs(CLI::App& app, int& jobs)
 {
-  return app.add_option("--jobs", jobs, "threads or processes at once; 0: one per core")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-}
-
-CLI::Option* addVerbosity(CLI::App& app, mrpt::system::VerbosityLevel& level)
-{
-  using namespace mrpt::system;
-  const std::map<std::string, VerbosityLevel> levels{
-      {"debug", LVL_DEBUG}, {"info", LVL_INFO}, {"warn", LVL_WARN}, {"error", LVL_ERROR}};
-  app.add_flag_callback(
-      "-q,--quiet", [&level] { level = LVL_ERROR; }, "errors only, no progress");
-  return app.add_option("-v,--verbosity", level, "of the log on stderr: debug, info, warn or error")
-      ->type_name("LEVEL")
-      ->transform(CLI::CheckedTransformer(levels, CLI::ignore_case).description(""));
+  return addOption(app, "--jobs", jobs, "number of threads or processes; 0: one per core").notNegative().showDefault();
 }
 }  // namespace scanloom

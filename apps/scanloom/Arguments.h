@@ -1,9 +1,7 @@
-/** Options that several verbs share, each with one name, one meaning and one help text. */
+/** The options that several verbs share. */
 #pragma once
+#include "Options.h"
 #include "config/Configuration.h"
-
-#include <mrpt/system/COutputLogger.h>
-#include <CLI/CLI.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -18,24 +16,24 @@ struct ConfigurationArguments
   std::vector<std::string> assignments;
   bool dry_run = false;
 };
-/** -c/--config, --set, --dry-run. @return the option -c, for a verb that requires it. */
-CLI::Option* addConfiguration(CLI::App&, ConfigurationArguments&);
+/** Adds -c/--config, --set, --dry-run. @return the option -c, for a verb that requires it. */
+Option addConfiguration(CLI::App&, ConfigurationArguments&);
 
 struct OutputFolderArguments
 {
   std::filesystem::path folder;
   bool overwrite = false;
 };
-/** --out-dir, -w/--overwrite. @return the option --out-dir. */
-CLI::Option* addOutputFolder(CLI::App&, OutputFolderArguments&);
+/** Adds --out-dir, -w/--overwrite. @return the option --out-dir. */
+Option addOutputFolder(CLI::App&, OutputFolderArguments&);
 
 /**
- * The folder may exist and hold other files.
- * @param names of all files that will be written there. @throws UsageError naming those that exist, without -w.
+ * @param names of all files that will be written to the folder; it may hold other files.
+ * @throws UsageError with the files that exist, unless -w was given.
  */
 void refuseExisting(const OutputFolderArguments&, const std::vector<std::string>& names);
 
-/** A scene in place of a recording. */
+/** A simulated drive instead of a recording. */
 struct SceneArguments
 {
   std::filesystem::path file;  // empty: none
@@ -43,20 +41,18 @@ struct SceneArguments
 
   bool given() const { return !file.empty(); }
 };
-/** With the scene's file, if there is one, as the last one. */
+/** With the file of the scene, if one is given, as the last configuration file. */
 ConfigurationArguments withScene(ConfigurationArguments, const SceneArguments&);
-/** --simulate, --seed. @return the option --simulate. */
-CLI::Option* addScene(CLI::App&, SceneArguments&);
+/** Adds --simulate, --seed. @return the option --simulate. */
+Option addScene(CLI::App&, SceneArguments&);
 
-/** --seconds, for live lidars: 0 until it is interrupted. @return the option. */
-CLI::Option* addSeconds(CLI::App&, double&);
-/** For an input that ends by itself. @throws UsageError if seconds were given. */
+/** Adds --seconds, for live lidars. */
+Option addSeconds(CLI::App&, double&);
+/** For an input that ends by itself. @throws UsageError if `seconds` is given. */
 void refuseSeconds(double seconds);
 
-CLI::Option* addOverwrite(CLI::App&, bool&);      // -w/--overwrite
-CLI::Option* addJson(CLI::App&, bool&);           // --json: results as JSON on stdout
-CLI::Option* addSeed(CLI::App&, std::uint64_t&);  // --seed
-CLI::Option* addJobs(CLI::App&, int&);            // --jobs; 0: as many as there are cores
-/** -v/--verbosity LEVEL (debug, info, warn, error), -q/--quiet. */
-CLI::Option* addVerbosity(CLI::App&, mrpt::system::VerbosityLevel&);
+Option addOverwrite(CLI::App&, bool&);      // -w/--overwrite
+Option addJson(CLI::App&, bool&);           // --json
+Option addSeed(CLI::App&, std::uint64_t&);  // --seed
+Option addJobs(CLI::App&, int&);            // --jobs; 0: one per core
 }  // namespace scanloom

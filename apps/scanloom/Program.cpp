@@ -2,8 +2,9 @@
 
 #include "Verb.h"
 #include "Version.h"
-#include "config/ConfigError.h"
+#include "config/MrptMessage.h"
 #include "config/Names.h"
+#include "core/ConfigError.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,31 +14,16 @@
 #include <exception>
 #include <functional>
 #include <iostream>
-#include <sstream>
 
 namespace scanloom
 {
 namespace
 {
-/** Where a standard stream is closed, the next file we open would get its number, and our messages. */
+/** If a standard stream is closed, the next file that is opened would get its number, and our messages. */
 void keepStandardStreamsOpen()
 {
   for (int stream = STDIN_FILENO; stream <= STDERR_FILENO; ++stream)
     if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", O_RDWR);
-}
-
-/** The first line that says something: MRPT's exceptions frame their message and append a call stack. */
-std::string oneLine(const char* what)
-{
-  std::istringstream lines(what);
-  for (std::string line; std::getline(lines, line);)
-  {
-    constexpr std::string_view kLabel = "Message:";
-    std::string_view text = trimmed(line);
-    if (text.substr(0, kLabel.size()) == kLabel) text = trimmed(text.substr(kLabel.size()));
-    if (!text.empty() && text.substr(0, 2) != "==") return std::string(text);
-  }
-  return "failed without a message";
 }
 
 std::vector<std::string> namesKnownTo(const CLI::App& app)
@@ -59,11 +45,11 @@ int complain(const CLI::App& app, const CLI::ParseError& error)
   const std::string name = chosen.empty() ? "scanloom" : "scanloom " + where.get_name();
   const auto unexpected = app.remaining(true);
   if (!unexpected.empty())
-    std::cerr << fmt::format("{}: {} is unknown: {}\n", name, unexpected.front(),
+    std::cerr << fmt::format("{}: unknown argument {}: {}\n", name, unexpected.front(),
                              suggestion(unexpected.front(), namesKnownTo(where)));
   else
     std::cerr << fmt::format("{}: {}\n", name, error.what());
-  std::cerr << fmt::format("'{} --help' lists what there is\n", name);
+  std::cerr << fmt::format("'{} --help' lists all arguments\n", name);
   return kWrongUsage;
 }
 
@@ -76,7 +62,7 @@ try
 }
 catch (const ConfigError& e)
 {
-  std::cerr << e.what() << '\n';  // each line begins with its file
+  std::cerr << e.what() << '\n';  // every line begins with its file
   return kWrongUsage;
 }
 catch (const UsageError& e)
@@ -86,7 +72,7 @@ catch (const UsageError& e)
 }
 catch (const std::exception& e)
 {
-  std::cerr << fmt::format("scanloom {}: {}\n", name, oneLine(e.what()));
+  std::cerr << fmt::format("scanloom {}: {}\n", name, messageIn(e.what()));
   return kFailed;
 }
 }  // namespace
@@ -102,7 +88,10 @@ int runProgram(int argc, const char* const* argv)
 {
   keepStandardStreamsOpen();
 
-  CLI::App app("Weaves the packets of several spinning lidars into one scan that is true in time.", "scanloom");
+  CLI::App app(
+      "Merges the packets of several lidars into one point cloud per fixed time window, by measurement\n"
+      "timestamp; computes trajectories and maps from them.",
+      "scanloom");
   app.set_version_flag("--version", fmt::format("scanloom {}", programVersion()));
   app.require_subcommand(1);
 

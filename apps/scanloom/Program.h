@@ -1,8 +1,8 @@
-/** The frame of the program: finds the verb on the command line, runs it, and turns what it throws into a status. */
+/** Parses the command line, runs its verb, and turns exceptions into messages and exit codes. */
 #pragma once
 
 namespace scanloom
 {
-/** @return an ExitCode; messages are on stderr. */
+/** @return an ExitCode; messages go to stderr. */
 int runProgram(int argc, const char* const* argv);
 }  // namespace scanloom

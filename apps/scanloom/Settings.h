@@ -1,4 +1,4 @@
-/** The configuration of a verb, checked as a whole. */
+/** Reads and checks the whole configuration of a verb. */
 #pragma once
 #include "Arguments.h"
 #include "Verb.h"
@@ -12,7 +12,7 @@ struct Loaded
   Settings settings;
 };
 
-/** @throws ConfigError with all problems: files, values, and names that no verb knows. */
+/** @throws ConfigError with all problems: wrong values, and names that no verb knows. */
 template <typename Settings>
 Loaded<Settings> load(const ConfigurationArguments& arguments)
 {
@@ -22,7 +22,7 @@ Loaded<Settings> load(const ConfigurationArguments& arguments)
   return {std::move(configuration), std::move(settings)};
 }
 
-/** The INI file that repeats this run: printed by --dry-run and kept beside the results. */
+/** The INI file that repeats the run: --dry-run prints it, and it is written beside the results. */
 template <typename Settings>
 std::string toIni(const Loaded<Settings>& loaded)
 {

@@ -1,5 +1,5 @@
 /**
- * A verb of the program: one file that defines `Verb slamVerb()`, its declaration and one row of the table in main.cpp.
+ * A verb of the program: a file that defines `Verb slamVerb()`, and in main.cpp its declaration and a row of the table.
  *
  *   int run(const SlamArguments& arguments)
  *   {
@@ -24,11 +24,11 @@
  *
  *   Verb slamVerb() { return {"slam", "trajectory and map of a recording", schemaOf<SlamSettings>(), &addOptions}; }
  *
- * What run() throws becomes a message and a status: UsageError and ConfigError 2, everything else 1.
+ * An exception from run() becomes a message on stderr and the status: 2 for UsageError and ConfigError, otherwise 1.
  */
 #pragma once
-#include "ExitCode.h"
 #include "config/Schema.h"
+#include "core/ExitCode.h"
 
 #include <functional>
 #include <string>
@@ -45,15 +45,15 @@ struct Verb
 {
   std::string name;
   std::string purpose;  // one line of --help
-  Schema schema;        // the sections it reads, said once: for checking, `config --default`, doc/parameters.md
+  Schema schema;        // the sections that it reads: for checks, `config --default` and doc/parameters.md
 
-  /** Adds the verb's options to its subcommand; what it returns is called after parsing and gives the ExitCode. */
+  /** Adds the verb's options to its subcommand. @return the function to call after parsing; it returns the ExitCode. */
   std::function<std::function<int()>(CLI::App&)> add;
 };
 
 /** The table in main.cpp. */
 const std::vector<Verb>& verbs();
 
-/** Every section and key that some verb reads: what a configuration file may hold. */
+/** The sections and keys of all verbs: a configuration file may have these. */
 Schema knownToAnyVerb();
 }  // namespace scanloom

@@ -1,9 +1,8 @@
-/** Which program this is. */
+/** The version of the program. */
 #pragma once
 
 namespace scanloom
 {
-/** `0.1.0+4350a2f1c0`, with `-dirty` if it was built with changes that no commit holds; `0.1.0` without a repository.
- */
+/** `0.1.0+4350a2f1c0`; with `-dirty` if files differed from the commit; `0.1.0` if there was no repository. */
 const char* programVersion();
 }  // namespace scanloom

@@ -1,10 +1,10 @@
-/** `scanloom config`: the parameters, as a file to start from and as a page of the manual. */
+/** `scanloom config`: prints all parameters, as a configuration file or as a page of the manual. */
+#include "Options.h"
 #include "Verb.h"
-#include "config/ConfigError.h"
 #include "config/Names.h"
+#include "core/ConfigError.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <iostream>
@@ -29,14 +29,14 @@ const Verb& verbNamed(const std::string& name)
     if (verb.name == name) return verb;
     configurable.push_back(verb.name);
   }
-  throw UsageError(fmt::format("--default {}: no verb with parameters; {}", name, suggestion(name, configurable)));
+  throw UsageError(fmt::format("--default {}: is no verb with parameters; {}", name, suggestion(name, configurable)));
 }
 
 std::string parametersPage()
 {
   std::string page =
       "# Parameters\n\n"
-      "Written by `scanloom config --parameters`. [configuration.md](configuration.md) says how the files are read.\n\n"
+      "Written by `scanloom config --parameters`. [configuration.md](configuration.md) explains the files.\n\n"
       "| verb | sections |\n|---|---|\n";
   for (const Verb& verb : verbs())
   {
@@ -60,13 +60,17 @@ int run(const ConfigArguments& arguments)
 std::function<int()> addOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<ConfigArguments>();
-  app.add_option("--default", arguments->default_of, "a commented INI file with the defaults of a verb")
-      ->type_name("VERB");
-  app.add_flag("--parameters", arguments->parameters, "the parameters of all verbs, as Markdown");
-  app.require_option(1);
+  addOption(app, "--default", arguments->default_of,
+            "print a commented configuration file with the defaults of this verb")
+      .typeName("VERB");
+  addFlag(app, "--parameters", arguments->parameters, "print the parameters of all verbs, as Markdown");
+  requireOneOption(app);
   return [arguments] { return run(*arguments); };
 }
 }  // namespace
 
-Verb configVerb() { return {"config", "default configurations and the manual of the parameters", {}, &addOptions}; }
+Verb configVerb()
+{
+  return {"config", "default configuration files, and the manual of all parameters", {}, &addOptions};
+}
 }  // namespace scanloom

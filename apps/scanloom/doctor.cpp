@@ -1,17 +1,18 @@
-/** `scanloom doctor`: what is wrong with a rig, and how to mend it. */
+/** `scanloom doctor`: faults of a rig, and how to mend them. */
 #include "Arguments.h"
-#include "Interruption.h"
-#include "Progress.h"
+#include "Options.h"
 #include "Settings.h"
 #include "Verb.h"
-#include "config/AtomicFile.h"
-#include "dataset/CaptureInfo.h"
-#include "dataset/CaptureRig.h"
-#include "dataset/DoctorFindings.h"
-#include "dataset/DoctorJson.h"
-#include "dataset/LiveListening.h"
-#include "dataset/RawlogEvidence.h"
-#include "source/MergedCaptures.h"
+#include "core/AtomicFile.h"
+#include "core/Interruption.h"
+#include "core/Progress.h"
+#include "doctor/DoctorFindings.h"
+#include "doctor/DoctorJson.h"
+#include "doctor/Listening.h"
+#include "doctor/RawlogEvidence.h"
+#include "packets/CaptureInfo.h"
+#include "packets/describeFile.h"
+#include "rig/CaptureRig.h"
 
 #include <fmt/format.h>
 
@@ -22,14 +23,14 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kListen = 10;  // s, live: enough for a drift of 1 ppm and for a machine that sways
+constexpr double kListen = 10;  // s, live: enough to measure a drift of 1 ppm, and gravity on a swaying machine
 
 struct DoctorArguments
 {
   ConfigurationArguments configuration;
   std::vector<std::filesystem::path> sources;
   std::vector<std::string> metadata;
-  double seconds = 0;  // 0: all of a capture, kListen live
+  double seconds = 0;  // 0: a whole capture, or kListen live
   bool json = false;
 };
 
@@ -38,7 +39,7 @@ struct DoctorSettings : DoctorLimits
   template <typename Self, typename Visitor>
   static void sections(Self& s, Visitor&& visit)
   {
-    const std::string meaning = "when doctor warns, and when it calls a rig not fit for SLAM (share: 0 to 1)";
+    const std::string meaning = "limits above which doctor warns or calls a rig not fit for SLAM (shares: 0 to 1)";
     visit(s.delivery, Section{"doctor", meaning});
     visit(s.clocks, Section{"doctor", meaning});
     visit(s.imu, Section{"doctor", meaning});
@@ -52,10 +53,10 @@ Rig rigOf(const DoctorArguments& arguments, const Configuration& configuration)
   if (!arguments.sources.empty())
   {
     if (arguments.metadata.empty())
-      throw UsageError("a capture needs its lidars' metadata: --metadata FILE.json, once per lidar; or -c CONFIG");
+      throw UsageError("a capture needs the metadata of its lidars: --metadata FILE.json for each lidar, or -c CONFIG");
     return captureRig(arguments.sources, arguments.metadata);
   }
-  if (!arguments.metadata.empty()) throw UsageError("--metadata goes with captures: name them, or give -c alone");
+  if (!arguments.metadata.empty()) throw UsageError("--metadata needs captures: name them, or give only -c CONFIG");
   Rig rig = makeRig(readRigSettings(configuration, rigSection(configuration)));
   for (const RigSensor& sensor : rig.sensors)
     if (!sensor.metadata)
@@ -64,31 +65,24 @@ Rig rigOf(const DoctorArguments& arguments, const Configuration& configuration)
   return rig;
 }
 
-void listenToCaptures(RigListener& listener, const Rig& rig, double longest)
-{
-  const std::uint64_t megabytes = megabytesOf(rig.captures);
-  Progress progress("doctor", megabytes, "MB");
-  MergedCaptures captures(rig.captures);
-  Timestamp end = Timestamp::max();
-  for (Datagram datagram; captures.next(datagram) && datagram.received < end && !interrupted();)
-  {
-    if (longest > 0 && end == Timestamp::max()) end = datagram.received + fromSeconds(longest);
-    listener.add(datagram);
-    progress.update(static_cast<std::uint64_t>(captures.progress() * static_cast<double>(megabytes)));
-  }
-}
-
 RigEvidence listen(const Rig& rig, const DoctorArguments& arguments)
 {
   RigListener listener(rig, arguments.sources.empty());
-  if (!rig.captures.empty())
-    listenToCaptures(listener, rig, arguments.seconds);
-  else
+  if (rig.captures.empty())
   {
     const double longest = arguments.seconds > 0 ? arguments.seconds : kListen;
     fmt::print(stderr, "doctor: listens for {:g} s\n", longest);
     listenLive(rig, fromSeconds(longest), listener, [] { return !interrupted(); });
+    return listener.finish();
   }
+  const std::uint64_t megabytes = megabytesOf(rig.captures);
+  Progress progress("doctor", megabytes, "MB");
+  listenToCaptures(rig, arguments.seconds > 0 ? fromSeconds(arguments.seconds) : Duration::max(), listener,
+                   [&](double share)
+                   {
+                     progress.update(static_cast<std::uint64_t>(share * static_cast<double>(megabytes)));
+                     return !interrupted();
+                   });
   return listener.finish();
 }
 
@@ -110,7 +104,7 @@ int run(const DoctorArguments& arguments)
 {
   const Loaded<DoctorSettings> loaded = load<DoctorSettings>(arguments.configuration);
   if (arguments.sources.empty() && arguments.configuration.files.empty())
-    throw UsageError("nothing to examine: name captures with --metadata, or a rawlog, or give -c CONFIG");
+    throw UsageError("nothing to examine: name captures and --metadata, or a rawlog, or give -c CONFIG");
   const bool rawlog = isRawlog(arguments.sources);
   const std::optional<Rig> rig = rawlog ? std::nullopt : std::optional(rigOf(arguments, loaded.configuration));
   if (arguments.configuration.dry_run)
@@ -134,13 +128,12 @@ int run(const DoctorArguments& arguments)
 std::function<int()> addOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<DoctorArguments>();
-  app.add_option("SOURCE", arguments->sources,
-                 "captures (pcap, pcapng) or one rawlog of scanloom's, instead of a configuration's lidars");
-  app.add_option("--metadata", arguments->metadata, "metadata JSON of a lidar in the captures (repeatable)");
+  addOption(app, "SOURCE", arguments->sources, "captures (pcap, pcapng) or one rawlog; default: the lidars of -c");
+  addOption(app, "--metadata", arguments->metadata, "metadata JSON of a lidar in the captures (repeatable)");
   addConfiguration(app, arguments->configuration);
-  app.add_option("--seconds", arguments->seconds,
-                 "from the start of a capture (default: all of it), or live (default: 10)")
-      ->check(CLI::PositiveNumber);
+  addOption(app, "--seconds", arguments->seconds,
+            "how much to examine, in s: from the start of captures (default: all), or live (default: 10)")
+      .positive();
   addJson(app, arguments->json);
   return [arguments] { return run(*arguments); };
 }
@@ -150,6 +143,6 @@ Verb doctorVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<DoctorSettings>());
-  return {"doctor", "what is wrong with a rig's lidars, clocks and poses, and how to mend it", schema, &addOptions};
+  return {"doctor", "faults of a rig's lidars, clocks, IMUs and poses, and how to mend them", schema, &addOptions};
 }
 }  // namespace scanloom

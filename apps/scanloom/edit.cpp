@@ -1,20 +1,15 @@
-/** `scanloom edit`: one operation on a rawlog, object by object. */
-#include "Arguments.h"
-#include "EditOperations.h"
-#include "Interruption.h"
-#include "Progress.h"
-#include "RawlogReport.h"
-#include "Settings.h"
+/** `scanloom edit`: one operation on a rawlog. */
+#include "Options.h"
 #include "Verb.h"
-#include "config/AtomicFile.h"
-#include "config/ConfigError.h"
-#include "dataset/CloudObservation.h"
-#include "dataset/DoctorFindings.h"
-#include "dataset/DoctorJson.h"
-#include "dataset/RawlogCheck.h"
-#include "dataset/RawlogEvidence.h"
-#include "dataset/RawlogFromCaptures.h"
-#include "mrpt_bridge/SensorInput.h"
+#include "core/AtomicFile.h"
+#include "core/ConfigError.h"
+#include "core/Interruption.h"
+#include "core/Progress.h"
+#include "doctor/RawlogCheck.h"
+#include "edit/EditOperations.h"
+#include "info.h"
+#include "record.h"
+#include "rig/RigOptions.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -36,15 +31,7 @@ struct EditArguments
   EditOptions options;
 };
 
-struct NoSettings
-{
-  template <typename Self, typename Visitor>
-  static void sections(Self&, Visitor&&)
-  {
-  }
-};
-
-/** A cut may go before an operation that passes the rawlog; but for that there is one. */
+/** Throws UsageError unless there is one operation; a cut may come before one that streams the rawlog. */
 void requireOne(const EditArguments& arguments, const std::vector<EditOperation>& operations)
 {
   std::vector<std::string> names;
@@ -57,17 +44,12 @@ void requireOne(const EditArguments& arguments, const std::vector<EditOperation>
 
   if (names.empty() && operations.empty()) throw UsageError("no operation is given: see 'scanloom edit --help'");
   if (names.size() > 1)
-    throw UsageError(fmt::format("one operation a call, not {}: the result of one is the input of the next",
+    throw UsageError(fmt::format("one operation a call, not {}: use the output of one as the input of the next",
                                  fmt::join(names, ", ")));
   if (arguments.input.empty() == arguments.from_pcap.empty())
-    throw UsageError("-i/--input is required: the rawlog to read, but for --from-pcap, which reads captures");
+    throw UsageError("-i/--input is required: the rawlog to read; only --from-pcap reads captures instead");
   if (arguments.approach_a && arguments.from_pcap.empty())
-    throw UsageError("--approach-a puts whole turns together, which only captures hold: it goes with --from-pcap");
-}
-
-bool writesRawlog(const std::vector<EditOperation>& operations)
-{
-  return operations.back().files.empty() && operations.back().folder.empty();
+    throw UsageError("--approach-a merges whole turns, which only captures hold: it needs --from-pcap");
 }
 
 void refuseExistingOutputs(const EditArguments& arguments, const EditOperation& operation)
@@ -76,20 +58,11 @@ void refuseExistingOutputs(const EditArguments& arguments, const EditOperation& 
   const auto& folder = operation.folder;
   if (!folder.empty() && std::filesystem::exists(folder) && !arguments.overwrite)
     if (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder))
-      throw UsageError(
-          fmt::format("{} {}: is no empty folder; -w writes into it all the same", operation.option, folder.string()));
+      throw UsageError(fmt::format("{} {}: must be a new or an empty folder; -w writes into it all the same",
+                                   operation.option, folder.string()));
 }
 
-RawlogOperation made(const std::vector<EditOperation>& operations, const std::filesystem::path& input)
-{
-  const std::optional<RecordingHeader> header = headerOf(input);
-  RawlogOperation all = operations.front().make(header);
-  for (std::size_t i = 1; i < operations.size(); ++i) all = chained(std::move(all), operations[i].make(header));
-  return all;
-}
-
-/** Shows how much of the file was read; quiet: nothing. */
-KeepReading keepReading(const EditArguments& arguments)
+KeepReading showingProgress(const EditArguments& arguments)
 {
   if (arguments.quiet) return [](std::uint64_t) { return !interrupted(); };
   auto progress = std::make_shared<Progress>("edit", megabytesOf({arguments.input}), "MB");
@@ -126,23 +99,23 @@ void report(const EditArguments& arguments, const std::string& what, const Rawlo
 
 int edit(const EditArguments& arguments, const std::vector<EditOperation>& operations)
 {
-  const bool to_rawlog = writesRawlog(operations);
+  const bool to_rawlog = operations.back().writesRawlog();
   if (to_rawlog && arguments.output.empty()) throw UsageError("-o/--output is required: the rawlog to write");
   if (!to_rawlog && !arguments.output.empty())
-    throw UsageError(fmt::format("{} writes no rawlog: -o/--output has no meaning", operations.back().option));
+    throw UsageError(fmt::format("{} writes no rawlog: it takes no -o/--output", operations.back().option));
   if (to_rawlog) refuseExisting({arguments.output}, arguments.overwrite);
   for (const EditOperation& operation : operations) refuseExistingOutputs(arguments, operation);
   if (arguments.configuration.dry_run)
   {
-    if (to_rawlog) made(operations, arguments.input);  // others would begin their files
+    if (to_rawlog) chained(operations, arguments.input);  // the others would create their files
     for (const EditOperation& each : operations) fmt::print("{} ", each.option);
     fmt::print("of {}{}\n", arguments.input.string(), to_rawlog ? " into " + arguments.output.string() : "");
     return kDone;
   }
 
   catchInterruption();
-  const RawlogOperation operation = made(operations, arguments.input);
-  const KeepReading keep_reading = keepReading(arguments);
+  const RawlogOperation operation = chained(operations, arguments.input);
+  const KeepReading keep_reading = showingProgress(arguments);
   const RawlogEdited edited = to_rawlog ? editRawlog(arguments.input, operation, arguments.output, keep_reading)
                                         : readRawlog(arguments.input, operation, keep_reading);
   report(arguments, operations.back().option, edited);
@@ -150,108 +123,146 @@ int edit(const EditArguments& arguments, const std::vector<EditOperation>& opera
   return edited.damage.empty() && edited.passed_over == 0 ? kDone : kQualityGate;
 }
 
-int info(const EditArguments& arguments)
-{
-  const RawlogInfo info = rawlogInfo(arguments.input);
-  if (arguments.json)
-    std::cout << toJson(info).dump(2) << '\n';
-  else
-    print(info);
-  return info.damage.empty() ? kDone : kQualityGate;
-}
-
 int check(const EditArguments& arguments)
 {
   catchInterruption();
-  const RawlogAccount account = accountOf(arguments.input, keepReading(arguments));
+  const CheckedRawlog check = checkRawlog(arguments.input, showingProgress(arguments));
   if (interrupted()) return kInterrupted;
-  Findings findings = findingsOf(account);
-  RigExamination examination;
-  if (account.header)
-  {
-    examination = examine(rawlogEvidence(arguments.input).rig, {});
-    const Findings of_rig = findingsOf(examination, {});
-    findings.insert(findings.end(), of_rig.begin(), of_rig.end());
-  }
-  if (arguments.json)
-  {
-    auto result = nlohmann::json::parse(toJson(examination, findings));
-    result["rawlog"] = nlohmann::json::parse(toJson(account));
-    std::cout << result.dump(2) << '\n';
-  }
-  else
-    std::cout << toText(findings) << '\n' << summaryOf(findings) << '\n';
-  return worstOf(findings) == Verdict::NotFit ? kQualityGate : kDone;
+  std::cout << (arguments.json ? toJson(check) : toText(check.findings) + '\n' + summaryOf(check.findings)) << '\n';
+  return worstOf(check.findings) == Verdict::NotFit ? kQualityGate : kDone;
 }
 
-int batchCaptures(const EditArguments& arguments)
+int recordCaptures(const EditArguments& arguments)
 {
   if (arguments.configuration.files.empty()) throw UsageError("--from-pcap needs -c CONFIG, which names the lidars");
   if (arguments.output.empty()) throw UsageError("-o/--output is required: the rawlog to write");
-  refuseExisting({arguments.output}, arguments.overwrite);
-  Loaded<NoSettings> loaded = load<NoSettings>(arguments.configuration);
-  const std::string section = rigSection(loaded.configuration);
-  loaded.configuration.set(fmt::format("{}.pcap_input={}", section, fmt::join(arguments.from_pcap, ",")));
-  if (arguments.approach_a) loaded.configuration.set(section + ".batching=nearest_turns");
-  const RigSettings settings = readRigSettings(loaded.configuration, section);
-  const Rig rig = makeRig(settings);
-  if (arguments.configuration.dry_run)
-  {
-    std::cout << toIni(loaded);
-    return kDone;
-  }
-
-  catchInterruption();
-  std::optional<Progress> progress;
-  const std::uint64_t megabytes = megabytesOf(rig.captures);
-  if (!arguments.quiet) progress.emplace("edit", megabytes, "MB");
-  const RigAccount account =
-      rawlogFromCaptures(rig, settings.driver, arguments.output,
-                         [&](double share)
-                         {
-                           if (progress)
-                             progress->update(static_cast<std::uint64_t>(share * static_cast<double>(megabytes)));
-                           return !interrupted();
-                         });
-  progress.reset();
-  const auto counts = countsOf(account);
-  if (arguments.json)
-    std::cout << nlohmann::json{{"counts", counts}}.dump(2) << '\n';
-  else
-    for (const auto& [what, count] : counts)
-      if (count > 0) fmt::print("  {}: {}\n", what, count);
-  return interrupted() ? kInterrupted : kDone;
+  RecordArguments record_arguments;
+  record_arguments.configuration = arguments.configuration;
+  record_arguments.output = arguments.output;
+  record_arguments.overwrite = arguments.overwrite;
+  record_arguments.json = arguments.json;
+  record_arguments.quiet = arguments.quiet;
+  Configuration configuration = Configuration::fromFiles(arguments.configuration.files);
+  std::vector<std::string>& assignments = record_arguments.configuration.assignments;
+  for (const std::string& assignment : assignments) configuration.set(assignment);
+  const std::string section = rigSection(configuration);
+  assignments.push_back(fmt::format("{}.pcap_input={}", section, fmt::join(arguments.from_pcap, ",")));
+  if (arguments.approach_a) assignments.push_back(section + ".batching=nearest_turns");
+  return record(record_arguments);
 }
 
 int run(const EditArguments& arguments)
 {
-  const std::vector<EditOperation> operations = chosenOperations(arguments.options, arguments.input);
+  const std::vector<EditOperation> operations =
+      editOperations(arguments.options, arguments.input, [](const std::string& line) { std::cerr << line << '\n'; });
   requireOne(arguments, operations);
-  if (arguments.info) return info(arguments);
+  if (arguments.info) return printRawlogInfo(arguments.input, arguments.json);
   if (arguments.check) return check(arguments);
-  if (!arguments.from_pcap.empty()) return batchCaptures(arguments);
+  if (!arguments.from_pcap.empty()) return recordCaptures(arguments);
   return edit(arguments, operations);
+}
+
+/** Options under one heading of --help. */
+class OptionGroup
+{
+ public:
+  OptionGroup(CLI::App& app, std::string heading) : app_(app), heading_(std::move(heading)) {}
+
+  template <typename Value>
+  const Option add(const std::string& name, Value& value, const std::string& type, const std::string& meaning)
+  {
+    return addOption(app_, name, value, meaning).typeName(type).group(heading_);
+  }
+  void add(const std::string& name, bool& flag, const std::string& meaning)
+  {
+    addFlag(app_, name, flag, meaning).group(heading_);
+  }
+
+ private:
+  CLI::App& app_;
+  std::string heading_;
+};
+
+void addCut(CLI::App& app, EditOptions& o)
+{
+  OptionGroup group(app, "Part of the input, alone or before an operation");
+  group.add("--from-time", o.from_time, "S", "from this stamp on, in s since 1970 (a scan's stamp is its start)");
+  group.add("--to-time", o.to_time, "S", "up to and including this stamp");
+  group.add("--from-index", o.from_index, "N", "from this object on; the first is 0");
+  group.add("--to-index", o.to_index, "N", "up to and including this object");
+}
+
+void addChoicesOfObservations(OptionGroup& group, EditOptions& o)
+{
+  group.add("--keep-label", o.keep_label, "L,...", "keep observations with these labels, and the header")
+      .commaSeparated();
+  group.add("--remove-label", o.remove_label, "L,...", "remove observations with these labels").commaSeparated();
+  group.add("--split-lidars", o.split_lidars, "split each cloud into one per lidar, 'lidar_<name>'");
+  group.add("--merge-lidars", o.merge_lidars, "the inverse: merge the lidars' clouds, points in time order");
+  group.add("--keep-lidars", o.keep_lidars, "NAME,...", "keep points and IMUs of these lidars only").commaSeparated();
+  group.add("--keep-every", o.keep_every, "N", "keep every N-th scan, and all that is no scan").positive();
+  group.add("--time-offset", o.time_offset, "LABEL=S", "add S seconds to the stamps of this label");
+  group.add("--rebatch", o.rebatch, "HZ", "divide the points into scans at this rate, in Hz").between(0.1, 1000.0);
+}
+
+void addChangesOfPoints(OptionGroup& group, EditOptions& o)
+{
+  group.add("--crop-box", o.crop_box, "\"X0 Y0 Z0 X1 Y1 Z1\"", "remove points inside this box of the body frame, in m");
+  group.add("--min-range", o.min_range, "M", "remove points nearer than this to their lidar, in m").notNegative();
+  group.add("--max-range", o.max_range, "M", "remove points farther than this from their lidar, in m").positive();
+  group.add("--voxel", o.voxel, "M", "keep the first point in each cube with this edge, in m").positive();
+  group.add("--apply-extrinsics", o.apply_extrinsics, "FILE",
+            "change the poses of the sensors: lines 'T_body_<name> ...', or a configuration (.ini)");
+  group.add("--convert-clouds", o.convert_clouds, "CLASS", "convert clouds to CGenericPointsMap or CPointsMapXYZI");
+  group.add("--deskew", o.deskew, "FILE|imu",
+            "deskew clouds to their stamps by a trajectory (TUM, EuRoC or KITTI), or by the rawlog's IMU, which "
+            "corrects the rotation only");
+  group.add("--imu", o.imu, "LABEL", "for '--deskew imu': label of the IMU (default: imu), e.g. imu_left");
+}
+
+void addFiles(CLI::App& app, OptionGroup& group, EditOptions& o)
+{
+  group.add("--export-ply", o.export_ply, "DIR", "write a PLY file per cloud, in a folder per label");
+  group.add("--export-pcd", o.export_pcd, "DIR", "write a PCD file per cloud");
+  group.add("--export-kitti", o.export_kitti, "DIR", "write a KITTI scan (.bin) per cloud");
+  group.add("--export-csv", o.export_csv, "DIR", "write IMU samples as EuRoC csv, and stamps and sizes of clouds");
+  group.add("--export-tum", o.export_tum, "FILE", "write the poses in the rawlog as TUM");
+  group.add("--to-simplemap", o.to_simplemap, "FILE", "write keyframes along --trajectory, as 'scanloom map' does");
+  group.add("--to-octomap", o.to_octomap, "FILE",
+            "write an occupancy map along --trajectory, as 'scanloom map' does: this .bt, and an .ot beside it");
+  OptionGroup maps(app, "For --to-simplemap and --to-octomap");
+  maps.add("--trajectory", o.trajectory, "FILE",
+           "poses of the body as TUM, EuRoC (.csv) or KITTI (times.txt beside it)");
+  maps.add("--keyframe-distance", o.keyframe_distance, "M", "travel between keyframes, in m")
+      .notNegative()
+      .showDefault();
+  maps.add("--octomap-preset", o.octomap_preset, "NAME", "preview, inventory or fine")
+      .oneOf({"preview", "inventory", "fine"})
+      .showDefault();
 }
 
 std::function<int()> addOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<EditArguments>();
-  app.add_option("-i,--input", arguments->input, "the rawlog to read")->type_name("FILE");
-  app.add_option("-o,--output", arguments->output, "the rawlog to write")->type_name("FILE");
+  addOption(app, "-i,--input", arguments->input, "the rawlog to read").typeName("FILE");
+  addOption(app, "-o,--output", arguments->output, "the rawlog to write").typeName("FILE");
   addOverwrite(app, arguments->overwrite);
   addConfiguration(app, arguments->configuration);
-  app.add_flag("-q,--quiet", arguments->quiet, "no progress");
+  addFlag(app, "-q,--quiet", arguments->quiet, "show no progress");
   addJson(app, arguments->json);
-  app.add_flag("--info", arguments->info, "what the rawlog holds")->group("Operations");
-  app.add_flag("--check", arguments->check, "whether it is fit to be used; if not, status 3")->group("Operations");
-  app.add_option("--from-pcap", arguments->from_pcap, "a rawlog of these captures and the lidars of -c")
-      ->delimiter(',')
-      ->type_name("FILE,...")
-      ->group("Operations");
-  app.add_flag("--approach-a", arguments->approach_a,
-               "with --from-pcap: whole turns behind each other, the paper's approach A, for comparison")
-      ->group("Operations");
-  addEditOptions(app, arguments->options);
+  OptionGroup group(app, "Operations");
+  group.add("--info", arguments->info, "print what the rawlog holds, as 'scanloom info' does");
+  group.add("--check", arguments->check, "look for faults in the rawlog; status 3 if it is not fit for SLAM");
+  group
+      .add("--from-pcap", arguments->from_pcap, "FILE,...",
+           "make a rawlog of these captures and the lidars of -c, as 'scanloom record' does")
+      .commaSeparated();
+  group.add("--approach-a", arguments->approach_a,
+            "with --from-pcap: merge whole turns, the paper's approach A, for comparison");
+  addCut(app, arguments->options);
+  addChoicesOfObservations(group, arguments->options);
+  addChangesOfPoints(group, arguments->options);
+  addFiles(app, group, arguments->options);
   return [arguments] { return run(*arguments); };
 }
 }  // namespace

@@ -1,19 +1,17 @@
-/** `scanloom evaluate`: a trajectory against a total station or the true poses. */
+/** `scanloom evaluate`: compares a trajectory with a total station or with true poses. */
 #include "Arguments.h"
-#include "EvaluationReport.h"
 #include "Verb.h"
 #include "evaluation/Evaluation.h"
+#include "evaluation/EvaluationReport.h"
 #include "evaluation/PositionError.h"
-#include "output/TrajectoryReader.h"
-#include "source/Extrinsics.h"
+#include "formats/TrajectoryReader.h"
+#include "rig/Extrinsics.h"
 
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include <iostream>
 #include <limits>
-#include <map>
 #include <memory>
 
 namespace scanloom
@@ -56,7 +54,7 @@ try
 }
 catch (const std::invalid_argument&)
 {
-  throw UsageError(fmt::format("--lever-arm '{}': expected \"x y z\" in m", text));
+  throw UsageError(fmt::format("--lever-arm '{}': must be \"x y z\" in m", text));
 }
 
 template <typename Result>
@@ -71,14 +69,15 @@ void print(const Result& result, bool json)
 int judge(double drift, double limit)
 {
   if (drift <= limit) return kDone;
-  fmt::print(stderr, "drift {:.3f} m is above {} m\n", drift, limit);
+  fmt::print(stderr, "drift {:.3f} m is above the limit of {} m\n", drift, limit);
   return kQualityGate;
 }
 
 int compareFromFirstPose(const EvaluateArguments& arguments)
 {
   if (isTotalStation(arguments.reference))
-    throw UsageError("--align first: a total station gives no first rotation; use yaw or se3");
+    throw UsageError(
+        "--align first needs a reference with rotations, which a total station does not have; use yaw or se3");
   const PositionError error =
       positionErrorFromFirstPose(readTrajectory(arguments.trajectory), readTrajectory(arguments.reference));
   print(error, arguments.json);
@@ -111,49 +110,49 @@ int run(const EvaluateArguments& arguments)
 
 void addComparison(CLI::App& app, EvaluateArguments& arguments)
 {
-  const std::map<std::string, Align> alignments{{"first", Align::First}, {"yaw", Align::Yaw}, {"se3", Align::Se3}};
-  app.add_option(
-         "--align", arguments.align,
-         "what is fitted to the first 10 % of the path: yaw (and translation) or se3; first: nothing, the first "
-         "poses agree [yaw]")
-      ->transform(CLI::CheckedTransformer(alignments).description(""))
-      ->type_name("first|yaw|se3");
-  app.add_option("--lever-arm", arguments.lever_arm,
-                 "the point of the body that is compared, the prism: \"x y z\" in m")
-      ->type_name("XYZ")
-      ->capture_default_str();
-  app.add_flag("--apply-clock-offset", arguments.apply_clock_offset,
-               "takes the clock offset that is found off the reference's stamps");
-  app.add_option("--rpe-delta", arguments.delta.delta, "between the poses of a pair of the RPE")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  const std::map<std::string, DeltaUnit> units{{"m", DeltaUnit::Metres}, {"f", DeltaUnit::Frames}};
-  app.add_option("--rpe-unit", arguments.delta.unit, "of it: m along the estimate, or f for frames [m]")
-      ->transform(CLI::CheckedTransformer(units).description(""))
-      ->type_name("m|f");
+  const std::vector<std::pair<std::string, Align>> alignments{
+      {"first", Align::First}, {"yaw", Align::Yaw}, {"se3", Align::Se3}};
+  addChoice(app, "--align", arguments.align, alignments,
+            "alignment on the first 10 % of the path: yaw and translation (yaw), or rotation and translation (se3); "
+            "first: the first poses are made equal [yaw]")
+      .typeName("first|yaw|se3");
+  addOption(app, "--lever-arm", arguments.lever_arm,
+            "point of the body that is compared, e.g. the prism: \"x y z\" in m")
+      .typeName("XYZ")
+      .showDefault();
+  addFlag(app, "--apply-clock-offset", arguments.apply_clock_offset,
+          "correct the stamps of the reference by the clock offset that is found");
+  addOption(app, "--rpe-delta", arguments.delta.delta, "distance between the two poses of a pair of the RPE")
+      .positive()
+      .showDefault();
+  const std::vector<std::pair<std::string, DeltaUnit>> units{{"m", DeltaUnit::Metres}, {"f", DeltaUnit::Frames}};
+  addChoice(app, "--rpe-unit", arguments.delta.unit, units,
+            "unit of --rpe-delta: m along the estimate, or f for frames [m]")
+      .typeName("m|f");
 }
 
 std::function<int()> addOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<EvaluateArguments>();
-  app.add_option("--trajectory", arguments->trajectory,
-                 "the estimate: TUM, EuRoC (.csv) or KITTI (times.txt beside it)")
-      ->required()
-      ->type_name("FILE");
-  app.add_option("--imu-trajectory", arguments->imu_trajectory, "the same run at the IMU's rate, TUM")
-      ->type_name("FILE");
-  app.add_option("--reference", arguments->reference,
-                 "a total station's positions (.csv), or poses: TUM, EuRoC or KITTI")
-      ->required()
-      ->type_name("FILE");
-  app.add_option(
-         "--truth", arguments->truth,
-         "true poses, TUM: tells what interpolation between scans alone costs [the reference's, if it has poses]")
-      ->type_name("FILE");
+  addOption(app, "--trajectory", arguments->trajectory,
+            "trajectory to evaluate: TUM, EuRoC (.csv) or KITTI (with times.txt in its folder)")
+      .required()
+      .typeName("FILE");
+  addOption(app, "--imu-trajectory", arguments->imu_trajectory, "trajectory of the same run at the IMU's rate, TUM")
+      .typeName("FILE");
+  addOption(app, "--reference", arguments->reference,
+            "positions of a total station (.csv), or poses: TUM, EuRoC or KITTI")
+      .required()
+      .typeName("FILE");
+  addOption(app, "--truth", arguments->truth,
+            "true poses, TUM: to report the error of the interpolation between scans alone [the reference, if it has "
+            "poses]")
+      .typeName("FILE");
   addComparison(app, *arguments);
-  app.add_option("--fail-if-drift-above", arguments->drift_limit, "ends with status 3 if the drift in m is larger")
-      ->check(CLI::NonNegativeNumber)
-      ->type_name("M");
+  addOption(app, "--fail-if-drift-above", arguments->drift_limit,
+            "end with status 3 if the drift is larger than this, in m")
+      .notNegative()
+      .typeName("M");
   addJson(app, arguments->json);
   return [arguments] { return run(*arguments); };
 }
@@ -161,6 +160,7 @@ std::function<int()> addOptions(CLI::App& app)
 
 Verb evaluateVerb()
 {
-  return {"evaluate", "drift, APE and RPE of a trajectory against a total station or true poses", {}, &addOptions};
+  return {
+      "evaluate", "drift, APE and RPE of a trajectory, compared with a total station or true poses", {}, &addOptions};
 }
 }  // namespace scanloom

@@ -32,8 +32,8 @@ const std::vector<Verb>& verbs()
 namespace
 {
 /**
- * Every scan needs the same tens of MB again. Where they go back to the kernel in between, each page of them faults in
- * anew, which was a third of the time of `slam` (doc/performance.md).
+ * Every scan needs the same tens of MB again. If they are returned to the kernel in between, each of their pages causes
+ * a fault again, which took a third of the time of `slam` (doc/performance.md).
  */
 void keepFreedMemory()
 {

@@ -1,14 +1,16 @@
-/** `scanloom record`: packets, live or of captures, through the batcher into a rawlog. */
-#include "Arguments.h"
-#include "InputDisplay.h"
-#include "Interruption.h"
+#include "record.h"
+
+#include "Options.h"
 #include "Settings.h"
-#include "SimulatedRig.h"
 #include "Verb.h"
-#include "config/AtomicFile.h"
+#include "core/AtomicFile.h"
+#include "core/Interruption.h"
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/RigObservations.h"
-#include "mrpt_bridge/SensorInput.h"
+#include "mrpt_bridge/RigRecording.h"
+#include "rig/InputDisplay.h"
+#include "rig/openRig.h"
+#include "simulation/SimulatedRig.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,23 +19,11 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <optional>
 
 namespace scanloom
 {
 namespace
 {
-struct RecordArguments
-{
-  ConfigurationArguments configuration;
-  SceneArguments scene;
-  std::filesystem::path output;
-  std::vector<std::string> lidars;
-  double seconds = 0;  // live: 0 until it is interrupted
-  bool overwrite = false;
-  bool json = false;
-};
-
 struct RecordOptions
 {
   int compression_level = -1;
@@ -41,10 +31,10 @@ struct RecordOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(
-        o.compression_level,
-        Field{"compression_level", "",
-              "gzip: 0 is fastest, 1 a quarter of the size, 9 too slow; -1: 0 live, 1 from captures", between(-1, 9)});
+    visit(o.compression_level,
+          Field{"compression_level", "",
+                "gzip level: 0 is fastest, 1 gives a quarter of the size, 9 is too slow; -1: 0 live, 1 from captures",
+                between(-1, 9)});
   }
 };
 
@@ -59,52 +49,37 @@ struct RecordSettings
   }
 };
 
-struct Recorded
-{
-  std::uint64_t scans = 0, imu_samples = 0;
-};
-
-/** Where the sensors' events come from. */
+/** The input that the arguments name. */
 struct Source
 {
   DriverOptions driver;
   Rig rig;
-  std::shared_ptr<const Scene> scene;  // none: captures or sockets
-  std::filesystem::path capture;       // that is written beside; empty: none
+  std::shared_ptr<const Scene> scene;  // null: captures or sockets
+  std::filesystem::path capture;       // that is written with the rawlog; empty: none
 
   bool isLive() const { return !scene && rig.captures.empty(); }
 };
 
-InputDisplay displayOf(const Source& source, RigInput& input)
+std::unique_ptr<InputDisplay> displayOf(const Source& source, SensorInput& input)
 {
-  if (source.isLive()) return {"record", input};
-  if (source.scene) return {"record", static_cast<std::uint64_t>(std::ceil(source.scene->span.duration)), "s"};
-  return {"record", megabytesOf(source.rig.captures), "MB"};
+  if (source.isLive()) return std::make_unique<InputDisplay>("record", input);
+  if (!source.scene) return std::make_unique<InputDisplay>("record", megabytesOf(source.rig.captures), "MB");
+  const double duration = std::ceil(source.scene->span.duration);
+  return std::make_unique<InputDisplay>("record", static_cast<std::uint64_t>(duration), "s");
 }
 
-Recorded record(RigInput& input, const Source& source, double seconds, RawlogWriter& writer)
+Recorded record(SensorInput& input, const Source& source, const RecordArguments& arguments, RawlogWriter& writer)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  Rig rig = source.rig;
-  InputDisplay display = displayOf(source, input);
-  Recorded recorded;
-  while (!input.ended())
-  {
-    if (const std::optional<SensorEvent> event = input.next(100ms))
-    {
-      input.refresh(rig);
-      writer.write(*toObservation(*event, rig, source.driver));
-      if (std::holds_alternative<Scan>(*event)) ++recorded.scans;
-      if (std::holds_alternative<SensorImu>(*event)) ++recorded.imu_samples;
-    }
-    writer.secure();
-    display.update(input.progress(), recorded.scans);
-    const bool over = seconds > 0 && Clock::now() - start >= fromSeconds(seconds);
-    if (interrupted() || over) input.stop();
-  }
-  writer.close();
-  return recorded;
+  const std::unique_ptr<InputDisplay> display = arguments.quiet ? nullptr : displayOf(source, input);
+  return recordRig(input, source.driver, writer,
+                   [&](const Recorded& recorded)
+                   {
+                     if (display) display->update(input.progress(), recorded.scans);
+                     const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
+                     return !interrupted() && !over;
+                   });
 }
 
 void report(const RecordArguments& arguments, const Recorded& recorded, const RigAccount& account)
@@ -131,7 +106,7 @@ Source openSource(const RecordArguments& arguments, const Configuration& configu
   if (arguments.scene.given())
   {
     refuseExisting({arguments.output}, arguments.overwrite);
-    SimulatedRig simulated = simulatedRig(arguments.scene, configuration, arguments.lidars);
+    SimulatedRig simulated = simulatedRig(configuration, arguments.scene.seed, arguments.lidars);
     const bool has_rig = hasRigSection(configuration);
     return {has_rig ? configuration.read<DriverOptions>(rigSection(configuration)) : DriverOptions{},
             std::move(simulated.rig),
@@ -150,12 +125,27 @@ RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& dr
 {
   RawlogOptions options;
   options.compression_level = record.compression_level >= 0 ? record.compression_level : live ? 0 : 1;
-  options.cloud_class = cloudClassFromName(driver.cloud_class);
+  cloudClassFromName(driver.cloud_class);  // throws before any file is opened
   if (live) options.safe_every = 1s;
   return options;
 }
 
-int run(const RecordArguments& arguments)
+std::function<int()> addOptions(CLI::App& app)
+{
+  auto arguments = std::make_shared<RecordArguments>();
+  addConfiguration(app, arguments->configuration);
+  addScene(app, arguments->scene);
+  addOption(app, "-o,--output", arguments->output, "the rawlog to write").required();
+  addSeconds(app, arguments->seconds);
+  addOverwrite(app, arguments->overwrite);
+  addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas (default: all)")
+      .commaSeparated();
+  addJson(app, arguments->json);
+  return [arguments] { return record(*arguments); };
+}
+}  // namespace
+
+int record(const RecordArguments& arguments)
 {
   const Loaded<RecordSettings> loaded = load<RecordSettings>(withScene(arguments.configuration, arguments.scene));
   const Source source = openSource(arguments, loaded.configuration);
@@ -170,38 +160,24 @@ int run(const RecordArguments& arguments)
 
   catchInterruption();
   if (!source.capture.empty()) std::filesystem::remove(source.capture);  // -w was given
-  const std::unique_ptr<RigInput> input =
-      source.scene ? makeSceneRigInput(source.scene, source.rig) : openRig(source.rig);
-  RawlogWriter writer(arguments.output, recordingHeader(source.rig), options);
-  const Recorded recorded = record(*input, source, arguments.seconds, writer);
+  const std::unique_ptr<SensorInput> input =
+      source.scene ? makeSceneInput(source.scene, source.rig) : openRig(source.rig);
+  RawlogWriter writer(arguments.output, input->setup().header, options);
+  const Recorded recorded = record(*input, source, arguments, writer);
   for (const std::string& warning : input->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
   report(arguments, recorded, input->account());
   if (interrupted()) return kInterrupted;
   if (live && recorded.scans == 0)
     throw std::runtime_error(
-        "no scan was recorded: see that the lidars' destination (udp_dest) is this computer, that their ports are the "
-        "configured ones, and that no firewall is between ('scanloom doctor' looks closer)");
+        "no scan was recorded: check that the lidars send to this computer (udp_dest), that they use the configured "
+        "ports, and that no firewall is in between ('scanloom doctor' tells more)");
   return kDone;
 }
-
-std::function<int()> addOptions(CLI::App& app)
-{
-  auto arguments = std::make_shared<RecordArguments>();
-  addConfiguration(app, arguments->configuration);
-  addScene(app, arguments->scene);
-  app.add_option("-o,--output", arguments->output, "the rawlog to write")->required();
-  addSeconds(app, arguments->seconds);
-  addOverwrite(app, arguments->overwrite);
-  app.add_option("--lidars", arguments->lidars, "names of the lidars to use, separated by commas")->delimiter(',');
-  addJson(app, arguments->json);
-  return [arguments] { return run(*arguments); };
-}
-}  // namespace
 
 Verb recordVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<RecordSettings>());
-  return {"record", "packets of all lidars into a rawlog of scans", schema, &addOptions};
+  return {"record", "a rawlog of merged scans, from live lidars, captures or a simulated drive", schema, &addOptions};
 }
 }  // namespace scanloom

@@ -1,11 +1,11 @@
-/** `scanloom register`: the pose of one point cloud in another. */
+/** `scanloom register`: finds the pose of one point cloud in another. */
 #include "Arguments.h"
-#include "CloudRegistration.h"
-#include "RegistrationReport.h"
 #include "Settings.h"
 #include "Verb.h"
-#include "cloud/CloudFile.h"
-#include "source/Extrinsics.h"
+#include "evaluation/CloudRegistration.h"
+#include "evaluation/RegistrationReport.h"
+#include "formats/CloudFile.h"
+#include "rig/Extrinsics.h"
 
 #include <fmt/format.h>
 
@@ -46,7 +46,8 @@ Rigid readMatrix(const std::filesystem::path& path)
   Eigen::Matrix4d matrix;
   for (Eigen::Index i = 0; i < matrix.size(); ++i) file >> matrix(i / 4, i % 4);
   std::string more;
-  if (!file || file >> more) throw std::runtime_error(fmt::format("{}: is no 4x4 matrix of 16 numbers", path.string()));
+  if (!file || file >> more)
+    throw std::runtime_error(fmt::format("{}: must have the 16 numbers of a 4x4 matrix", path.string()));
   try
   {
     return Rigid::fromMatrix(matrix);
@@ -67,7 +68,7 @@ std::optional<Rigid> truthOf(const std::string& text)
   }
   catch (const std::invalid_argument& problem)
   {
-    throw UsageError(fmt::format("--truth '{}': is no file, and as a pose: {}", text, problem.what()));
+    throw UsageError(fmt::format("--truth '{}': neither a file nor a pose: {}", text, problem.what()));
   }
 }
 
@@ -123,51 +124,55 @@ int run(const RegisterArguments& arguments)
   return report.registration.result.trustworthy() ? kDone : kQualityGate;
 }
 
-void addTrials(CLI::App& app, RegisterArguments& arguments, CLI::Option* truth, CLI::Option* guess)
+void addTrials(CLI::App& app, RegisterArguments& arguments, const Option& truth, const Option& guess)
 {
   TrialOptions& options = arguments.trials;
   options.trials = 0;
-  CLI::Option* trials = app.add_option("--trials", options.trials,
-                                       "registers so often, from guesses about the truth, and reports how well")
-                            ->check(CLI::Range(1, 1000000))
-                            ->needs(truth)
-                            ->excludes(guess);
-  app.add_option("--spread-m", options.spread, "how far each trial's guess is off, in a random direction")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(trials);
-  CLI::Option* any_axis =
-      app.add_option("--spread-deg", options.spread_deg, "how far it is turned, about a random axis")
-          ->check(CLI::Range(0.0, 180.0))
-          ->needs(trials);
-  app.add_option("--spread-yaw-deg", arguments.spread_yaw_deg, "the same about z only, either way")
-      ->check(CLI::Range(0.0, 180.0))
-      ->needs(trials)
-      ->excludes(any_axis);
-  addSeed(app, options.seed)->needs(trials);
+  const Option trials =
+      addOption(app, "--trials", options.trials,
+                "register this many times, from guesses around --truth, and report success, errors and time")
+          .between(1, 1000000)
+          .needs(truth)
+          .excludes(guess);
+  addOption(app, "--spread-m", options.spread,
+            "trials: distance of each guess from the true position, in m, in a random direction")
+      .notNegative()
+      .needs(trials);
+  const Option any_axis = addOption(app, "--spread-deg", options.spread_deg,
+                                    "trials: rotation of each guess from the true one, in deg, about a random axis")
+                              .between(0.0, 180.0)
+                              .needs(trials);
+  addOption(app, "--spread-yaw-deg", arguments.spread_yaw_deg, "the same about z only, with a random sign")
+      .between(0.0, 180.0)
+      .needs(trials)
+      .excludes(any_axis);
+  addSeed(app, options.seed).needs(trials);
 }
 
 std::function<int()> addOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<RegisterArguments>();
-  app.add_option("TARGET", arguments->target, "the cloud that stays: .ply, .pcd, .bin (KITTI), each also .gz")
-      ->required()
-      ->check(CLI::ExistingFile);
-  app.add_option("SOURCE", arguments->source, "the cloud whose pose in the target is sought")
-      ->required()
-      ->check(CLI::ExistingFile);
-  CLI::Option* guess =
-      app.add_option("--guess", arguments->guess, "target_T_source to start from: \"x y z yaw pitch roll\" in m, deg")
-          ->type_name("POSE")
-          ->capture_default_str();
-  CLI::Option* sigma = app.add_option("--guess-sigma-m", arguments->guess_sigma,
-                                      "its standard deviation: chooses the levels and holds what the clouds leave open")
-                           ->check(CLI::PositiveNumber);
-  sigma->needs(app.add_option("--guess-sigma-deg", arguments->guess_sigma_deg, "that of its angles")
-                   ->check(CLI::PositiveNumber)
-                   ->needs(sigma));
-  CLI::Option* truth = app.add_option("--truth", arguments->truth,
-                                      "the true target_T_source, or a file of its 4x4 matrix: reports errors")
-                           ->type_name("POSE|FILE");
+  addOption(app, "TARGET", arguments->target,
+            "point cloud that defines the frame: .ply, .pcd or .bin (KITTI), each also as .gz")
+      .required()
+      .existingFile();
+  addOption(app, "SOURCE", arguments->source, "point cloud whose pose in TARGET is computed").required().existingFile();
+  const Option guess = addOption(app, "--guess", arguments->guess,
+                                 "initial guess of target_T_source: \"x y z yaw pitch roll\" in m and deg")
+                           .typeName("POSE")
+                           .showDefault();
+  const Option sigma =
+      addOption(app, "--guess-sigma-m", arguments->guess_sigma,
+                "standard deviation of the guess's position, in m: it chooses the levels, and keeps directions "
+                "that the clouds do not determine")
+          .positive();
+  sigma.needs(addOption(app, "--guess-sigma-deg", arguments->guess_sigma_deg,
+                        "standard deviation of the guess's angles, in deg")
+                  .positive()
+                  .needs(sigma));
+  const Option truth = addOption(app, "--truth", arguments->truth,
+                                 "the true target_T_source, or a file with its 4x4 matrix: errors are reported")
+                           .typeName("POSE|FILE");
   addTrials(app, *arguments, truth, guess);
   addConfiguration(app, arguments->configuration);
   addJson(app, arguments->json);
@@ -177,6 +182,6 @@ std::function<int()> addOptions(CLI::App& app)
 
 Verb registerVerb()
 {
-  return {"register", "the pose of one point cloud in another", schemaOf<RegisterSettings>(), &addOptions};
+  return {"register", "pose of one point cloud in another, by registration", schemaOf<RegisterSettings>(), &addOptions};
 }
 }  // namespace scanloom

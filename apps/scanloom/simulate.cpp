@@ -1,19 +1,18 @@
-/** `scanloom simulate`: a recording of a machine that drives among stems, as raw packets with the truth beside them. */
+/** `scanloom simulate`: raw packets of a machine that drives through a simulated forest, with ground truth. */
 #include "Arguments.h"
-#include "Interruption.h"
-#include "Progress.h"
 #include "Settings.h"
-#include "SimulatedRig.h"
 #include "Verb.h"
-#include "config/AtomicFile.h"
-#include "config/ConfigError.h"
+#include "core/AtomicFile.h"
+#include "core/ConfigError.h"
+#include "core/Interruption.h"
+#include "core/Progress.h"
 #include "simulation/RecordingFolder.h"
 #include "simulation/ScenePictures.h"
 #include "simulation/SceneSensors.h"
+#include "simulation/SimulatedRig.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
-#include <CLI/CLI.hpp>
 
 #include <cmath>
 #include <iostream>
@@ -30,7 +29,7 @@ struct SimulateArguments
   ConfigurationArguments configuration;
   OutputFolderArguments output;
   std::uint64_t seed = 1;
-  double seconds = 0;  // 0: as configured
+  double seconds = 0;  // 0: the configured length
   int jobs = 0;
   bool udp = false;
   bool truth = false;
@@ -38,7 +37,7 @@ struct SimulateArguments
   std::string pictures;
 };
 
-/** Ends a recording that nobody waits for any more: half of one would only mislead. */
+/** Thrown to stop writing: an incomplete recording is removed. */
 struct Interrupted : std::exception
 {
 };
@@ -75,7 +74,7 @@ int writeTruthOnly(const Scene& scene, const std::filesystem::path& folder)
   return kDone;
 }
 
-/** Of the middle of the drive. */
+/** At half of the drive's time. */
 int draw(const Scene& scene, const std::filesystem::path& folder)
 {
   const double middle = 0.5 * scene.span.duration;
@@ -86,7 +85,7 @@ int draw(const Scene& scene, const std::filesystem::path& folder)
   return kDone;
 }
 
-/** Sensors on this computer; what a recorder has to know of them is printed first. */
+/** Sends the packets over UDP. Prints the section that 'record' needs first. */
 int play(const Scene& scene, double delay)
 {
   SceneSensors sensors(scene);
@@ -99,7 +98,7 @@ int play(const Scene& scene, double delay)
         progress.update(static_cast<std::uint64_t>(std::llround(share * scene.span.duration)));
         return !interrupted();
       });
-  fmt::print(stderr, "{} datagrams sent, {} refused, at most {:.1f} ms late\n", played.sent, played.refused,
+  fmt::print(stderr, "{} datagrams sent, {} could not be sent, at most {:.1f} ms late\n", played.sent, played.refused,
              1e3 * seconds(played.latest));
   return interrupted() ? kInterrupted : kDone;
 }
@@ -115,7 +114,8 @@ int run(SimulateArguments arguments)
   std::vector<std::string> names = arguments.truth ? truthFileNames() : recordingFileNames(loaded.settings);
   if (!arguments.truth) names.emplace_back(kConfigurationCopy);
   if (arguments.udp + !arguments.output.folder.empty() + !arguments.pictures.empty() != 1)
-    throw UsageError("one of --out-dir, for a recording in a folder, --udp, for packets in real time, and --pictures");
+    throw UsageError(
+        "give exactly one of --out-dir (write a recording), --udp (send packets in real time) and --pictures");
   if (!arguments.output.folder.empty()) refuseExisting(arguments.output, names);
   const Scene scene = checkedScene(loaded.settings, arguments.seed);
   if (arguments.configuration.dry_run)
@@ -139,22 +139,20 @@ Verb simulateVerb()
           {
             auto arguments = std::make_shared<SimulateArguments>();
             addConfiguration(app, arguments->configuration);
-            CLI::Option* folder = addOutputFolder(app, arguments->output);
-            app.add_flag("--truth", arguments->truth,
-                         "in the folder, only what evaluates 'slam --simulate': ground truth, total station and "
-                         "extrinsics")
-                ->needs(folder);
-            app.add_flag("--udp", arguments->udp,
-                         "no folder: sensors of this computer, with web pages, send in real time to 127.0.0.1; their "
-                         "section for 'record' is printed first");
-            app.add_option("--pictures", arguments->pictures,
-                           "no recording: draws the stand and a turn of every lidar halfway through the drive into "
-                           "this folder");
-            app.add_option("--delay", arguments->delay, "with --udp: seconds before the first packet")
-                ->check(CLI::NonNegativeNumber);
+            const Option folder = addOutputFolder(app, arguments->output);
+            addFlag(app, "--truth", arguments->truth,
+                    "write only ground truth, total station and extrinsics, which are needed to evaluate "
+                    "'slam --simulate'")
+                .needs(folder);
+            addFlag(app, "--udp", arguments->udp,
+                    "send the packets in real time to 127.0.0.1, as lidars with HTTP interfaces would; prints the "
+                    "configuration for 'record' first");
+            addOption(app, "--pictures", arguments->pictures,
+                      "draw the forest and one turn of every lidar, at half of the drive's time, into this folder");
+            addOption(app, "--delay", arguments->delay, "with --udp: time before the first packet, in s").notNegative();
             addSeed(app, arguments->seed);
-            app.add_option("--seconds", arguments->seconds, "length of the recording, instead of the configured one")
-                ->check(CLI::PositiveNumber);
+            addOption(app, "--seconds", arguments->seconds, "length of the drive in s, instead of the configured one")
+                .positive();
             addJobs(app, arguments->jobs);
             return [arguments] { return run(*arguments); };
           }};

@@ -1,19 +1,21 @@
-/** `scanloom slam`: trajectory and maps of a recording. */
+/** `scanloom slam`: trajectory and maps from a recording, a simulated drive or live lidars. */
 #include "Arguments.h"
-#include "InputDisplay.h"
-#include "Interruption.h"
 #include "Settings.h"
-#include "SimulatedRig.h"
 #include "Verb.h"
 #include "Version.h"
-#include "config/AtomicFile.h"
-#include "mrpt_bridge/ImuDriver.h"
-#include "mrpt_bridge/ReadAhead.h"
-#include "output/SlamRun.h"
-#include "source/RigOptions.h"
+#include "core/AtomicFile.h"
+#include "core/Interruption.h"
+#include "mrpt_bridge/ImuDriverInput.h"
+#include "mrpt_bridge/RawlogInput.h"
+#include "mrpt_bridge/configuredImu.h"
+#include "rig/InputDisplay.h"
+#include "rig/ReadAhead.h"
+#include "rig/RigOptions.h"
+#include "rig/openRig.h"
+#include "run/SlamRun.h"
+#include "simulation/SimulatedRig.h"
 
 #include <fmt/format.h>
-#include <mrpt/config/CConfigFileMemory.h>
 
 #include <cmath>
 #include <iostream>
@@ -31,7 +33,7 @@ struct SlamArguments
   std::filesystem::path rawlog;
   std::vector<std::string> lidars;
   int every_nth = 0;
-  double seconds = 0;  // live: 0 until it is interrupted
+  double seconds = 0;  // live lidars; 0: until it is interrupted
 };
 
 struct SlamVerbSettings : SlamSettings
@@ -43,8 +45,8 @@ struct SlamVerbSettings : SlamSettings
   static void sections(Self& s, Visitor&& visit)
   {
     SlamSettings::sections(s, visit);
-    visit(s.output, Section{"output", "the files of a run"});
-    visit(s.octomap, Section{"octomap", "the occupancy map"});
+    visit(s.output, Section{"output", "the files that 'slam' writes"});
+    visit(s.octomap, Section{"octomap", "the occupancy map (OctoMap)"});
   }
 };
 
@@ -53,59 +55,41 @@ constexpr const char* kConfigurationName = "configuration.ini";
 struct Input
 {
   std::unique_ptr<SensorInput> sensors;
-  std::uint64_t size = 0;  // 0: no telling how far it is
+  std::uint64_t size = 0;  // 0: not known
   const char* unit = "MB";
-  RigInput* live = nullptr;  // within `sensors`, if packets come from sockets
+  bool live = false;
 };
 
-/** Of the body's IMU: the section of another driver than the lidars'. */
-std::optional<std::string> imuSection(const Configuration& configuration, const std::string& lidars)
+Input openLive(const Rig& rig, const Configuration& configuration, const std::string& section)
 {
-  std::vector<std::string> found;
-  for (const std::string& section : configuration.sections())
-    if (configuration.isSensor(section) && section != lidars) found.push_back(section);
-  if (found.size() > 1)
-    throw ConfigError(fmt::format("sections [{}] and [{}] both have a driver beside the lidars': which is the IMU?",
-                                  found[0], found[1]));
-  return found.empty() ? std::nullopt : std::optional(found.front());
+  std::unique_ptr<SensorInput> sensors = openRig(rig);
+  if (auto imu = openConfiguredImu(configuration, section))
+    sensors = std::make_unique<ImuDriverInput>(std::move(sensors), std::move(imu));
+  return {std::move(sensors), 0, "", true};
 }
 
-std::unique_ptr<ImuDriver> openImuDriver(const Configuration& configuration, const std::string& section)
+std::unique_ptr<SensorInput> readAhead(std::unique_ptr<SensorInput> input)
 {
-  mrpt::config::CConfigFileMemory as_mrpt;
-  for (const std::string& key : configuration.keys(section))
-    as_mrpt.write(section, key, configuration.text(section, key));
-  return std::make_unique<ImuDriver>(as_mrpt, section);
-}
-
-Input openLive(const Rig& rig, const Configuration& configuration, const std::string& lidars)
-{
-  const std::optional<std::string> imu = imuSection(configuration, lidars);
-  std::unique_ptr<ImuDriver> driver = imu ? openImuDriver(configuration, *imu) : nullptr;
-  std::unique_ptr<RigInput> packets = openRig(rig);
-  RigInput* live = packets.get();
-  std::unique_ptr<SensorInput> sensors = driver ? makeRigSensorInput(rig, std::move(packets), std::move(driver))
-                                                : makeRigSensorInput(rig, std::move(packets), false);
-  return {std::move(sensors), 0, "", live};
+  return std::make_unique<ReadAhead>(std::move(input));
 }
 
 Input openInput(const SlamArguments& arguments, const Configuration& configuration)
 {
-  if (!arguments.rawlog.empty()) return {readAhead(makeRawlogInput(arguments.rawlog, arguments.lidars))};
+  if (!arguments.rawlog.empty()) return {readAhead(std::make_unique<RawlogInput>(arguments.rawlog, arguments.lidars))};
   if (arguments.scene.given())
   {
-    const SimulatedRig simulated = simulatedRig(arguments.scene, configuration, arguments.lidars);
+    const SimulatedRig simulated = simulatedRig(configuration, arguments.scene.seed, arguments.lidars);
     return {readAhead(makeSceneInput(simulated.scene, simulated.rig)),
             static_cast<std::uint64_t>(std::ceil(simulated.scene->span.duration)), "s"};
   }
   const std::string section = rigSection(configuration);
-  Rig rig = makeRig(readRigSettings(configuration, section), arguments.lidars);
+  const Rig rig = makeRig(readRigSettings(configuration, section), arguments.lidars);
   if (rig.captures.empty()) return openLive(rig, configuration, section);
   const std::uint64_t megabytes = megabytesOf(rig.captures);
-  return {readAhead(makeCaptureInput(std::move(rig))), megabytes};
+  return {readAhead(openRig(rig)), megabytes};
 }
 
-/** The line that repeats the run; --every-nth is among the assignments. */
+/** The command that repeats the run. --every-nth is among the assignments. */
 std::string commandOf(const SlamArguments& arguments)
 {
   std::string command = "scanloom slam";
@@ -122,18 +106,18 @@ std::string commandOf(const SlamArguments& arguments)
 
 InputDisplay displayOf(const Input& input)
 {
-  if (input.live) return {"slam", *input.live};
+  if (input.live) return {"slam", *input.sensors};
   return {"slam", input.size, input.unit};
 }
 
-/** What a person who ran it live wants to know last. */
-void noteWhetherItKeptUp(const RunSummary& summary)
+void warnOfDroppedScans(const RunSummary& summary)
 {
   const auto dropped = summary.counts.find("scans_dropped");
   if (dropped == summary.counts.end() || dropped->second == 0) return;
   fmt::print(
       stderr,
-      "warning: fell behind: {} scans were dropped, {} processed; use --every-nth, fewer lidars or coarser maps\n",
+      "warning: slower than real time: {} scans were dropped, {} processed; use --every-nth, fewer lidars or coarser "
+      "maps\n",
       dropped->second, summary.counts.at("scans"));
 }
 
@@ -142,7 +126,7 @@ std::string timePerScan(const RunSummary& summary)
   const auto scan = summary.stages.find("scan");
   if (scan == summary.stages.end()) return "";
   const StageTime& time = scan->second;
-  return fmt::format("; {:.1f} ms a scan, p95 {:.1f}", time.total_ms / static_cast<double>(time.runs),
+  return fmt::format("; {:.1f} ms per scan, 95 % below {:.1f} ms", time.total_ms / static_cast<double>(time.runs),
                      time.histogram.quantile(0.95));
 }
 
@@ -151,7 +135,7 @@ void report(const SlamRunResult& result, const std::filesystem::path& folder)
   const RunSummary& s = result.summary;
   const auto count = [&s](const char* name) { return s.counts.at(name); };
   fmt::print(
-      "{}: {} poses from {} scans, {} keyframes, {:.1f} s of recording in {:.1f} s (real-time factor {:.1f}{})\n",
+      "{}: {} poses from {} scans, {} keyframes; {:.1f} s of recording in {:.1f} s (real-time factor {:.1f}{})\n",
       s.outcome, count("poses"), count("scans"), count("keyframes"), s.recorded, s.elapsed, s.realTimeFactor(),
       timePerScan(s));
   if (count("poses_degenerate") + count("poses_lost") + count("poses_initialising") > 0)
@@ -178,7 +162,7 @@ int run(SlamArguments arguments)
 
   catchInterruption();
   const SlamVerbSettings& settings = loaded.settings;
-  SlamFiles files(arguments.output.folder, input.sensors->header().lidars,
+  SlamFiles files(arguments.output.folder, input.sensors->setup().header.lidars,
                   settings.output.maps ? std::optional(settings.octomap) : std::nullopt);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -192,7 +176,7 @@ int run(SlamArguments arguments)
         {
           display.update(progress.share, progress.scans, {progress.recorded, progress.busy});
           const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
-          if (input.live && (over || interrupted())) input.live->stop();
+          if (input.live && (over || interrupted())) input.sensors->stop();
           return input.live || !interrupted();
         },
         [](const std::string& warning) { fmt::print(stderr, "warning: {}\n", warning); });
@@ -203,7 +187,7 @@ int run(SlamArguments arguments)
   files.close(result.summary);
 
   report(result, arguments.output.folder);
-  noteWhetherItKeptUp(result.summary);
+  warnOfDroppedScans(result.summary);
   for (const std::string& warning : input.sensors->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
   if (interrupted()) return kInterrupted;
   return result.passed ? kDone : kQualityGate;
@@ -213,13 +197,15 @@ std::function<int()> addOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<SlamArguments>();
   addConfiguration(app, arguments->configuration);
-  addOutputFolder(app, arguments->output)->required();
-  app.add_option("-i,--input", arguments->rawlog, "a rawlog of scanloom's, instead of the configured captures")
-      ->check(CLI::ExistingFile);
-  addScene(app, arguments->scene)->excludes("--input");
-  app.add_option("--lidars", arguments->lidars, "names of the lidars to use, separated by commas")->delimiter(',');
+  addOutputFolder(app, arguments->output).required();
+  const Option rawlog = addOption(app, "-i,--input", arguments->rawlog,
+                                  "a rawlog written by scanloom, instead of the lidars of the configuration")
+                            .existingFile();
+  addScene(app, arguments->scene).excludes(rawlog);
+  addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas; default: all")
+      .commaSeparated();
   addSeconds(app, arguments->seconds);
-  app.add_option("--every-nth", arguments->every_nth, "use every N-th scan only")->check(CLI::PositiveNumber);
+  addOption(app, "--every-nth", arguments->every_nth, "use every N-th scan only; the IMU is used in full").positive();
   return [arguments] { return run(*arguments); };
 }
 }  // namespace
@@ -228,6 +214,7 @@ Verb slamVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<SlamVerbSettings>());
-  return {"slam", "trajectory, keyframes and maps of a recording", schema, &addOptions};
+  return {"slam", "trajectory, keyframes and maps from a recording, a simulated drive or live lidars", schema,
+          &addOptions};
 }
 }  // namespace scanloom

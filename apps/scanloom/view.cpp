@@ -1,17 +1,17 @@
-/** `scanloom view`: a look at a file, in a window or as a picture. */
+/** `scanloom view`: shows a file in a window, or draws it into a picture. */
 #include "Arguments.h"
-#include "Interruption.h"
 #include "Verb.h"
-#include "cloud/CloudFile.h"
-#include "config/AtomicFile.h"
-#include "config/ConfigError.h"
-#include "dataset/CloudObservation.h"
+#include "core/AtomicFile.h"
+#include "core/ConfigError.h"
+#include "core/Interruption.h"
+#include "edit/CloudObservation.h"
+#include "formats/CloudFile.h"
+#include "formats/TrajectoryReader.h"
+#include "formats/TrajectoryWriter.h"
+#include "maps/OctoMapFile.h"
+#include "maps/SceneFile.h"
+#include "maps/SimpleMapReader.h"
 #include "mrpt_bridge/ObservationReader.h"
-#include "output/OctoMapFile.h"
-#include "output/SceneFile.h"
-#include "output/SimpleMapReader.h"
-#include "output/TrajectoryFile.h"
-#include "output/TrajectoryReader.h"
 
 #include <fmt/format.h>
 #include <mrpt/gui/CDisplayWindow3D.h>
@@ -43,8 +43,9 @@ void addScan(SceneBuilder& scene, const Path& path, std::uint64_t wanted)
   while (const ObservationPtr observation = reader.next())
     if (const auto cloud = cloudIn(observation); cloud && clouds++ == wanted)
       return scene.addPoints(positionsInBody(*cloud));
-  const std::string damage = reader.damage().empty() ? "" : fmt::format(", and is damaged: {}", reader.damage());
-  throw std::runtime_error(fmt::format("{}: has {} clouds, no number {}{}", path.string(), clouds, wanted, damage));
+  const std::string damage = reader.damage().empty() ? "" : fmt::format("; the file is damaged: {}", reader.damage());
+  throw std::runtime_error(
+      fmt::format("{}: has {} point clouds, so there is no number {}{}", path.string(), clouds, wanted, damage));
 }
 
 void addKeyframes(SceneBuilder& scene, const Path& path)
@@ -75,9 +76,8 @@ SceneBuilder sceneOf(const ViewArguments& arguments)
   else if (ending == ".ply" || ending == ".pcd" || ending == ".bin" || ending == ".gz")
     scene.addPoints(readCloud(arguments.file).points);
   else
-    throw UsageError(
-        fmt::format("{}: can be shown are .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin and trajectories",
-                    arguments.file.string()));
+    throw UsageError(fmt::format("{}: must be a .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin or a trajectory",
+                                 arguments.file.string()));
   return scene;
 }
 
@@ -85,7 +85,7 @@ int show(const mrpt::opengl::COpenGLScene::Ptr& scene, const ViewArguments& argu
 {
   using namespace std::chrono_literals;
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
-    throw std::runtime_error("there is no display: --png FILE draws a picture without one");
+    throw std::runtime_error("there is no display: use --png FILE, which needs none");
   mrpt::gui::CDisplayWindow3D window(arguments.file.filename().string(), static_cast<unsigned>(arguments.width),
                                      static_cast<unsigned>(arguments.height));
   const mrpt::opengl::CCamera camera = scene->getViewport()->getCamera();
@@ -119,20 +119,21 @@ int run(const ViewArguments& arguments)
 std::function<int()> addOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<ViewArguments>();
-  app.add_option("file", arguments->file, "a .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin (KITTI) or .tum")
-      ->required()
-      ->check(CLI::ExistingFile);
-  app.add_option("--png", arguments->png, "a picture in place of a window; needs no display")->type_name("FILE");
+  addOption(app, "file", arguments->file, "a .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin (KITTI) or .tum")
+      .required()
+      .existingFile();
+  addOption(app, "--png", arguments->png, "draw into this picture instead of a window; needs no display")
+      .typeName("FILE");
   addOverwrite(app, arguments->overwrite);
-  app.add_option("--scan", arguments->scan, "of a rawlog: which cloud, from 0")->capture_default_str()->type_name("N");
-  app.add_option("--width", arguments->width, "in pixels")->check(CLI::Range(64, 8192))->capture_default_str();
-  app.add_option("--height", arguments->height, "in pixels")->check(CLI::Range(64, 8192))->capture_default_str();
+  addOption(app, "--scan", arguments->scan, "rawlog: number of the point cloud, from 0").showDefault().typeName("N");
+  addOption(app, "--width", arguments->width, "width in pixels").between(64, 8192).showDefault();
+  addOption(app, "--height", arguments->height, "height in pixels").between(64, 8192).showDefault();
   return [arguments] { return run(*arguments); };
 }
 }  // namespace
 
 Verb viewVerb()
 {
-  return {"view", "a look at a rawlog, map, cloud or trajectory, with or without a display", {}, &addOptions};
+  return {"view", "a rawlog, map, point cloud or trajectory in a window or as a picture", {}, &addOptions};
 }
 }  // namespace scanloom

@@ -12,7 +12,7 @@ namespace scanloom
 struct BatchedLidar
 {
   std::string name;
-  std::shared_ptr<const PacketDecoder> decoder;  // null: not known yet, see TimeBatcher::replace
+  std::shared_ptr<const PacketDecoder> decoder;  // null: not known yet, see Batcher::replace
   Duration time_offset{0};                       // added to its stamps
 };
 
@@ -31,24 +31,29 @@ struct BatcherOptions
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.batching, Field{"batching", "",
-                            "by time, or whole turns of each lidar behind each other for comparison: nearest_turns or "
-                            "one_turn_of_each, which know none of the keys below"});
+                            "time: columns of all lidars by their stamps; for comparison, one whole turn of each lidar "
+                            "per scan: nearest_turns or one_turn_of_each, which use none of the keys below"});
     visit(o.scan_rate,
-          Field{"scan_rate", "Hz", "scans per second, whatever the lidars' own rates are", between(0.1, 1000)});
+          Field{"scan_rate", "Hz", "scans per second, independent of the lidars' rotation rates", between(0.1, 1000)});
     visit(o.scan_phase_ms,
           Field{"scan_phase_ms", "ms", "scans start at multiples of the period plus this", between(0, 10000)});
-    visit(o.slices, Field{"slices", "", "parts of a scan that are given out as they are complete", between(1, 1000)});
-    visit(o.deadline_ms,
-          Field{"deadline_ms", "ms", "how much later than its fastest packets a lidar may deliver", between(0, 10000)});
+    visit(o.slices,
+          Field{"slices", "",
+                "number of parts of a scan that are given out before the scan, each as soon as it is complete",
+                between(1, 1000)});
+    visit(o.deadline_ms, Field{"deadline_ms", "ms",
+                               "longest wait for a lidar: how much later than its quickest packets a packet may arrive",
+                               between(0, 10000)});
     visit(o.max_clock_skew,
-          Field{"max_clock_skew", "s", "lidars whose packets arrive so much apart by their stamps share no clock",
-                above(0)});
+          Field{"max_clock_skew", "s",
+                "lidars share a clock if their packets' delays (arrival minus stamp) differ by less", above(0)});
     visit(o.other_clock,
           Field{"other_clock", "",
-                "a lidar of another clock is: align (by times of arrival, with a warning), quarantine (left out) or "
-                "refuse (an error at the start, left out later)"});
+                "a lidar that does not share the others' clock: align (shift its stamps by times of arrival, with a "
+                "warning), quarantine (leave it out) or refuse (an error at the start; leave it out later)"});
     visit(o.queue_packets,
-          Field{"queue_packets", "", "packets that wait per lidar at most; the oldest is dropped", atLeast(2)});
+          Field{"queue_packets", "", "most packets that wait per lidar; above it the oldest is dropped and counted",
+                atLeast(2)});
   }
 };
 

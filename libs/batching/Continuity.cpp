@@ -7,14 +7,14 @@ namespace scanloom
 {
 namespace
 {
-// A smaller step of a clock is followed; what the rotor and the packets' own granularity explain lies well below.
+// Smaller steps of a clock are ignored. Unevenness of the rotor and the resolution of stamps are well below this.
 constexpr double kStepTolerance = 0.002;  // s
 
-// What rotors and crystals deviate from the measured rate, over a gap.
+// By how much rotors and clocks may deviate from the measured rate during a gap.
 constexpr double kRateTolerance = 0.01;
 
-// Where host time vouches for stamps (no ids, or long silence): how late a packet may come, and what captures that were
-// replayed faster or slower than life add to that.
+// Where stamps are checked against host time (no ids, or long silence): how late a packet may come, and how much faster
+// or slower than real time a capture may have been replayed.
 constexpr Duration kArrivalTolerance = 500ms;
 constexpr double kSilenceTolerance = 0.1;
 
@@ -47,7 +47,7 @@ Continuity::Judgement Continuity::judge(const PacketPlace& place, Timestamp rece
   {
     if (!place.stamp) return {};
     const std::int64_t block = numbering_ == Numbering::Ids ? nearestBlock(place, 0) : 0;
-    latest_ = know(place, block, received);
+    latest_ = seen(place, block, received);
     return {Verdict::Continues, block, block, {}};
   }
   if (const auto block = continued(*latest_, place, received))
@@ -55,23 +55,22 @@ Continuity::Judgement Continuity::judge(const PacketPlace& place, Timestamp rece
     follow(place, *block, received);
     return {Verdict::Continues, *block, *block, {}};
   }
-  if (!place.stamp) return {};  // without a valid block it proves nothing
+  if (!place.stamp) return {};  // a packet without a valid block confirms nothing
   if (candidate_)
     if (const auto block = continued(*candidate_, place, received); block && *block != candidate_->block)
       return breakConfirmedBy(place, *block, received);
-  candidate_ = know(place, numbering_ == Numbering::Ids ? nearestBlock(place, latest_->block) : 0, received);
+  candidate_ = seen(place, numbering_ == Numbering::Ids ? nearestBlock(place, latest_->block) : 0, received);
   return {};
 }
 
-/** The place of the packet if it belongs to the same stream as `known`. */
-std::optional<std::int64_t> Continuity::continued(const Known& known, const PacketPlace& place,
-                                                  Timestamp received) const
+/** The number of the packet's last block if the packet belongs to the same stream as `known`. */
+std::optional<std::int64_t> Continuity::continued(const Seen& known, const PacketPlace& place, Timestamp received) const
 {
   if (known.init_id && place.init_id && *known.init_id != *place.init_id) return std::nullopt;
   return numbering_ == Numbering::Ids ? byIds(known, place, received) : byStamp(known, place, received);
 }
 
-std::optional<std::int64_t> Continuity::byIds(const Known& known, const PacketPlace& place, Timestamp received) const
+std::optional<std::int64_t> Continuity::byIds(const Seen& known, const PacketPlace& place, Timestamp received) const
 {
   const std::int64_t near = nearestBlock(place, known.block);
   if (!place.stamp || !known.stamp)
@@ -82,7 +81,7 @@ std::optional<std::int64_t> Continuity::byIds(const Known& known, const PacketPl
   { return std::abs(elapsed - secondsOf(block - known.block)) <= kStepTolerance + kRateTolerance * std::abs(elapsed); };
   if (std::abs(near - known.block) <= kTurnsToReorder * blocks_per_turn_ && agrees(near)) return near;
 
-  // After long silence host time must agree, too; frame ids may have gone round.
+  // After long silence host time must agree, too; frame ids may have wrapped more than once.
   const double waited = seconds(received - known.received);
   if (std::abs(waited - elapsed) > seconds(kArrivalTolerance) + kSilenceTolerance * std::abs(waited))
     return std::nullopt;
@@ -90,7 +89,7 @@ std::optional<std::int64_t> Continuity::byIds(const Known& known, const PacketPl
   return agrees(far) ? std::optional(far) : std::nullopt;
 }
 
-std::optional<std::int64_t> Continuity::byStamp(const Known& known, const PacketPlace& place, Timestamp received) const
+std::optional<std::int64_t> Continuity::byStamp(const Seen& known, const PacketPlace& place, Timestamp received) const
 {
   if (!place.stamp || !known.stamp) return std::nullopt;
   const Duration elapsed = *place.stamp - *known.stamp;
@@ -100,7 +99,7 @@ std::optional<std::int64_t> Continuity::byStamp(const Known& known, const Packet
   return known.block + blocks_per_packet_ * std::llround(packets);
 }
 
-/** Frame ids are known modulo their width: of all places that fit, the one nearest to `to`. */
+/** Frame ids wrap: of all block numbers that fit the ids, the one nearest to `to`. */
 std::int64_t Continuity::nearestBlock(const PacketPlace& place, std::int64_t to) const
 {
   const std::int64_t block = place.frame_id * blocks_per_turn_ + place.measurement_id;
@@ -108,7 +107,8 @@ std::int64_t Continuity::nearestBlock(const PacketPlace& place, std::int64_t to)
   return block + std::llround(rounds) * blocks_of_all_frames_;
 }
 
-/** The packet continues the doubtful one before it: the stream has begun anew there. */
+/** The packet continues the doubtful one before it: a restart or a step happened between that one and the one before.
+ */
 Continuity::Judgement Continuity::breakConfirmedBy(const PacketPlace& place, std::int64_t block, Timestamp received)
 {
   const bool other_run = latest_->init_id && place.init_id && *latest_->init_id != *place.init_id;
@@ -127,7 +127,7 @@ Continuity::Judgement Continuity::breakConfirmedBy(const PacketPlace& place, std
     }
     judgement.step = (*place.stamp - *latest_->stamp) - fromSeconds(secondsOf(judgement.block - latest_->block));
   }
-  latest_ = know(place, judgement.block, received);
+  latest_ = seen(place, judgement.block, received);
   candidate_.reset();
   return judgement;
 }
@@ -142,14 +142,14 @@ void Continuity::follow(const PacketPlace& place, std::int64_t block, Timestamp 
     block_period_ += (std::clamp(measured, nominal_period_ / 4, nominal_period_ * 4) - block_period_) / 32;
   }
   const std::optional<Timestamp> before = latest_->stamp;
-  Known known = know(place, block, received);
+  Seen known = seen(place, block, received);
   if (!known.stamp && before) known.stamp = *before + fromSeconds(secondsOf(advance));
   if (!known.init_id) known.init_id = latest_->init_id;
   latest_ = known;
   candidate_.reset();
 }
 
-Continuity::Known Continuity::know(const PacketPlace& place, std::int64_t block, Timestamp received) const
+Continuity::Seen Continuity::seen(const PacketPlace& place, std::int64_t block, Timestamp received) const
 {
   return {place.init_id, block, place.stamp, received};
 }

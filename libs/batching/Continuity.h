@@ -7,7 +7,7 @@
 
 namespace scanloom
 {
-/** What a packet says of its place in its lidar's stream. */
+/** The ids and the stamp by which a packet is put in order. */
 struct PacketPlace
 {
   std::optional<std::uint32_t> init_id;
@@ -17,9 +17,9 @@ struct PacketPlace
 };
 
 /**
- * Whether a packet continues its lidar's stream. Ids and stamps advance together: a turn later by the ids is a turn's
- * time later by the clock, even after a minute of silence. A packet that breaks this is damaged, or the first one after
- * a restart or a step of the lidar's clock: which, the next packet tells. Until then it is doubtful.
+ * Decides whether a packet continues its lidar's stream. Ids and stamps advance together: a turn later by the ids is a
+ * turn's time later by the clock, even after a minute of silence. A packet that contradicts this is doubtful: it may be
+ * damaged, or the first one after a restart or a step of the lidar's clock. The next packet tells which.
  */
 class Continuity
 {
@@ -27,15 +27,15 @@ class Continuity
   enum class Verdict
   {
     Continues,
-    Restarts,    // ids begin anew; so may the clock
-    ClockSteps,  // ids go on, stamps have jumped by `step`
-    Doubtful,    // agrees with nothing before it
+    Restarts,    // the ids start again, and perhaps the clock
+    ClockSteps,  // the ids continue, the stamps have jumped by `step`
+    Doubtful,    // agrees with no packet before it
   };
   struct Judgement
   {
     Verdict verdict = Verdict::Doubtful;
-    std::int64_t block = 0;        // place of the packet's last block, see PacketNumbering; not for Doubtful
-    std::int64_t first_block = 0;  // of the new stream, in the packet that was doubtful; for Restarts
+    std::int64_t block = 0;        // number of the packet's last block, see PacketNumbering; not for Doubtful
+    std::int64_t first_block = 0;  // the same of the doubtful packet, the first of the new stream; for Restarts
     Duration step{0};              // new minus expected stamp; for ClockSteps
   };
 
@@ -47,7 +47,7 @@ class Continuity
   Duration blockPeriod() const { return fromSeconds(block_period_); }
 
  private:
-  struct Known
+  struct Seen
   {
     std::optional<std::uint32_t> init_id;
     std::int64_t block = 0;
@@ -55,22 +55,22 @@ class Continuity
     Timestamp received;
   };
 
-  std::optional<std::int64_t> continued(const Known&, const PacketPlace&, Timestamp received) const;
-  std::optional<std::int64_t> byIds(const Known&, const PacketPlace&, Timestamp received) const;
-  std::optional<std::int64_t> byStamp(const Known&, const PacketPlace&, Timestamp received) const;
+  std::optional<std::int64_t> continued(const Seen&, const PacketPlace&, Timestamp received) const;
+  std::optional<std::int64_t> byIds(const Seen&, const PacketPlace&, Timestamp received) const;
+  std::optional<std::int64_t> byStamp(const Seen&, const PacketPlace&, Timestamp received) const;
   std::int64_t nearestBlock(const PacketPlace&, std::int64_t to) const;
   Judgement breakConfirmedBy(const PacketPlace&, std::int64_t candidate_block, Timestamp received);
   void follow(const PacketPlace&, std::int64_t block, Timestamp received);
-  Known know(const PacketPlace&, std::int64_t block, Timestamp received) const;
+  Seen seen(const PacketPlace&, std::int64_t block, Timestamp received) const;
   double secondsOf(std::int64_t blocks) const { return static_cast<double>(blocks) * block_period_; }
 
   Numbering numbering_;
   std::int64_t blocks_per_turn_, blocks_per_packet_, blocks_of_all_frames_;
   double nominal_period_, block_period_;  // s
-  std::optional<Known> latest_;           // the newest packet that continued
-  std::optional<Known> candidate_;        // the latest doubtful one
+  std::optional<Seen> latest_;            // the newest packet that continues the stream
+  std::optional<Seen> candidate_;         // the latest doubtful packet
 };
 
-/** The blocks of a turn that its packets are numbered by; for a lidar without ids a number of packets that serves. */
+/** The same lidar; one without ids gets turns of a fixed number of packets, so that its packets can be numbered. */
 LidarDescription numberedTurn(LidarDescription);
 }  // namespace scanloom

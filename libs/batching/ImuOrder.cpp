@@ -23,6 +23,7 @@ void ImuOrder::add(const SensorImu& imu)
 
 std::vector<SensorImu> ImuOrder::release(Timestamp horizon)
 {
+  for (; !body_.empty() && body_.front().stamp < horizon; body_.pop_front()) add({SensorImu::kBody, body_.front()});
   released_until_ = std::max(released_until_, horizon);
   const auto end = std::partition_point(waiting_.begin(), waiting_.end(),
                                         [horizon](const SensorImu& imu) { return imu.sample.stamp < horizon; });

@@ -2,11 +2,12 @@
 #include "core/ImuSample.h"
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 namespace scanloom
 {
-/** An IMU sample and whose it is: the lidar with that index, or the body's own IMU. */
+/** An IMU sample and its sensor: the lidar with that index, or the body's own IMU. */
 struct SensorImu
 {
   static constexpr int kBody = -1;
@@ -15,13 +16,16 @@ struct SensorImu
 };
 
 /**
- * IMU samples in the time order of the columns: by (stamp, sensor). They follow the batcher's horizon and never hold a
- * scan back; one that comes after its place has been given out is refused and counted.
+ * IMU samples in the time order of the columns: by (stamp, sensor). They are given out up to the batcher's horizon and
+ * never hold a scan back; a sample that comes too late for its place is dropped and counted.
  */
 class ImuOrder
 {
  public:
   void add(const SensorImu&);
+
+  /** Samples of the body's IMU in time order, however far ahead of the packets. */
+  void addBody(const std::vector<ImuSample>& samples) { body_.insert(body_.end(), samples.begin(), samples.end()); }
 
   /** The samples before `horizon`, in order. */
   std::vector<SensorImu> release(Timestamp horizon);
@@ -29,6 +33,7 @@ class ImuOrder
   std::uint64_t late() const { return late_; }
 
  private:
+  std::deque<ImuSample> body_;
   std::vector<SensorImu> waiting_;
   Timestamp released_until_ = Timestamp::min();
   std::uint64_t late_ = 0;

@@ -7,8 +7,8 @@ namespace scanloom
 {
 namespace
 {
-// Per second: crystals differ by less than 1e-4. The least delay is found within the first seconds, so that the offset
-// of a clock that has just been compared may change faster; even then a column stays before the next.
+// Change of the offset per second. Clocks drift by less than 1e-4. The least delay is known only after some seconds:
+// until then the offset may change faster, but still so slowly that columns keep their order.
 constexpr double kFollowRate = 2e-4;
 constexpr double kSettleRate = 1e-2;
 constexpr Duration kSettling = 2s;
@@ -30,14 +30,14 @@ void LidarClock::setCommon()
 {
   state_ = State::Common;
   offset_ = configured_;
-  skew_watched_.reset();
+  skew_at_last_alarm_.reset();
 }
 
 void LidarClock::setOwn(Duration offset, Timestamp now)
 {
   state_ = State::Own;
   offset_ = offset;
-  decided_ = followed_ = now;
+  settled_ = followed_ = now;
 }
 
 void LidarClock::stepped(Duration step)
@@ -58,7 +58,7 @@ void LidarClock::follow(Duration others_delay, Timestamp now)
 {
   const std::optional<Duration> delay = leastDelay();
   if (state_ != State::Own || !delay || now <= followed_) return;
-  const double rate = now - decided_ < kSettling ? kSettleRate : kFollowRate;
+  const double rate = now - settled_ < kSettling ? kSettleRate : kFollowRate;
   const Duration most = fromSeconds(rate * std::min(seconds(now - followed_), 1.0));
   offset_ += std::clamp(*delay - others_delay, -most, most);
   followed_ = now;
@@ -69,11 +69,12 @@ std::optional<Duration> LidarClock::drift(Duration others_delay, Duration alarm,
   const std::optional<Duration> delay = leastDelay();
   if (state_ != State::Common || !delay) return std::nullopt;
   const Duration skew = *delay - others_delay;
-  if (!skew_watched_) skew_watched_ = skew;
-  const Duration drift = skew - *skew_watched_;
-  if (now < no_alarm_before_ || (drift < alarm && -drift < alarm)) return std::nullopt;
-  no_alarm_before_ = now + kLeastBetweenAlarms;
-  skew_watched_ = skew;
+  if (!skew_at_last_alarm_) skew_at_last_alarm_ = skew;
+  const Duration drift = skew - *skew_at_last_alarm_;
+  if (last_alarm_ && now < *last_alarm_ + kLeastBetweenAlarms) return std::nullopt;
+  if (std::chrono::abs(drift) < alarm) return std::nullopt;
+  last_alarm_ = now;
+  skew_at_last_alarm_ = skew;
   return drift;
 }
 

@@ -8,18 +8,18 @@
 namespace scanloom
 {
 /**
- * One lidar's clock against the others', judged by the host's: the delay of a packet is its arrival minus its stamp,
- * and the least delay of the last two seconds changes only as the clocks drift or step.
+ * One lidar's clock, to be compared with the others. The delay of a packet is its arrival by host time minus its stamp;
+ * the least delay of the last two seconds changes only if a clock drifts or steps.
  */
 class LidarClock
 {
  public:
   enum class State
   {
-    Unknown,      // not heard, or not compared with the others yet
-    Common,       // the others' clock: only the configured offset is added
-    Own,          // aligned by times of arrival, and followed as it drifts
-    Quarantined,  // not used
+    Unknown,      // no packet has come yet, or the clock is not compared yet
+    Common,       // shared with the others: only the configured offset is added to stamps
+    Own,          // not shared: the offset comes from times of arrival and follows the clock's drift
+    Quarantined,  // not shared, and the lidar is left out
   };
 
   explicit LidarClock(Duration configured_offset) : configured_(configured_offset), offset_(configured_offset) {}
@@ -43,8 +43,7 @@ class LidarClock
   /** Least delay if only the configured offset were added; none before the first packet. */
   std::optional<Duration> configuredDelay() const;
 
-  /** Least delay on the common clock before the step or restart that ended its latest use; none if it was never used.
-   */
+  /** Least delay on the common clock before the latest step or restart; none if there was none, or it was not used. */
   std::optional<Duration> delayBeforeBreak() const { return delay_before_break_; }
 
   bool heardSince(Timestamp) const;
@@ -54,16 +53,16 @@ class LidarClock
   void setOwn(Duration offset, Timestamp now);
   void setQuarantined() { state_ = State::Quarantined; }
 
-  /** To be compared again. After a step the delays are known but for the step; after a restart nothing is. */
+  /** The clock must be compared again. After a step the known delays are corrected; after a restart none is known. */
   void stepped(Duration step);
   void restarted();
 
-  /** An Own clock is led to the delay that the others have, slowly enough that its stamps never go back. */
+  /** Moves the offset of an Own clock towards the delay of the others, so slowly that its stamps never go back. */
   void follow(Duration others_delay, Timestamp now);
 
   /**
-   * For a common clock: by how much it has moved against the others' since the start or the last alarm, if by more than
-   * `alarm`. Not twice in ten seconds: on a computer that is short of time, packets' delays go up and down.
+   * For a Common clock: by how much it has drifted against the others since the start or the last alarm, if by `alarm`
+   * or more. At most once in ten seconds: on a busy computer the packets' delays go up and down.
    */
   std::optional<Duration> drift(Duration others_delay, Duration alarm, Timestamp now);
 
@@ -71,18 +70,17 @@ class LidarClock
   Duration configured_;
   Duration offset_;
   State state_ = State::Unknown;
-  SlidingMinimum delays_{2s};  // of raw stamps
-  std::optional<Duration> skew_watched_;
-  Timestamp no_alarm_before_ = Timestamp::min();
+  SlidingMinimum delays_{2s};                   // of raw stamps
+  std::optional<Duration> skew_at_last_alarm_;  // or at the start
+  std::optional<Timestamp> last_alarm_;
   std::optional<Duration> delay_before_break_;
-  Timestamp decided_ = Timestamp::min();
-  Timestamp followed_ = Timestamp::min();
+  Timestamp settled_, followed_;  // when the offset was set and last moved; for Own
 };
 
 /**
- * How far each lidar's clock is behind that of the largest group that agrees within `max_skew` (of equal groups: the
- * one nearest to the host's clock): 0 for its members, what must be added to its stamps for the others, nothing for
- * those not heard. `delays` are least delays.
+ * From least delays: what must be added to each lidar's stamps so that they agree with the common clock. That is the
+ * clock of the largest group of lidars whose neighbouring delays differ by `max_skew` at most (of equally large groups:
+ * the one nearest to host time); 0 for its members, none for a lidar without a delay.
  */
 std::vector<std::optional<Duration>> clockSkews(const std::vector<std::optional<Duration>>& delays, Duration max_skew);
 }  // namespace scanloom

@@ -6,7 +6,7 @@ namespace scanloom
 {
 namespace
 {
-// Shorter than any scan: packets did come, behind the deadline.
+// Shorter than any scan: packets did come, but after their deadline.
 constexpr Duration kHardlySilent = 50ms;
 
 std::string whatHappened(const Notice& n)

@@ -1,21 +1,24 @@
 #include "batching/PacketConsensus.h"
 
+#include "core/Statistics.h"
+
 #include <algorithm>
+#include <utility>
 
 namespace scanloom
 {
 namespace
 {
-// Between the columns of one packet; clocks are read to the microsecond and rotors do not jerk.
+// Between the columns of one packet: sensors stamp to the microsecond, and rotors do not jerk.
 constexpr Duration kTolerance = 1ms;
 
-// Packets without ids run on behind a part of the turn that is not sent: their blocks may lie on both sides of it.
+// A packet without ids may begin before a part of the turn that is not sent and end after it.
 constexpr Duration kLongestTurn = 250ms;
 
-/** What all blocks of a packet imply alike. */
+/** Stamp and ids of a packet's block 0, as one of its blocks implies them. */
 struct Origin
 {
-  Timestamp stamp;  // of block 0
+  Timestamp stamp;
   int measurement_id = 0;
   std::uint32_t frame_id = 0;
 };
@@ -37,9 +40,7 @@ Value median(const std::vector<Origin>& origins, Value Origin::*member)
 {
   std::vector<Value> values;
   for (const Origin& origin : origins) values.push_back(origin.*member);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upperMedian(std::move(values));
 }
 
 Origin majority(const std::vector<MeasurementBlock>& blocks, Duration block_period)
@@ -50,7 +51,7 @@ Origin majority(const std::vector<MeasurementBlock>& blocks, Duration block_peri
           median(origins, &Origin::frame_id)};
 }
 
-/** Keeps what agrees with `origin` and goes on in time; returns how many do not. */
+/** Keeps blocks that agree with `origin` and do not go back in time; returns how many do not. */
 std::size_t keepWhatAgrees(std::vector<MeasurementBlock>& blocks, const Origin& origin, Numbering numbering,
                            Duration block_period)
 {

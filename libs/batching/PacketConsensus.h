@@ -6,10 +6,9 @@
 namespace scanloom
 {
 /**
- * Blocks of one packet follow each other at a fixed distance in time, id and number; a block that does not is damaged.
- * Takes the blocks that are not valid, and those that the majority contradicts, out of `blocks`; returns how many of
- * the valid ones were contradicted. Where packets bear no ids
- * there may be a gap of up to a turn between two blocks.
+ * Keeps the valid blocks of a packet that agree with the majority: blocks follow each other at fixed intervals of time
+ * and id, and one that does not is damaged. Returns how many valid blocks were removed. In packets without ids, two
+ * blocks may be up to a turn apart.
  */
 std::size_t keepAgreeing(std::vector<MeasurementBlock>& blocks, Numbering, Duration block_period);
 }  // namespace scanloom

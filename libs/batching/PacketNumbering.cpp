@@ -1,5 +1,7 @@
 #include "batching/PacketNumbering.h"
 
+#include "lidar/AzimuthWindow.h"
+
 #include <algorithm>
 
 namespace scanloom
@@ -7,12 +9,6 @@ namespace scanloom
 namespace
 {
 std::int64_t floorDiv(std::int64_t a, std::int64_t b) { return a >= 0 ? a / b : (a + 1) / b - 1; }
-
-bool inWindow(const LidarDescription& lidar, int column)
-{
-  return lidar.first_column <= lidar.last_column ? column >= lidar.first_column && column <= lidar.last_column
-                                                 : column >= lidar.first_column || column <= lidar.last_column;
-}
 }  // namespace
 
 PacketNumbering::PacketNumbering(const LidarDescription& lidar) : columns_per_packet_(lidar.columns_per_packet)
@@ -22,13 +18,13 @@ PacketNumbering::PacketNumbering(const LidarDescription& lidar) : columns_per_pa
   for (int first = 0; first < columns; first += lidar.columns_per_packet)
   {
     bool sent = false;
-    for (int c = first; c < std::min(first + lidar.columns_per_packet, columns); ++c) sent |= inWindow(lidar, c);
+    for (int c = first; c < std::min(first + lidar.columns_per_packet, columns); ++c) sent |= inAzimuthWindow(lidar, c);
     sent_before_.push_back(sent_before_.back() + (sent ? 1 : 0));
   }
   for (int column = 0; column < columns; ++column)
   {
     int blocks = 1;
-    while (blocks < columns && !inWindow(lidar, (column + blocks) % columns)) ++blocks;
+    while (blocks < columns && !inAzimuthWindow(lidar, (column + blocks) % columns)) ++blocks;
     blocks_to_next_.push_back(blocks);
   }
 }

@@ -7,8 +7,9 @@
 namespace scanloom
 {
 /**
- * Blocks and packets of a lidar numbered without end: block `frame * columns_per_frame + measurement_id` lies in packet
- * `block / columns_per_packet`, whether the azimuth window lets it out or not.
+ * Numbers blocks and packets through all turns: block `frame * columns_per_frame + measurement_id`, the packets of each
+ * turn counting from its block 0. Blocks and packets outside of the azimuth window, which are not sent, have numbers
+ * too.
  */
 class PacketNumbering
 {

@@ -4,26 +4,20 @@
 
 namespace scanloom
 {
-std::size_t PacketQueue::push(Bytes packet, std::vector<MeasurementBlock>& blocks, const PacketDecoder& decoder)
+std::size_t PacketQueue::push(Bytes packet, std::vector<MeasurementBlock> blocks,
+                              std::shared_ptr<const PacketDecoder> decoder)
 {
-  std::size_t dropped = 0;
-  if (packets_.size() >= capacity_)
-  {
-    dropped = packets_.front().blocks.size() - packets_.front().next;
-    spare_.push_back(std::move(packets_.front()));
-    packets_.pop_front();
-  }
+  const std::size_t dropped = packets_.size() >= capacity_ ? dropFront() : 0;
 
   Waiting waiting;
   if (!spare_.empty())
   {
-    waiting = std::move(spare_.back());
+    waiting.bytes = std::move(spare_.back());
     spare_.pop_back();
   }
   waiting.bytes.assign(packet.begin(), packet.end());
-  waiting.blocks.swap(blocks);
-  waiting.decoder = &decoder;
-  waiting.next = 0;
+  waiting.blocks = std::move(blocks);
+  waiting.decoder = std::move(decoder);
 
   // Nearly always the end; a reordered packet goes where its first block belongs.
   const Timestamp first = waiting.blocks.front().stamp;
@@ -35,10 +29,7 @@ std::size_t PacketQueue::push(Bytes packet, std::vector<MeasurementBlock>& block
 
 void PacketQueue::pop()
 {
-  Waiting& front = packets_.front();
-  if (++front.next < front.blocks.size()) return;
-  spare_.push_back(std::move(front));
-  packets_.pop_front();
+  if (++packets_.front().next == packets_.front().blocks.size()) dropFront();
 }
 
 void PacketQueue::shift(Duration by)
@@ -50,11 +41,16 @@ void PacketQueue::shift(Duration by)
 std::size_t PacketQueue::clear()
 {
   std::size_t blocks = 0;
-  for (; !packets_.empty(); packets_.pop_front())
-  {
-    blocks += packets_.front().blocks.size() - packets_.front().next;
-    spare_.push_back(std::move(packets_.front()));
-  }
+  while (!packets_.empty()) blocks += dropFront();
+  return blocks;
+}
+
+/** How many blocks of it had not been taken. */
+std::size_t PacketQueue::dropFront()
+{
+  const std::size_t blocks = packets_.front().blocks.size() - packets_.front().next;
+  spare_.push_back(std::move(packets_.front().bytes));
+  packets_.pop_front();
   return blocks;
 }
 }  // namespace scanloom

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <vector>
 
 namespace scanloom
@@ -15,13 +16,12 @@ class PacketQueue
   explicit PacketQueue(std::size_t capacity) : capacity_(capacity) {}
 
   /**
-   * Copies the packet and takes the blocks: its usable ones in time order, at least one; `blocks` is left with memory
-   * of any content. The decoder must outlive the packet. Returns the blocks dropped for it when full.
+   * Copies the packet and takes its usable blocks, at least one, in time order. Returns how many blocks were dropped
+   * for it because the queue was full.
    */
-  std::size_t push(Bytes packet, std::vector<MeasurementBlock>& blocks, const PacketDecoder&);
+  std::size_t push(Bytes packet, std::vector<MeasurementBlock> blocks, std::shared_ptr<const PacketDecoder>);
 
   bool empty() const { return packets_.empty(); }
-  std::size_t packets() const { return packets_.size(); }
 
   /** The oldest block; the queue must not be empty. */
   const MeasurementBlock& front() const { return packets_.front().blocks[packets_.front().next]; }
@@ -40,12 +40,14 @@ class PacketQueue
   {
     std::vector<std::uint8_t> bytes;
     std::vector<MeasurementBlock> blocks;
-    const PacketDecoder* decoder = nullptr;
+    std::shared_ptr<const PacketDecoder> decoder;
     std::size_t next = 0;
   };
 
+  std::size_t dropFront();
+
   std::size_t capacity_;
   std::deque<Waiting> packets_;
-  std::vector<Waiting> spare_;
+  std::vector<std::vector<std::uint8_t>> spare_;  // bytes of packets that are gone, for their memory
 };
 }  // namespace scanloom

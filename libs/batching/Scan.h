@@ -4,6 +4,7 @@
 
 #include <bitset>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace scanloom
@@ -13,7 +14,7 @@ constexpr std::size_t kMostLidars = 256;
 /** By sensor_id. */
 using SensorMask = std::bitset<kMostLidars>;
 
-/** One measurement block within a scan: its points stand side by side in Scan::points. */
+/** One measurement block of a scan; its points are neighbours in Scan::points. */
 struct Column
 {
   Timestamp stamp;
@@ -25,8 +26,8 @@ struct Column
 };
 
 /**
- * What all lidars measured in [start, start + period). Columns are ordered by (stamp, sensor_id, measurement_id) and
- * never go back in time, within a scan or from scan to scan. Points are in the body frame of their own instant.
+ * What all lidars measured in [start, start + period). Columns are ordered by (stamp, sensor_id, measurement_id), so
+ * time never goes back within a scan or from scan to scan. A point is in the body frame at its own time of measurement.
  */
 struct Scan
 {
@@ -34,17 +35,17 @@ struct Scan
   Duration period{0};
   std::vector<Column> columns;
   PointCloud points;                      // t is ns after start
-  std::vector<std::uint32_t> columns_of;  // per sensor_id: how many columns it gave, 0 if it was silent
-  SensorMask missing;  // lidars that may lack blocks here: silent up to their deadline, or cut by the end of input
+  std::vector<std::uint32_t> columns_of;  // per sensor_id: number of its columns, 0 if it was silent
+  SensorMask missing;  // lidars of which blocks may be missing: their deadline passed, or the input ended
 
   Timestamp end() const { return start + period; }
   bool complete() const { return missing.none(); }
 };
 
 /**
- * A scan under construction, complete up to a point in time: its columns [0, end_column) are final. Slice `index` of
- * `count` adds [first_column, end_column), the blocks of [start + index T / count, start + (index + 1) T / count); the
- * last one shows the whole scan. Valid only while it is handed over.
+ * Part `index` of `count` of a scan under construction. It adds the columns [first_column, end_column), which are those
+ * of [start + index T / count, start + (index + 1) T / count); the columns before end_column are final, and with the
+ * last slice the scan is complete. The reference is valid only during the call.
  */
 struct ScanSlice
 {
@@ -57,6 +58,8 @@ struct ScanSlice
   Timestamp begin() const { return scan.start + scan.period * index / count; }
   Timestamp end() const { return scan.start + scan.period * (index + 1) / count; }
 };
+
+using SliceSink = std::function<void(const ScanSlice&)>;
 
 /** What the slice adds, as a scan of its own period. */
 Scan copyOf(const ScanSlice&);

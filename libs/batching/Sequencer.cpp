@@ -9,10 +9,10 @@ namespace scanloom
 {
 namespace
 {
-// A rotor keeps its speed to a small part of this; a prediction over a closed window must stay a lower bound.
+// Rotors keep their speed far better; the predicted start of the next azimuth window must be a lower bound.
 constexpr double kRotorTolerance = 0.005;
 
-// How far back a duplicate is recognised.
+// For how long a duplicate is recognised.
 constexpr std::size_t kTurnsRemembered = 4;
 
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
@@ -48,7 +48,7 @@ bool Sequencer::isRepeated(std::int64_t packet)
   const auto size = static_cast<std::int64_t>(recent_.size());
   std::int64_t& slot = recent_[static_cast<std::size_t>(((packet % size) + size) % size)];
   if (slot == packet) return true;
-  // Older than anything remembered: whether it was seen is not known, so it is not taken.
+  // Older than all that is remembered: it may be a duplicate, so it is taken for one.
   if (slot != kNone && slot > packet) return true;
   slot = packet;
   return false;
@@ -93,14 +93,14 @@ void Sequencer::goOnAfter(std::int64_t packet, const Arrived& arrived)
   if (arrived.earliest_next) watermark_ = std::max(watermark_.value_or(Timestamp::min()), *arrived.earliest_next);
 }
 
-std::uint64_t Sequencer::advance(Timestamp give_up_shown_until)
+std::uint64_t Sequencer::advance(Timestamp give_up_before)
 {
   std::uint64_t lost = 0;
   while (!after_gap_.empty())
   {
     const auto [packet, arrived] = *after_gap_.begin();
     const std::int64_t missing = missingBefore(packet);
-    if (missing > 0 && arrived.received > give_up_shown_until) break;
+    if (missing > 0 && arrived.received > give_up_before) break;
     lost += static_cast<std::uint64_t>(std::max<std::int64_t>(missing, 0));
     goOnAfter(packet, arrived);
     after_gap_.erase(after_gap_.begin());

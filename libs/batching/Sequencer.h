@@ -10,8 +10,8 @@
 namespace scanloom
 {
 /**
- * Knows which of one lidar's packets are missing. Its watermark is a lower bound of every stamp that the lidar can
- * still deliver, by the lidar's own clock, as long as nothing comes later than the deadline.
+ * Knows which of one lidar's packets are missing. Its watermark is a lower bound of all stamps still to come, by the
+ * lidar's own clock, if no packet comes later than the deadline.
  */
 class Sequencer
 {
@@ -20,7 +20,7 @@ class Sequencer
   {
     New,
     Duplicate,
-    Recovered,  // had been given up and counted as lost
+    Recovered,  // comes after it was given up and counted as lost
   };
 
   /** A packet by its last valid block, see PacketNumbering; without stamp if it has none. */
@@ -35,16 +35,16 @@ class Sequencer
 
   Verdict accept(const Place&, Timestamp received);
 
-  /** The lidar's next packet is this one: nothing before it counts any more. Returns the packets lost in open gaps. */
+  /** A new stream begins with this block's packet. Returns the number of packets lost in open gaps before it. */
   std::uint64_t restart(std::int64_t block);
 
   /** The lidar's clock has jumped by this much. */
   void shift(Duration step);
 
-  /** Gaps shown before `now` - deadline are given up. Returns the packets that are thereby lost. */
+  /** Gives up gaps that showed a deadline or more before `now`. Returns the number of packets lost in them. */
   std::uint64_t giveUpGaps(Timestamp now);
 
-  /** Every gap is given up: no more input. */
+  /** No more packets will come: gives up every gap. Returns the number of packets lost in them. */
   std::uint64_t finish();
 
   /** Nothing with an earlier stamp is expected; none before the first packet. */
@@ -53,7 +53,7 @@ class Sequencer
  private:
   struct Arrived
   {
-    std::optional<Timestamp> earliest_next;  // no stamp before this can follow
+    std::optional<Timestamp> earliest_next;  // packets after this one have no earlier stamp
     Timestamp received;
   };
 
@@ -61,13 +61,13 @@ class Sequencer
   std::optional<Timestamp> earliestAfter(const Place&) const;
   std::int64_t missingBefore(std::int64_t packet) const;
   void goOnAfter(std::int64_t packet, const Arrived&);
-  std::uint64_t advance(Timestamp give_up_shown_until);
+  std::uint64_t advance(Timestamp give_up_before);
 
   PacketNumbering numbering_;
   Duration deadline_;
   std::optional<std::int64_t> newest_;         // the last packet in unbroken order
   std::int64_t first_ = 0;                     // the first packet of this run
-  std::map<std::int64_t, Arrived> after_gap_;  // arrived ahead of something that is missing
+  std::map<std::int64_t, Arrived> after_gap_;  // packets that came before a missing one
   std::vector<std::int64_t> recent_;           // packets seen, each in its slot modulo the size
   std::optional<Timestamp> watermark_;
 };

@@ -14,6 +14,6 @@ void SlidingMinimum::add(Timestamp when, Duration value)
 
 void SlidingMinimum::shift(Duration by)
 {
-  for (Seen& seen : rising_) seen.value += by;
+  for (Value& v : rising_) v.value += by;
 }
 }  // namespace scanloom

@@ -6,7 +6,7 @@
 
 namespace scanloom
 {
-/** The smallest of the durations seen within the last `span`; the newest one counts however old it is. */
+/** The smallest duration of the last `span` of time. The newest one always counts, whatever its age. */
 class SlidingMinimum
 {
  public:
@@ -20,22 +20,22 @@ class SlidingMinimum
     return rising_.empty() ? std::nullopt : std::optional(rising_.front().value);
   }
 
-  /** When the newest value came; the values must not be empty. */
+  /** When the newest value was added; there must be one. */
   Timestamp newest() const { return rising_.back().when; }
   bool empty() const { return rising_.empty(); }
 
-  /** As if every value had been larger by this. */
+  /** Adds to every value. */
   void shift(Duration);
   void clear() { rising_.clear(); }
 
  private:
-  struct Seen
+  struct Value
   {
     Timestamp when;
     Duration value;
   };
 
   Duration span_;
-  std::deque<Seen> rising_;  // each the smallest of itself and all later ones
+  std::deque<Value> rising_;  // values that are smaller than all later ones
 };
 }  // namespace scanloom

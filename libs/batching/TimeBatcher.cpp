@@ -4,167 +4,156 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
+
+#include "batching/FirstScan.h"
 
 namespace scanloom
 {
 namespace
 {
-// A consumer that is late returns many at once.
-constexpr std::size_t kMostSpareScans = 4;
-
-// Of scans without a column: whoever waits for longer has two recordings, not one with a gap.
+// After so long without a column, empty scans are left out: two recordings follow each other, nobody wants the time
+// between.
 constexpr Duration kLongestSilence = 10min;
-
-auto orderOf(Timestamp stamp, std::size_t sensor_id, std::uint16_t measurement_id)
-{
-  return std::make_tuple(stamp, sensor_id, measurement_id);
-}
 }  // namespace
 
 TimeBatcher::TimeBatcher(const std::vector<BatchedLidar>& lidars, const BatcherOptions& options)
   : lidars_(lidars),
     options_(options),
-    other_clock_(otherClockFromName(options.other_clock)),
     period_(fromSeconds(1 / options.scan_rate)),
-    phase_(fromSeconds(1e-3 * options.scan_phase_ms)),
-    max_clock_skew_(fromSeconds(options.max_clock_skew))
+    fronts_(lidars.size(), Timestamp::max()),
+    clocks_(lidars, options),
+    notices_(lidars.size())
 {
   if (lidars_.empty() || lidars_.size() > kMostLidars)
     throw std::invalid_argument(fmt::format("{} lidars: 1 to {} can be batched", lidars_.size(), kMostLidars));
-  for (const BatchedLidar& lidar : lidars_) inputs_.emplace_back(lidar, options_);
-  fronts_.assign(inputs_.size(), Timestamp::max());
+  for (LidarIndex i = 0; i < lidars_.size(); ++i)
+  {
+    inputs_.push_back({std::nullopt, PacketQueue(static_cast<std::size_t>(options_.queue_packets)), {}, deadline()});
+    if (lidars_[i].decoder) follow(i);
+  }
 }
 
-std::vector<Scan> TimeBatcher::push(LidarIndex lidar, Bytes packet, Timestamp received)
+std::vector<Scan> TimeBatcher::push(RoutedPacket packet)
 {
-  now_ = std::max(now_, received);
-  take(lidar, packet, received);
-  return release();
+  now_ = std::max(now_, packet.received);
+  enqueue(std::move(packet));
+  return merge();
 }
 
 std::vector<Scan> TimeBatcher::advance(Timestamp now)
 {
   now_ = std::max(now_, now);
-  return release();
+  return merge();
 }
 
 std::vector<Scan> TimeBatcher::finish()
 {
   finished_ = true;
-  for (LidarInput& input : inputs_) input.giveUpAll();
-  std::vector<Scan> scans = release();
-  if (scan_ && !scan_->columns.empty()) scans.push_back(closeScan());
+  for (Input& input : inputs_)
+    if (input.stream) input.stream->giveUpAllGaps(input.counters);
+  std::vector<Scan> scans = merge();
+  if (scan_ && !scan_->scan().columns.empty()) scans.push_back(scan_->close(missingLidars(), on_slice_));
   scan_.reset();
   return scans;
 }
 
+/** The paper's five steps, for every block that can be taken. */
+std::vector<Scan> TimeBatcher::merge()
+{
+  std::vector<Scan> closed;
+  if (!scan_) startScans();  // eq. (1)
+  if (!scan_) return closed;
+
+  raiseHorizon();  // first step: which blocks have no older one to come
+  const auto oldest = [this] { return std::min_element(fronts_.begin(), fronts_.end()); };
+  for (auto front = oldest(); *front < horizon_;
+       front = oldest())  // second: the smallest stamp, then the smaller index
+  {
+    closeUntil(*front, closed);
+    takeOldestBlock(static_cast<LidarIndex>(front - fronts_.begin()));  // third to fifth: convert, append, mark as used
+  }
+  if (!finished_) closeUntil(horizon_, closed);
+  return closed;
+}
+
+void TimeBatcher::enqueue(RoutedPacket packet)
+{
+  const LidarIndex lidar = packet.lidar;
+  Input& input = inputs_[lidar];
+  if (!countUnlessLidar(input.stream ? packet.kind : PacketKind::Other, input.counters)) return;
+  const Bytes bytes = packet.bytes;
+  const Timestamp received = packet.received;
+  std::optional<SequencedPacket> read = input.stream->read(std::move(packet), input.counters);
+  if (!read) return;
+  noteBreak(lidar, *read);
+  if (read->blocks.empty()) return;
+
+  LidarClock& clock = clocks_[lidar];
+  clock.observe(read->blocks.back().stamp, received);
+  notices_.noteArrival(lidar, received);
+  if (scan_) settleClock(lidar, *read);
+  if (clock.state() == LidarClock::State::Quarantined)
+  {
+    input.counters.quarantined += read->blocks.size();
+    return;
+  }
+  for (MeasurementBlock& block : read->blocks) block.stamp += clock.offset();
+  const std::size_t dropped = input.queue.push(bytes, std::move(read->blocks), lidars_[lidar].decoder);
+  if (dropped > 0 && input.counters.dropped == 0) notices_.note(lidar, Notice::Kind::QueueFull, now_);
+  input.counters.dropped += dropped;
+  refreshFront(lidar);
+  notices_.noteBack(lidar, now_);
+}
+
+void TimeBatcher::noteBreak(LidarIndex lidar, const SequencedPacket& read)
+{
+  Input& input = inputs_[lidar];
+  notices_.noteFlags(lidar, read.flags, now_);
+  if (read.restarted)
+  {
+    clocks_[lidar].restarted();
+    notices_.note(lidar, Notice::Kind::Restarted, now_);
+  }
+  if (read.clock_step)
+  {
+    clocks_[lidar].stepped(*read.clock_step);
+    notices_.note(lidar, Notice::Kind::ClockStepped, now_, *read.clock_step);
+  }
+  if (scan_) return;
+  // Nothing was given out yet: what waits follows the clock, or is of a clock that is no more.
+  if (read.clock_step) input.queue.shift(*read.clock_step);
+  if (read.restarted) input.counters.before_start += input.queue.clear();
+  refreshFront(lidar);
+}
+
+void TimeBatcher::settleClock(LidarIndex lidar, const SequencedPacket& read)
+{
+  if (const auto change = clocks_.settle(lidar, read.clock_step, now_))
+    notices_.note(lidar, change->kind, now_, change->duration);
+  if (const auto drift = clocks_.watch(lidar, now_)) notices_.note(lidar, Notice::Kind::ClockDrifts, now_, *drift);
+}
+
 void TimeBatcher::replace(LidarIndex lidar, std::shared_ptr<const PacketDecoder> decoder)
 {
-  lidars_[lidar].decoder = decoder;
-  inputs_[lidar].replace(std::move(decoder));
+  lidars_[lidar].decoder = std::move(decoder);
+  follow(lidar);
+  clocks_[lidar].restarted();
   if (scan_) return;
-  // Nothing is given out yet: what waits is of a clock that nobody can compare any more.
+  // Nothing was given out yet: what waits is of a clock that can't be compared any more.
   inputs_[lidar].counters.before_start += inputs_[lidar].queue.clear();
   refreshFront(lidar);
 }
 
-void TimeBatcher::recycle(Scan&& scan)
+/** Packets are those of the lidar's present decoder from here on. */
+void TimeBatcher::follow(LidarIndex lidar)
 {
-  if (spare_.size() < kMostSpareScans) spare_.push_back(std::move(scan));
-}
-
-std::vector<Notice> TimeBatcher::takeNotices() { return std::exchange(notices_, {}); }
-
-void TimeBatcher::take(LidarIndex lidar, Bytes packet, Timestamp received)
-{
-  LidarInput& input = inputs_[lidar];
-  std::vector<Notice::Kind> news;
-  const bool has_blocks = input.read(packet, received, news);
-  noteNews(lidar, news);
-  if (!has_blocks) return;
-
-  if (scan_)
-  {
-    if (input.clock.state() == LidarClock::State::Unknown) settleClock(lidar, news);
-    watchClock(lidar);
-  }
-  if (input.clock.state() == LidarClock::State::Quarantined) return input.quarantine();
-  const std::uint64_t dropped = input.counters.dropped;
-  input.enqueue(packet);
-  refreshFront(lidar);
-  if (dropped == 0 && input.counters.dropped > 0) note(lidar, Notice::Kind::QueueFull);
-  if (silent_.test(lidar)) note(lidar, Notice::Kind::Back, input.silence());
-  silent_.reset(lidar);
-}
-
-void TimeBatcher::note(LidarIndex lidar, Notice::Kind kind, Duration duration)
-{
-  notices_.push_back({kind, lidar, now_, duration, inputs_[lidar].flags()});
-}
-
-void TimeBatcher::noteNews(LidarIndex lidar, const std::vector<Notice::Kind>& news)
-{
-  LidarInput& input = inputs_[lidar];
-  for (const Notice::Kind kind : news)
-  {
-    const bool stepped = kind == Notice::Kind::ClockStepped;
-    note(lidar, kind, stepped ? input.step() : Duration{0});
-    if (scan_) continue;
-    // Nothing is given out yet: what waits is of a clock that is no more.
-    if (stepped) input.queue.shift(input.step());
-    if (kind == Notice::Kind::Restarted) input.counters.before_start += input.queue.clear();
-    refreshFront(lidar);
-  }
-}
-
-void TimeBatcher::raiseDeadlines()
-{
-  // A lidar that has not been heard yet is expected to be as quick as the quickest one.
-  Duration quickest = Duration::max();
-  for (const LidarInput& input : inputs_)
-    if (input.clock.isUsed()) quickest = std::min(quickest, input.clock.leastDelay().value_or(Duration::max()));
-  if (quickest == Duration::max()) return;
-  for (LidarInput& input : inputs_)
-  {
-    input.giveUpGaps(now_);
-    input.raiseDeadline(now_, input.clock.isUsed() ? input.clock.leastDelay().value_or(quickest) : quickest);
-  }
-}
-
-Timestamp TimeBatcher::watermark(const LidarInput& input) const
-{
-  if (finished_ || input.clock.state() == LidarClock::State::Quarantined) return Timestamp::max();
-  return std::max(input.sequenceMark().value_or(Timestamp::min()), input.deadlineMark());
-}
-
-std::optional<Timestamp> TimeBatcher::horizon() const { return scan_ ? std::optional(horizon_) : std::nullopt; }
-
-std::vector<Scan> TimeBatcher::release()
-{
-  std::vector<Scan> scans;
-  if (!scan_)
-  {
-    const std::optional<Timestamp> latest = latestFirstStamp();
-    if (!latest) return scans;
-    startAfter(*latest);
-  }
-  raiseDeadlines();
-  Timestamp horizon = Timestamp::max();
-  for (const LidarInput& input : inputs_) horizon = std::min(horizon, watermark(input));
-  const bool nobody_tells_the_time = horizon == Timestamp::max() && !finished_;  // all are quarantined
-  if (!nobody_tells_the_time) horizon_ = std::max(horizon_, horizon);
-
-  // The first of equal stamps is that of the smaller index: the order of columns.
-  for (auto oldest = std::min_element(fronts_.begin(), fronts_.end()); *oldest < horizon_;
-       oldest = std::min_element(fronts_.begin(), fronts_.end()))
-  {
-    pass(*oldest, scans);
-    append(static_cast<LidarIndex>(oldest - fronts_.begin()));
-  }
-  if (!finished_) pass(horizon_, scans);
-  return scans;
+  Input& input = inputs_[lidar];
+  const LidarDescription& description = lidars_[lidar].decoder->description();
+  if (input.stream) input.stream->giveUpAllGaps(input.counters);
+  input.stream.emplace(description, deadline());
+  // The oldest block of a packet under way is one packet's duration older than its newest.
+  input.patience = deadline() + description.blockPeriod() * description.columns_per_packet;
 }
 
 void TimeBatcher::refreshFront(LidarIndex lidar)
@@ -173,110 +162,121 @@ void TimeBatcher::refreshFront(LidarIndex lidar)
   fronts_[lidar] = queue.empty() ? Timestamp::max() : queue.front().stamp;
 }
 
-/** Nothing older than `time` comes any more. */
-void TimeBatcher::pass(Timestamp time, std::vector<Scan>& closed)
+void TimeBatcher::startScans()
+{
+  const auto skews = clocks_.skewsAtStart();
+  std::vector<LidarBeforeStart> lidars;
+  for (LidarIndex i = 0; i < inputs_.size(); ++i)
+  {
+    lidars.push_back({std::nullopt, Duration{0}, inputs_[i].patience});
+    const auto first = skews[i] ? inputs_[i].stream->firstStamp() : std::nullopt;
+    if (!first) continue;
+    lidars.back().first_stamp = *first + clocks_[i].offset() + *skews[i];
+    lidars.back().delay = *clocks_[i].leastDelay() - *skews[i];
+  }
+  const auto latest = latestFirstStamp(lidars, period_, finished_ ? std::nullopt : std::optional(now_));
+  if (!latest) return;
+
+  settleClocksAtStart();
+  const Duration phase = fromSeconds(1e-3 * options_.scan_phase_ms);
+  scan_.emplace(startAfter(*latest, period_, phase), period_, options_.slices, inputs_.size());
+}
+
+void TimeBatcher::settleClocksAtStart()
+{
+  for (const LidarClocks::Change& change : clocks_.settleAtStart(now_))
+  {
+    const LidarIndex lidar = change.lidar;
+    Input& input = inputs_[lidar];
+    if (change.kind == Notice::Kind::Quarantined)
+      input.counters.quarantined += input.queue.clear();
+    else
+      input.queue.shift(clocks_[lidar].offset() - clocks_[lidar].configuredOffset());
+    notices_.note(lidar, change.kind, now_, change.duration);
+    refreshFront(lidar);
+  }
+}
+
+/** To the smallest watermark: no lidar will deliver a block with an earlier stamp, or is waited for. */
+void TimeBatcher::raiseHorizon()
+{
+  if (const std::optional<Duration> quickest = clocks_.leastDelay())
+    for (LidarIndex i = 0; i < inputs_.size(); ++i)
+    {
+      Input& input = inputs_[i];
+      if (input.stream) input.stream->giveUpGaps(now_, input.counters);
+      // A lidar that was not heard yet is expected to be as quick as the quickest one.
+      const Duration delay = clocks_[i].isUsed() ? clocks_[i].leastDelay().value_or(*quickest) : *quickest;
+      input.deadline_mark = std::max(input.deadline_mark, now_ - delay - input.patience);
+    }
+
+  Timestamp horizon = Timestamp::max();
+  for (LidarIndex i = 0; i < inputs_.size(); ++i) horizon = std::min(horizon, watermark(i));
+  const bool all_are_quarantined = horizon == Timestamp::max() && !finished_;
+  if (!all_are_quarantined) horizon_ = std::max(horizon_, horizon);
+}
+
+Timestamp TimeBatcher::watermark(LidarIndex lidar) const
+{
+  if (finished_ || clocks_[lidar].state() == LidarClock::State::Quarantined) return Timestamp::max();
+  return std::max(sequenceMark(lidar), inputs_[lidar].deadline_mark);
+}
+
+/** What the lidar's packets say of those to come. */
+Timestamp TimeBatcher::sequenceMark(LidarIndex lidar) const
+{
+  const auto& stream = inputs_[lidar].stream;
+  const std::optional<Timestamp> mark = stream ? stream->watermark() : std::nullopt;
+  return mark ? *mark + clocks_[lidar].offset() : Timestamp::min();
+}
+
+/** Scans and slices that end at `time` or before: no block for them will come any more. */
+void TimeBatcher::closeUntil(Timestamp time, std::vector<Scan>& closed)
 {
   while (time >= scan_->end())
   {
-    closed.push_back(closeScan());
-    skipSilence(time);
+    closed.push_back(scan_->close(missingLidars(), on_slice_));
+    if (time < scan_->start() + kLongestSilence) continue;
+    const std::int64_t skipped = (time - scan_->start()) / period_;
+    scan_->skip(skipped);
+    for (Input& input : inputs_) input.counters.missed_scans += static_cast<std::uint64_t>(skipped);
   }
-  while (time >= sliceEnd()) giveSlice();
+  scan_->giveSlicesUntil(time, on_slice_);
 }
 
-/** Goes on with the scan of `time` where a new one begins so far before it that nobody wants all those between. */
-void TimeBatcher::skipSilence(Timestamp time)
+/** Those whose blocks the scan may lack; counted and, where it has none of them at all, noted. */
+SensorMask TimeBatcher::missingLidars()
 {
-  if (time < scan_->start + kLongestSilence) return;
-  const std::int64_t scans = (time - scan_->start) / period_;
-  scan_->start += scans * period_;
-  for (LidarInput& input : inputs_) input.counters.missed_scans += static_cast<std::uint64_t>(scans);
-}
-
-void TimeBatcher::append(LidarIndex index)
-{
-  LidarInput& input = inputs_[index];
-  const MeasurementBlock& block = input.queue.front();
-  const bool in_order = !last_ || orderOf(block.stamp, index, block.measurement_id) >
-                                      orderOf(last_->stamp, last_->sensor_id, last_->measurement_id);
-  if (block.stamp < first_start_)
-    ++input.counters.before_start;
-  else if (block.stamp < sliceBegin() || !in_order)
-    ++input.counters.late;
-  else
-  {
-    Column column;
-    column.stamp = block.stamp;
-    column.first_point = static_cast<std::uint32_t>(scan_->points.size());
-    column.measurement_id = block.measurement_id;
-    column.frame_id = block.frame_id;
-    column.sensor_id = static_cast<std::uint8_t>(index);
-    const auto t = static_cast<std::int32_t>((block.stamp - scan_->start).count());
-    input.queue.frontDecoder().appendPoints(input.queue.frontPacket(), block.index, t, column.sensor_id, scan_->points);
-    column.count = static_cast<std::uint16_t>(scan_->points.size() - column.first_point);
-    scan_->columns.push_back(column);
-    ++scan_->columns_of[index];
-    ++input.counters.emitted;
-    input.counters.points += column.count;
-    last_ = column;
-  }
-  input.queue.pop();
-  refreshFront(index);
-}
-
-Timestamp TimeBatcher::sliceBegin() const { return scan_->start + scan_->period * slices_given_ / options_.slices; }
-
-Timestamp TimeBatcher::sliceEnd() const { return scan_->start + scan_->period * (slices_given_ + 1) / options_.slices; }
-
-void TimeBatcher::giveSlice()
-{
-  const std::size_t end = scan_->columns.size();
-  if (on_slice_) on_slice_({*scan_, slices_given_, options_.slices, columns_given_, end});
-  ++slices_given_;
-  columns_given_ = end;
-}
-
-Scan TimeBatcher::closeScan()
-{
-  markMissing(*scan_);
-  while (slices_given_ < options_.slices) giveSlice();
-  slices_given_ = 0;
-  columns_given_ = 0;
-  Scan closed = std::move(*scan_);
-  scan_ = emptyScan(closed.end());
-  if (scan_->points.capacity() == 0) scan_->points.reserve(closed.points.size() + closed.points.size() / 16);
-  return closed;
-}
-
-void TimeBatcher::markMissing(Scan& scan)
-{
+  SensorMask missing;
+  const Scan& scan = scan_->scan();
   for (LidarIndex i = 0; i < inputs_.size(); ++i)
   {
-    if (inputs_[i].sequenceMark().value_or(Timestamp::min()) >= scan.end() &&
-        inputs_[i].clock.state() != LidarClock::State::Quarantined)
-      continue;
-    scan.missing.set(i);
+    if (sequenceMark(i) >= scan.end() && clocks_[i].state() != LidarClock::State::Quarantined) continue;
+    missing.set(i);
     if (finished_) continue;
     ++inputs_[i].counters.missed_scans;
-    if (scan.columns_of[i] == 0 && !silent_.test(i)) note(i, Notice::Kind::Silent);
-    if (scan.columns_of[i] == 0) silent_.set(i);
+    if (scan.columns_of[i] == 0) notices_.noteSilent(i, now_);
   }
+  return missing;
 }
 
-Scan TimeBatcher::emptyScan(Timestamp start)
+void TimeBatcher::takeOldestBlock(LidarIndex lidar)
 {
-  Scan scan;
-  if (!spare_.empty())
+  Input& input = inputs_[lidar];
+  switch (scan_->placeOf(input.queue.front(), lidar))
   {
-    scan = std::move(spare_.back());
-    spare_.pop_back();
-    scan.columns.clear();
-    scan.points.clear();
-    scan.missing.reset();
+    case ScanUnderConstruction::Place::Next:
+      input.counters.points += scan_->append(input.queue, lidar);
+      ++input.counters.emitted;
+      break;
+    case ScanUnderConstruction::Place::Late:
+      ++input.counters.late;
+      break;
+    case ScanUnderConstruction::Place::BeforeStart:
+      ++input.counters.before_start;
+      break;
   }
-  scan.start = start;
-  scan.period = period_;
-  scan.columns_of.assign(inputs_.size(), 0);
-  return scan;
+  input.queue.pop();
+  refreshFront(lidar);
 }
 }  // namespace scanloom

@@ -14,7 +14,7 @@ namespace
 {
 constexpr const char* kCommandLine = "--set";
 
-/** rawlog-grabber's own section, which every file that the stock grabber reads may have. */
+/** The section of rawlog-grabber's own keys, in files that both programs read. */
 constexpr std::string_view kGrabberSection = "global";
 
 std::string contentsOf(const std::filesystem::path& file)
@@ -25,19 +25,6 @@ std::string contentsOf(const std::filesystem::path& file)
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-std::vector<std::string> namesOf(const std::vector<FieldDescription>& fields)
-{
-  std::vector<std::string> names;
-  for (const auto& described : fields) names.push_back(described.field.name);
-  return names;
-}
-
-bool same(std::string_view a, std::string_view b)
-{
-  const CaseInsensitiveLess less;
-  return !less(a, b) && !less(b, a);
-}
-
 std::string unknown(const std::string& what, const std::string& name, const std::vector<std::string>& candidates)
 {
   const std::string hint = suggestion(name, candidates);
@@ -45,44 +32,53 @@ std::string unknown(const std::string& what, const std::string& name, const std:
 }
 }  // namespace
 
+void refuse(const std::vector<std::string>& problems)
+{
+  if (!problems.empty()) throw ConfigError(problems);
+}
+
+void collect(std::vector<std::string>& problems, const std::function<void()>& check)
+try
+{
+  check();
+}
+catch (const ConfigError& e)
+{
+  problems.insert(problems.end(), e.problems.begin(), e.problems.end());
+}
+
 Configuration Configuration::fromFiles(const std::vector<std::filesystem::path>& files)
 {
   Configuration configuration;
   std::vector<std::string> problems;
   for (const auto& file : files)
-  {
-    try
-    {
-      configuration.add(parseIni(contentsOf(file), file.string()), problems);
-    }
-    catch (const ConfigError& e)
-    {
-      problems.insert(problems.end(), e.problems.begin(), e.problems.end());
-    }
-  }
-  if (!problems.empty()) throw ConfigError(problems);
+    collect(problems, [&] { configuration.add(parseIni(contentsOf(file), file.string())); });
+  refuse(problems);
   return configuration;
 }
 
 Configuration Configuration::fromText(std::string_view text, const std::string& name)
 {
   Configuration configuration;
-  std::vector<std::string> problems;
-  configuration.add(parseIni(text, name), problems);
-  if (!problems.empty()) throw ConfigError(problems);
+  configuration.add(parseIni(text, name));
   return configuration;
 }
 
-void Configuration::add(const std::vector<IniEntry>& entries, std::vector<std::string>& problems)
+std::pair<IniEntry&, bool> Configuration::insert(const IniEntry& entry)
 {
+  Keys& keys = sections_.try_emplace(entry.section, Keys{entry.section, {}}).first->second;
+  const auto [place, is_new] = keys.entries.try_emplace(entry.key, entry);
+  return {place->second, is_new};
+}
+
+void Configuration::add(const std::vector<IniEntry>& entries)
+{
+  std::vector<std::string> problems;
   for (const IniEntry& entry : entries)
-  {
-    Keys& keys = sections_.try_emplace(entry.section, Keys{entry.section, {}}).first->second;
-    const auto [first, is_new] = keys.entries.try_emplace(entry.key, entry);
-    if (!is_new)
+    if (const auto& [first, is_new] = insert(entry); !is_new)
       problems.push_back(fmt::format("{}: [{}] {}: is already set at {}", toString(entry.place), entry.section,
-                                     entry.key, toString(first->second.place)));
-  }
+                                     entry.key, toString(first.place)));
+  refuse(problems);
 }
 
 void Configuration::set(const std::string& assignment)
@@ -95,11 +91,10 @@ void Configuration::set(const std::string& assignment)
 
   const IniEntry entry{name.substr(0, dot), name.substr(dot + 1), std::string(trimmed(assignment.substr(equals + 1))),
                        Place{kCommandLine}};
-  Keys& keys = sections_.try_emplace(entry.section, Keys{entry.section, {}}).first->second;
-  const auto [existing, is_new] = keys.entries.try_emplace(entry.key, entry);
-  if (!is_new && existing->second.place.file == kCommandLine)
+  auto [existing, is_new] = insert(entry);
+  if (!is_new && existing.place.file == kCommandLine)
     throw ConfigError(fmt::format("{} {}: is given twice on the command line", kCommandLine, name));
-  existing->second = entry;
+  existing = entry;
 }
 
 std::vector<std::string> Configuration::sections() const
@@ -146,51 +141,51 @@ ConfigError Configuration::complaint(const std::string& section, const std::stri
   return ConfigError(complaintAbout(*entry, Field{key, "", ""}, constraint));
 }
 
+std::vector<std::string> Configuration::unknownKeys(const std::string& section, const SectionDescription& known) const
+{
+  std::vector<std::string> problems;
+  for (const std::string& key : keys(section))
+  {
+    const std::vector<std::string> names = known.keysLike(key);
+    if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return sameName(name, key); })) continue;
+    const std::string where = fmt::format("{}: [{}] {}", toString(place(section, key)), section, key);
+    problems.push_back(unknown(where + " is an unknown key", key, names));
+  }
+  return problems;
+}
+
 void Configuration::refuseUnknown(const Schema& known) const
 {
   std::vector<std::string> problems;
   for (const auto& [name, keys] : sections_)
   {
-    if (isSensor(name) || same(name, kGrabberSection)) continue;
-    std::vector<std::string> sections_known;
-    const SectionDescription* described = nullptr;
-    for (const SectionDescription& candidate : known)
+    if (isSensor(name) || sameName(name, kGrabberSection)) continue;
+    const auto described =
+        std::find_if(known.begin(), known.end(),
+                     [&section = keys.name](const auto& each) { return sameName(each.section.name, section); });
+    if (described != known.end())
     {
-      sections_known.push_back(candidate.section.name);
-      if (same(candidate.section.name, name)) described = &candidate;
+      const auto of_section = unknownKeys(keys.name, *described);
+      problems.insert(problems.end(), of_section.begin(), of_section.end());
+      continue;
     }
-
-    for (const auto& [key, entry] : keys.entries)
-    {
-      const std::string where = fmt::format("{}: [{}]", toString(entry.place), entry.section);
-      if (!described)
-      {
-        problems.push_back(unknown(where + " is an unknown section", name, sections_known));
-        break;
-      }
-      const auto names = namesOf(described->fields);
-      const std::string name_of_key = described->describedAs(key);
-      const bool is_known = std::any_of(names.begin(), names.end(), [&](auto& n) { return same(n, name_of_key); });
-      if (!is_known) problems.push_back(unknown(fmt::format("{} {} is an unknown key", where, key), key, names));
-    }
+    std::vector<std::string> names;
+    for (const SectionDescription& each : known) names.push_back(each.section.name);
+    const std::string place = toString(keys.entries.begin()->second.place);
+    problems.push_back(unknown(fmt::format("{}: [{}] is an unknown section", place, keys.name), keys.name, names));
   }
-  if (!problems.empty()) throw ConfigError(problems);
+  refuse(problems);
 }
 
-void Configuration::refuseBeyond(const std::string& section, const std::string& list, std::size_t size) const
+void Configuration::refuseBeyond(std::size_t size, const std::string& section, const std::string& list,
+                                 const std::string& needs) const
 {
   std::vector<std::string> problems;
-  const SectionDescription numbers{{section, ""}, {}, list};
   for (const std::string& key : keys(section))
-  {
-    const std::string first = numbers.describedAs(key);
-    if (first == key && key.rfind(numbered(list, 0), 0) != 0) continue;
-    const std::string number = key.substr(list.size(), key.find('_', list.size()) - list.size());
-    if (const auto value = parseNumber(number); value && *value > static_cast<double>(size))
-      problems.push_back(fmt::format("{}: [{}] {}: there are only {}; number them from 1 on and name each by {}N_name",
-                                     toString(place(section, key)), section, key, size, list));
-  }
-  if (!problems.empty()) throw ConfigError(problems);
+    if (const auto element = elementOf(list, key); element && *element > size)
+      problems.push_back(fmt::format("{}: [{}] {}: there are only {}: number them from 1 on, and give each {}",
+                                     toString(place(section, key)), section, key, size, needs));
+  refuse(problems);
 }
 
 std::string toIni(const Schema& in_effect, const Configuration& configuration)

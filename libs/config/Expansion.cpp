@@ -1,5 +1,6 @@
 #include "config/Expansion.h"
 
+#include "config/MrptMessage.h"
 #include "config/Names.h"
 #include "config/Values.h"
 
@@ -31,12 +32,12 @@ std::string environment(const std::string& name)
   return value;
 }
 
-/** MRPT's exceptions carry a call stack; a person wants the parser's own words between the back quotes. */
-std::string withoutCallStack(const std::string& what)
+/** The message of the parser, which MRPT's exception has between back quotes. */
+std::string parserMessage(const std::string& what)
 {
   constexpr std::string_view kBefore = "Error: `";
   const auto begin = what.find(kBefore);
-  if (begin == std::string::npos) return std::string(trimmed(what.substr(0, what.find("Call stack"))));
+  if (begin == std::string::npos) return messageIn(what);
   const auto first = begin + kBefore.size();
   return what.substr(first, what.find('`', first) - first);
 }
@@ -101,7 +102,7 @@ double Expansion::evaluate(const std::string& formula) const
   }
   catch (const std::exception& e)
   {
-    throw std::invalid_argument(fmt::format("$eval{{{}}}: {}", formula, withoutCallStack(e.what())));
+    throw std::invalid_argument(fmt::format("$eval{{{}}}: {}", formula, parserMessage(e.what())));
   }
   return expression.eval();
 }

@@ -7,17 +7,17 @@
 namespace scanloom
 {
 /**
- * Knows what `@define` lines said so far and expands `${NAME}`, `$env{VARIABLE}` and `$eval{formula}`.
+ * Keeps the `@define` lines so far, and expands `${NAME}`, `$env{VARIABLE}` and `$eval{formula}`.
  *
- * A formula gives six digits behind the point, as MRPT writes it, so that a file means the same number to the bit
- * here and in MRPT's own applications. Where MRPT would silently go on with nothing or a wrong value (an environment
- * variable that is not set, a text in a formula, `${}` within a definition), this throws instead. All errors are
- * std::invalid_argument without file and line: the caller knows these.
+ * A formula is rounded to six digits behind the point, as MRPT does it, so that a file means the same number, to the
+ * bit, here and in MRPT's applications. Where MRPT silently uses nothing or a wrong value (an environment variable that
+ * is not set, a text in a formula, `${}` within a definition), this throws std::invalid_argument. Its message has no
+ * file and line: the caller adds them.
  */
 class Expansion
 {
  public:
-  /** `rest` is what stands behind `@define` in the line: a name, blanks and the value. */
+  /** `rest` is the line behind `@define`: a name, blanks and the value. */
   void define(std::string_view rest);
 
   std::string expand(std::string_view text) const;
@@ -27,6 +27,6 @@ class Expansion
   double evaluate(const std::string& formula) const;
 
   std::map<std::string, std::string> texts_;
-  std::map<std::string, double> numbers_;  // those of texts_ that are numbers
+  std::map<std::string, double> numbers_;  // the texts_ that are numbers
 };
 }  // namespace scanloom

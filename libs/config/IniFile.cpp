@@ -1,8 +1,8 @@
 #include "config/IniFile.h"
 
-#include "config/ConfigError.h"
 #include "config/Expansion.h"
 #include "config/Names.h"
+#include "core/ConfigError.h"
 
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ bool isComment(std::string_view line)
 }
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
-/** Lines end with LF, CR or both; a `\` before the end continues the line, even in a comment. */
+/** Lines end with LF, CR or both. A `\` before the end continues the line, also in a comment. */
 std::vector<Line> logicalLines(std::string_view text)
 {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -53,7 +53,7 @@ std::vector<Line> logicalLines(std::string_view text)
   return lines;
 }
 
-/** MRPT looks at the first `//` only, and takes it for a comment only behind a blank. */
+/** MRPT looks at the first `//` only, and takes it as a comment only if a blank is before it. */
 std::string_view withoutComment(std::string_view value)
 {
   const auto slashes = value.find("//");

@@ -6,7 +6,7 @@
 
 namespace scanloom
 {
-/** Where a value was written, for a person: `harvester.ini:12`, or `--set` (line 0). */
+/** Where a value was written, for messages: `harvester.ini:12`, or `--set` (line 0). */
 struct Place
 {
   std::string file;
@@ -19,17 +19,17 @@ struct IniEntry
   std::string section;
   std::string key;
   std::string value;  // expanded, trimmed, without its comment
-  Place place;        // of the line's beginning, where `\` continues it
+  Place place;        // of the first line, if `\` continues it
 };
 
 /**
  * The entries of one file, in its order: `[section]`, `key = value`, `@define NAME value`, `${NAME}`, `$env{VARIABLE}`,
  * `$eval{formula}`; `\` at the end of a line joins the next one. A line that begins with `#`, `;` or `//` is a comment,
- * and so is what follows the first ` //` of a value. Values equal those of mrpt::config::CConfigFile; what MRPT would
- * skip or misread without a word (a line without `=`, a comment that becomes the value, a key before any
- * section) is an error instead.
+ * and so is the rest of a value from its first ` //` on. Values equal those of mrpt::config::CConfigFile. What MRPT
+ * skips or misreads without a message is an error here: a line without `=`, a comment that becomes the value, a key
+ * before any section.
  *
- * @param name of the file, as the person wrote it: it leads every message.
+ * @param name of the file as the user wrote it; every message begins with it.
  * @throws ConfigError with all problems of the file.
  */
 std::vector<IniEntry> parseIni(std::string_view text, const std::string& name);

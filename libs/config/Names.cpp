@@ -38,6 +38,11 @@ bool CaseInsensitiveLess::operator()(std::string_view a, std::string_view b) con
                                       [](char x, char y) { return lower(x) < lower(y); });
 }
 
+bool sameName(std::string_view a, std::string_view b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return lower(x) == lower(y); });
+}
+
 std::size_t editDistance(std::string_view a, std::string_view b)
 {
   std::vector<std::size_t> row(b.size() + 1);  // distances of a's prefix to every prefix of b

@@ -1,4 +1,4 @@
-/** Names as MRPT compares them, without regard to case, and the one that was probably meant. */
+/** Compares names without regard to case, as MRPT does, and finds the one that was probably meant. */
 #pragma once
 #include <string>
 #include <string_view>
@@ -14,12 +14,15 @@ struct CaseInsensitiveLess
   bool operator()(std::string_view, std::string_view) const;
 };
 
+/** Without regard to case. */
+bool sameName(std::string_view, std::string_view);
+
 /** Levenshtein: insertions, deletions and replacements of one character each, without regard to case. */
 std::size_t editDistance(std::string_view, std::string_view);
 
 /**
- * `did you mean 'cell_size'?` if a candidate is a few typing errors away from `name`, otherwise
- * `known are 'a', 'b' and 'c'`, or nothing if there are no candidates.
+ * `did you mean 'cell_size'?` if a candidate is a few typing errors away from `name`; otherwise
+ * `known are 'a', 'b' and 'c'`; empty if there are no candidates.
  */
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 }  // namespace scanloom

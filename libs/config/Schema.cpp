@@ -1,8 +1,11 @@
 #include "config/Schema.h"
 
+#include "config/Names.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <stdexcept>
 
 namespace scanloom
@@ -41,18 +44,35 @@ std::string inTableCell(std::string text)
 
 void refuseDefault(const Section& section, const Field& field, const std::string& constraint)
 {
-  throw std::logic_error(fmt::format("[{}] {}: its own value {}", section.name, field.name, constraint));
+  throw std::logic_error(fmt::format("[{}] {}: its default {}", section.name, field.name, constraint));
 }
 
 std::string numbered(const std::string& list, std::size_t index) { return fmt::format("{}{}_", list, index + 1); }
 
-std::string SectionDescription::describedAs(const std::string& key) const
+std::optional<std::size_t> elementOf(const std::string& list, const std::string& key)
 {
-  const std::size_t digits = list.size();
-  const std::size_t rest = key.find_first_not_of("0123456789", digits);
-  const bool is_of_list = !list.empty() && key.compare(0, digits, list) == 0 && rest != std::string::npos &&
-                          rest > digits && key[rest] == '_';
-  return is_of_list ? numbered(list, 0) + key.substr(rest + 1) : key;
+  if (list.empty() || !sameName(key.substr(0, list.size()), list)) return std::nullopt;
+  std::size_t number = 0;
+  const char *const begin = key.data() + list.size(), *const end = key.data() + key.size();
+  const auto [rest, error] = std::from_chars(begin, end, number);
+  if (error != std::errc() || rest == end || *rest != '_' || number == 0) return std::nullopt;
+  return number;
+}
+
+std::vector<std::string> SectionDescription::keysLike(const std::string& key) const
+{
+  const std::size_t wanted = elementOf(list, key).value_or(1);
+  std::vector<std::string> keys;
+  for (const FieldDescription& described : fields)
+  {
+    const std::string& name = described.field.name;
+    const auto element = elementOf(list, name);
+    if (!element)
+      keys.push_back(name);
+    else if (*element == 1)
+      keys.push_back(numbered(list, wanted - 1) + name.substr(numbered(list, 0).size()));
+  }
+  return keys;
 }
 
 void merge(Schema& into, const SectionDescription& added)
@@ -73,7 +93,7 @@ void merge(Schema& into, const SectionDescription& added)
       existing->fields.push_back(field);
     else if (!same(*twin, field))
       throw std::logic_error(
-          fmt::format("[{}] {} is declared twice, and not alike", added.section.name, field.field.name));
+          fmt::format("[{}] {} is declared twice, with different descriptions", added.section.name, field.field.name));
   }
 }
 

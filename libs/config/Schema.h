@@ -1,16 +1,16 @@
-/** What can be configured, as data: made once from the options structs, it serves checking, default files and manual.
- */
+/** Descriptions of all options, as data for checking configuration files, writing default files and the manual. */
 #pragma once
 #include "config/Values.h"
 #include "core/Field.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace scanloom
 {
 /**
- * The description of one options struct of a verb. The settings of a verb name each once:
+ * The section that one options struct of a verb is read from. The settings of a verb list them:
  *
  *   struct SlamSettings
  *   {
@@ -26,7 +26,7 @@ namespace scanloom
  *     }
  *   };
  *
- * A std::vector of options structs that have a 'name' is a list of any length: with the prefix "lidar" its keys are
+ * A std::vector of options structs with a field 'name' is a list of any length: with the prefix "lidar" its keys are
  * lidar1_name, lidar1_pose, ..., lidar2_name, ...
  */
 struct Section
@@ -40,23 +40,24 @@ struct FieldDescription
 {
   Field field;  // the name with its prefix
   std::string type;
-  std::string value;  // the default, or what is in effect
+  std::string value;  // the default, or the value in effect
 };
 
 struct SectionDescription
 {
   Section section;
   std::vector<FieldDescription> fields;
-  std::string list = "";  // what its numbered keys begin with; empty: it holds no list
+  std::string list = "";  // of its numbered keys: "lidar" for lidar1_pose; empty: it has none
 
-  /** Of `key`, or, where it is a list's, of the list's first element: lidar7_pose is described as lidar1_pose. */
-  std::string describedAs(const std::string& key) const;
+  /** All keys; those of a list once, with the number that `key` has: lidar7_metadata, lidar7_pose, ... for lidar7_poze.
+   */
+  std::vector<std::string> keysLike(const std::string& key) const;
 };
 using Schema = std::vector<SectionDescription>;
 
 [[noreturn]] void refuseDefault(const Section&, const Field&, const std::string& constraint);
 
-/** @throws std::logic_error if a value is not within its own bounds: the default file could not be read back. */
+/** @throws std::logic_error if a default is out of its bounds: the default file could not be read back. */
 template <typename Options>
 SectionDescription describe(const Section& section, const Options& options = {})
 {
@@ -75,6 +76,9 @@ SectionDescription describe(const Section& section, const Options& options = {})
 /** `lidar` and 0 give `lidar1_`. */
 std::string numbered(const std::string& list, std::size_t index);
 
+/** The number of the element that has this key: 7 for `lidar` and `lidar7_pose`. */
+std::optional<std::size_t> elementOf(const std::string& list, const std::string& key);
+
 template <typename Options>
 SectionDescription describe(const Section& section, const std::vector<Options>& list)
 {
@@ -86,7 +90,7 @@ SectionDescription describe(const Section& section, const std::vector<Options>& 
   return described;
 }
 
-/** Two verbs, or two prefixes, may share a section. @throws std::logic_error if they describe a key differently. */
+/** Two options structs may share a section. @throws std::logic_error if they describe the same key differently. */
 void merge(Schema& into, const SectionDescription&);
 void merge(Schema& into, const Schema&);
 

@@ -11,12 +11,6 @@ namespace scanloom
 {
 namespace
 {
-bool equalIgnoringCase(std::string_view a, std::string_view b)
-{
-  const CaseInsensitiveLess less;
-  return !less(a, b) && !less(b, a);
-}
-
 bool within(double value, const Bounds& bounds)
 {
   const bool high_enough = bounds.lowest_excluded ? value > bounds.lowest : value >= bounds.lowest;
@@ -25,7 +19,8 @@ bool within(double value, const Bounds& bounds)
 
 std::string mustBe(const Bounds& bounds) { return "must be " + toString(bounds); }
 
-/** A trailing `#` or `;` is the likeliest reason why a number is none: MRPT knows these only at the start of a line. */
+/** Often a value is wrong because of a trailing comment with `#` or `;`, which MRPT allows at the start of a line only.
+ */
 std::string mustBe(const char* what, std::string_view text)
 {
   const bool has_comment = text.find_first_of("#;") != std::string_view::npos;
@@ -59,9 +54,9 @@ std::string toString(const Bounds& bounds)
 std::optional<std::string> assign(bool& member, std::string_view text, const Field&)
 {
   for (const char* yes : {"true", "yes", "1"})
-    if (equalIgnoringCase(text, yes)) return member = true, std::nullopt;
+    if (sameName(text, yes)) return member = true, std::nullopt;
   for (const char* no : {"false", "no", "0"})
-    if (equalIgnoringCase(text, no)) return member = false, std::nullopt;
+    if (sameName(text, no)) return member = false, std::nullopt;
   return mustBe("true, false, yes, no, 1 or 0", text);
 }
 

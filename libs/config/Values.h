@@ -1,4 +1,4 @@
-/** From the text of a value to a member of an options struct and back. */
+/** Conversion between the text of a value and a member of an options struct. */
 #pragma once
 #include "core/Field.h"
 
@@ -11,12 +11,13 @@ namespace scanloom
 /** A finite decimal number and nothing else (MRPT's atof() would take "5 apples" for 5, and "apples" for 0). */
 std::optional<double> parseNumber(std::string_view);
 
-/** `> 0`, `between 0 and 1`, `> 0 and <= 5`; empty if there are none. */
+/** `> 0`, `between 0 and 1`, `> 0 and <= 5`; empty without bounds. */
 std::string toString(const Bounds&);
 
 /**
- * Sets the member if the text is a value of its type within the field's bounds; otherwise leaves it alone and returns
- * what the value must be ("must be > 0"). Booleans are true, false, yes, no, 1 or 0 without regard to case, as in MRPT.
+ * Sets the member if the text is a value of its type within the field's bounds. Otherwise the member keeps its value,
+ * and the result says what the text must be ("must be > 0"). Booleans are true, false, yes, no, 1 or 0 without regard
+ * to case, as in MRPT.
  */
 std::optional<std::string> assign(bool&, std::string_view text, const Field&);
 std::optional<std::string> assign(int&, std::string_view text, const Field&);

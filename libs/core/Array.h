@@ -12,9 +12,9 @@
 namespace scanloom
 {
 /**
- * A std::vector of plain numbers that can be written in place: room() gives memory past the end that nobody has
- * initialised, grow() makes it part of the array. std::vector would zero it first, which costs as much as decoding.
- * Memory is aligned to a cache line.
+ * A vector of numbers that is written in place: room() returns uninitialised memory past the end, grow() makes it part
+ * of the array. std::vector writes zeros first, and with an allocator that does not, decoding still takes 10 to 20 %
+ * longer, since resize() is not inlined. Memory is aligned to a cache line.
  */
 template <typename T>
 class Array
@@ -68,13 +68,13 @@ class Array
   T& back() { return end_[-1]; }
   const T& back() const { return end_[-1]; }
 
-  /** Where the next elements go: memory for `count` of them, not initialised. grow() takes what was written. */
+  /** Uninitialised memory for `count` elements behind the last one. grow() adds those that were written. */
   T* room(std::size_t count)
   {
     if (count > static_cast<std::size_t>(limit_ - end_)) reserve(std::max(size() + count, 2 * capacity()));
     return end_;
   }
-  /** At most what room() was asked for. */
+  /** Adds `count` elements that were written; at most as many as room() was called for. */
   void grow(std::size_t count) { end_ += count; }
 
   void push_back(T value)  // NOLINT(readability-identifier-naming): as std::vector

@@ -1,4 +1,4 @@
-/** Bytes from outside: bounded little-endian loads, never a cast. */
+/** Bytes from outside: little-endian loads that check bounds, never a cast. */
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace scanloom
 {
-/** A view of bytes that somebody else owns (std::span<const std::uint8_t> of C++20). */
+/** A view of bytes (std::span<const std::uint8_t> of C++20). */
 class Bytes
 {
  public:
@@ -24,7 +24,7 @@ class Bytes
   constexpr const std::uint8_t* begin() const { return data_; }
   constexpr const std::uint8_t* end() const { return data_ + size_; }
 
-  /** `length` bytes from `offset`; throws std::out_of_range if they are not all there. */
+  /** `length` bytes from `offset` on. Throws std::out_of_range past the end. */
   Bytes slice(std::size_t offset, std::size_t length) const
   {
     if (offset > size_ || length > size_ - offset) throw std::out_of_range("Bytes: slice past the end");
@@ -38,7 +38,7 @@ class Bytes
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "load() copies: add the swap for a big-endian machine");
 
-/** The little-endian T at `offset`; throws std::out_of_range past the end. Unaligned is fine. */
+/** The little-endian T at `offset`, which need not be aligned. Throws std::out_of_range past the end. */
 template <typename T>
 T load(Bytes bytes, std::size_t offset)
 {
@@ -48,7 +48,7 @@ T load(Bytes bytes, std::size_t offset)
   return value;
 }
 
-/** `count` (1 to 8) little-endian bytes at `offset` as an unsigned integer, for the odd widths of packet headers. */
+/** An unsigned little-endian integer of `count` bytes, 1 to 8, at `offset`. Throws std::out_of_range past the end. */
 inline std::uint64_t loadUnsigned(Bytes bytes, std::size_t offset, std::size_t count)
 {
   std::uint64_t value = 0;
@@ -56,7 +56,7 @@ inline std::uint64_t loadUnsigned(Bytes bytes, std::size_t offset, std::size_t c
   return value;
 }
 
-/** Writes `value` little-endian at `offset`; throws std::out_of_range past the end. */
+/** Writes `value` little-endian at `offset`. Throws std::out_of_range past the end. */
 template <typename T>
 void store(std::vector<std::uint8_t>& bytes, std::size_t offset, T value)
 {

@@ -7,13 +7,13 @@
 
 namespace scanloom
 {
-/** How long something took, each time: quantiles to 5 % from 1 us to 67 s, in memory that does not grow. */
+/** A histogram of durations from 1 us to 67 s: quantiles with an error of 5 %, in constant memory. */
 class DurationHistogram
 {
  public:
   void add(double ms) { ++counts_[binOf(ms)]; }
 
-  /** The duration, in ms, within which this share of them ended; 0 if there were none. */
+  /** The duration in ms that this share of all did not exceed; 0 if there are none. */
   double quantile(double share) const
   {
     const std::uint64_t total = std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0});

@@ -1,11 +1,11 @@
-/** How an option describes itself: once, for loading, checking, the default file and the manual (config/). */
+/** The description of an option: used for loading, checking, the default file and the manual (config/). */
 #pragma once
 #include <limits>
 #include <string>
 
 namespace scanloom
 {
-/** Closed interval, or open at the lower end. */
+/** An interval that includes its ends; the lower one may be excluded. */
 struct Bounds
 {
   double lowest = -std::numeric_limits<double>::infinity();
@@ -19,7 +19,7 @@ constexpr Bounds atLeast(double limit) { return {limit, std::numeric_limits<doub
 constexpr Bounds between(double lowest, double highest) { return {lowest, highest, false}; }
 
 /**
- * The description of one option. An options struct names each field once, with its default at the member:
+ * An options struct lists its fields once, with the default at the member:
  *
  *   struct LocalMapOptions
  *   {

@@ -4,23 +4,12 @@ namespace scanloom
 {
 namespace
 {
-bool hasAvx2()
-{
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2") && __builtin_cpu_supports("pclmul");
-}
-
-bool hasAvx512()
-{
-  return hasAvx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-         __builtin_cpu_supports("avx512vbmi") && __builtin_cpu_supports("vpclmulqdq");
-}
-
 std::vector<Kernel> findRunnable()
 {
   std::vector<Kernel> kernels{Kernel::Portable};
-  if (hasAvx2()) kernels.push_back(Kernel::Avx2);
-  if (hasAvx512()) kernels.push_back(Kernel::Avx512);
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("popcnt")) return kernels;
+  kernels.push_back(Kernel::Avx2);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) kernels.push_back(Kernel::Avx512);
   return kernels;
 }
 }  // namespace

@@ -1,4 +1,4 @@
-/** The same work for the instruction sets that machines have: chosen at run time, equal to the bit. */
+/** The same work compiled for several instruction sets: chosen at run time, results equal to the bit. */
 #pragma once
 #include <string_view>
 #include <vector>
@@ -7,9 +7,9 @@ namespace scanloom
 {
 enum class Kernel
 {
-  Portable,  // what every machine of the build's target has
-  Avx2,      // AVX2, BMI2, PCLMULQDQ: Intel since 2013, AMD since 2015
-  Avx512,    // F, BW, DQ, VL, VBMI, VPCLMULQDQ: Intel servers since 2021, AMD since 2022
+  Portable,  // what every machine has that the build is for
+  Avx2,      // AVX2 and POPCNT: Intel since 2013, AMD since 2015
+  Avx512,    // AVX-512 F and DQ
 };
 
 std::string_view nameOf(Kernel);

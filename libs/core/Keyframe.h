@@ -5,10 +5,10 @@
 
 namespace scanloom
 {
-/** A deskewed scan with the pose that the map gives it: what all maps are made of. */
+/** A deskewed scan with its pose in the map. Maps are made of keyframes. */
 struct Keyframe
 {
-  Timestamp stamp;  // the instant of map_T_body; the points' t counts from here
+  Timestamp stamp;  // time of map_T_body; the points' t count from here
   Rigid map_T_body;
   PointCloud points;  // in the body frame at `stamp`
 };

@@ -6,7 +6,7 @@
 
 namespace scanloom
 {
-/** A lidar by its name, and where it is on the body. */
+/** Name of a lidar and its pose on the body. */
 struct MountedLidar
 {
   std::string name;

@@ -57,7 +57,7 @@ void PointCloud::keep(const std::vector<std::uint8_t>& keep)
                  std::size_t kept = 0;
                  for (std::size_t i = 0; i < field.size(); ++i)
                  {
-                   field[kept] = field[i];  // without a branch, which no processor would foresee
+                   field[kept] = field[i];  // no branch: it could not be predicted
                    kept += keep[i] != 0;
                  }
                  field.resize(kept);

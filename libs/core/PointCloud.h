@@ -10,8 +10,8 @@
 namespace scanloom
 {
 /**
- * Memory behind the last point of a PointCloud, one pointer per field. Short of registers, pass it by value: for all
- * that a compiler knows, what is written through it changes it where it has an address.
+ * Memory behind the last point of a PointCloud, one pointer per field. In inner loops pass it by value: behind a
+ * reference, the compiler loads all pointers again after each write.
  */
 struct PointRoom
 {
@@ -23,7 +23,7 @@ struct PointRoom
   std::uint16_t *signal, *near_ir;
 };
 
-/** Valid returns only, as a structure of arrays: every array has the same length. */
+/** Points as a structure of arrays of equal length. Points are returns: none has range 0. */
 struct PointCloud
 {
   Array<float> x, y, z;           // m, in the frame that the owner names
@@ -46,7 +46,7 @@ struct PointCloud
   void reserve(std::size_t);
   void clear() { resize(0); }
 
-  /** Memory for `count` more points, not initialised; grow() takes those that were written. */
+  /** Uninitialised memory for `count` points behind the last one. grow() adds those that were written. */
   PointRoom room(std::size_t count)
   {
     return {x.room(count),      y.room(count),         z.room(count),      t.room(count),
@@ -61,11 +61,11 @@ struct PointCloud
   /** Copies point `from` of `other` to the end. */
   void append(const PointCloud& other, std::size_t from);
 
-  /** Keeps the points for which keep[i] is not 0, in order. Throws std::invalid_argument if the sizes differ. */
+  /** Keeps the points with keep[i] != 0, in order. Throws std::invalid_argument if the sizes differ. */
   void keep(const std::vector<std::uint8_t>& keep);
 };
 
-/** Calls visitor(array) for each array of the cloud, so that nobody lists them twice. */
+/** Calls visit(array) for each array of the cloud. */
 template <typename Cloud, typename Visitor>
 void forEachField(Cloud& cloud, Visitor&& visit)
 {

@@ -1,4 +1,4 @@
-/** A rigid transform. Named a_T_b it maps coordinates in b to a, and neighbours cancel: a_T_b * b_T_c = a_T_c. */
+/** Rigid transforms. a_T_b maps coordinates in frame b to frame a; a_T_b * b_T_c = a_T_c. */
 #pragma once
 #include "core/So3.h"
 
@@ -13,18 +13,17 @@ struct Rigid
 
   static Rigid identity() { return {}; }
 
-  /** From a 4x4 whose upper left block is a rotation to 1e-3 (rounded calibration files); throws std::invalid_argument.
-   */
+  /** The rotation may be off by 1e-3 (rounded calibration files). Throws std::invalid_argument if it is worse. */
   static Rigid fromMatrix(const Eigen::Matrix4d&);
 
-  /** Metres and radians, R = Rz(yaw) Ry(pitch) Rx(roll): MRPT's order. */
+  /** Metres and radians; R = Rz(yaw) Ry(pitch) Rx(roll), as in MRPT. */
   static Rigid fromXyzYawPitchRoll(double x, double y, double z, double yaw, double pitch, double roll);
 
   Eigen::Matrix4d matrix() const;
   Eigen::Vector3d yawPitchRoll() const;  // rad
   Rigid inverse() const;
 
-  /** Always normalised, so that long chains stay rigid. */
+  /** The rotation is normalised each time, so that long products stay rigid. */
   Rigid operator*(const Rigid& other) const;
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return rotation * point + translation; }
 };
@@ -32,8 +31,8 @@ struct Rigid
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/** pose "plus" a step in its own frame: translation + R * step[0..2], R * exp(step[3..5]). The tangent order everywhere
- * is (translation, rotation). */
+/** The pose after a step in its own frame: translation + R * step[0..2], R * exp(step[3..5]). Tangent vectors are
+ * (translation, rotation) everywhere. */
 Rigid boxPlus(const Rigid& pose, const Vector6d& step);
 
 /** The step with boxPlus(from, step) = to. */

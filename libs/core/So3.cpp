@@ -6,7 +6,7 @@ namespace scanloom
 {
 namespace
 {
-// Below this angle the closed forms lose digits and two terms of the series are exact to rounding.
+// Below this angle the closed forms lose digits, and two terms of the series are exact.
 constexpr double kSmallAngle = 1e-4;
 }  // namespace
 
@@ -29,7 +29,7 @@ Eigen::Quaterniond expSo3(const Eigen::Vector3d& v)
 
 Eigen::Vector3d logSo3(const Eigen::Quaterniond& q)
 {
-  const double sign = q.w() < 0 ? -1.0 : 1.0;  // q and -q are one rotation: take the short way
+  const double sign = q.w() < 0 ? -1.0 : 1.0;  // q and -q are the same rotation: take the shorter vector
   const double sine = q.vec().norm();
   const double cosine = sign * q.w();
   const double scale = sine < kSmallAngle ? 2 / cosine - 2 * sine * sine / (3 * cosine * cosine * cosine)

@@ -6,10 +6,10 @@ namespace scanloom
 {
 Eigen::Matrix3d skew(const Eigen::Vector3d& v);
 
-/** Rotation by |v| rad about v; exact to rounding also at |v| -> 0. */
+/** Rotation by |v| rad about v; also exact for |v| -> 0. */
 Eigen::Quaterniond expSo3(const Eigen::Vector3d& v);
 
-/** The rotation vector of a unit quaternion, |result| <= pi; inverse of expSo3. */
+/** The rotation vector of a unit quaternion, inverse of expSo3; |result| <= pi. */
 Eigen::Vector3d logSo3(const Eigen::Quaterniond& q);
 
 /** exp(v + dv) ~ exp(v) exp(Jr(v) dv), Forster 2017 eq. (8). */

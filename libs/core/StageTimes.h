@@ -1,4 +1,4 @@
-/** Where the time goes: wall-clock nanoseconds per stage of a pipeline. Never part of a result. */
+/** Wall-clock time per stage of a pipeline, for reports. */
 #pragma once
 #include "core/DurationHistogram.h"
 
@@ -29,7 +29,7 @@ struct StageTime
 class StageTimes
 {
  public:
-  /** Calls `work`, adds its duration to `stage` and hands on what it returns. */
+  /** Calls `work`, adds its duration to `stage`, and returns its result. */
   template <typename Work>
   auto measure(const std::string& stage, Work&& work)
   {

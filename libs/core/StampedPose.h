@@ -7,19 +7,19 @@
 
 namespace scanloom
 {
-/** Where the body was at an instant. */
+/** Pose of the body at an instant. */
 struct StampedPose
 {
   Timestamp stamp;
   Rigid map_T_body;
 };
 
-/** Stamps rise strictly. */
+/** Stamps increase strictly. */
 using Trajectory = std::vector<StampedPose>;
 
 /**
- * Interpolated at `stamp` between its neighbours: position on the chord, rotation by slerp. Nothing before the first
- * and after the last pose, and between two that are more than `widest` apart.
+ * The pose at `stamp`, interpolated between its neighbours: translation linearly, rotation by slerp. Nothing before the
+ * first or after the last pose, or if the neighbours are more than `widest` apart.
  */
 std::optional<Rigid> poseAt(const Trajectory&, Timestamp stamp, Duration widest = Duration::max());
 }  // namespace scanloom

@@ -1,4 +1,4 @@
-/** Time as the sensors stamp it: integer nanoseconds, never a double. */
+/** Time stamps of sensors: integer nanoseconds, never a double. */
 #pragma once
 #include <chrono>
 #include <cstdint>
@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 
 using Duration = std::chrono::nanoseconds;
 
-/** The common clock of a recording: nanoseconds since that clock's epoch (Unix time where the sensors run on PTP). */
+/** The common clock of a recording: nanoseconds since its epoch (Unix time if the sensors use PTP). */
 struct SensorClock
 {
   using duration = Duration;

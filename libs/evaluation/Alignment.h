@@ -1,5 +1,4 @@
-/** The frame in which an estimate is compared with a reference: nothing ties the two but positions at the same times.
- */
+/** Aligns the frame of an estimate (map) with that of a reference, from positions of one point at the same times. */
 #pragma once
 #include "core/Rigid.h"
 #include "evaluation/PositionTrack.h"
@@ -10,8 +9,8 @@ namespace scanloom
 {
 enum class AlignmentKind
 {
-  Yaw,  // rotation about z and translation: both frames know where down is
-  Se3   // all of the rotation, and translation: as evo's --align (Umeyama 1991, without scale)
+  Yaw,  // rotation about z, and translation: z is vertical in both frames
+  Se3   // rotation and translation, as evo's --align (Umeyama 1991, without scale)
 };
 
 struct Alignment
@@ -19,15 +18,16 @@ struct Alignment
   Rigid reference_T_map;
 
   /**
-   * Root mean square distance of the samples from the axis about which they fix the rotation worst, in m: position
-   * noise of s tilts the frame by s / (lever sqrt(samples)) rad.
+   * Root mean square distance, in m, of the samples from the axis of the least certain rotation. With a position noise
+   * of s the standard deviation of that rotation is s / (lever sqrt(samples)) rad.
    */
   double lever = 0;
 
-  /** How much better, in variance, the best fixed axis is than the worst. 1 for yaw, infinite on a straight line. */
+  /** Variance of the least certain rotation over that of the most certain one. 1 for yaw, infinite on a straight line.
+   */
   double condition = 1;
 };
 
-/** Least squares of the distances. Throws std::invalid_argument without pairs. */
+/** Minimises the squared distances. Throws std::invalid_argument if there are no pairs. */
 Alignment align(const std::vector<PositionPair>&, AlignmentKind);
 }  // namespace scanloom

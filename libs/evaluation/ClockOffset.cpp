@@ -9,8 +9,8 @@ namespace scanloom
 namespace
 {
 constexpr Duration kRange = 2s, kStep = 50ms, kPrecision = 100us;
-constexpr double kLeastSpeed = 0.05;          // m/s
-constexpr std::size_t kEnoughSamples = 2000;  // a truth at 100 Hz over an hour has 360000
+constexpr double kLeastSpeed = 0.05;          // m/s: error in position per second of offset
+constexpr std::size_t kEnoughSamples = 2000;  // for speed: true poses of an hour at 100 Hz are 360000
 
 PositionTrack thinned(const PositionTrack& track)
 {

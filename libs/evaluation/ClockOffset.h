@@ -1,4 +1,4 @@
-/** How much the clocks of a reference and an estimate differ, from their positions alone. */
+/** The clock offset between a reference and an estimate, from their positions. */
 #pragma once
 #include "evaluation/PositionTrack.h"
 
@@ -7,13 +7,14 @@
 namespace scanloom
 {
 /**
- * The time by which the reference's stamps are too late, within 2 s either way: with it taken off, the positions agree
- * best after yaw and translation are fitted to all of them. Nothing if the machine does not change its velocity enough
- * to tell (a second would show as less than 0.05 m), if the best is at the end of the range, or if they share no time.
+ * By how much the stamps of the reference are late, between -2 s and 2 s: with the stamps corrected by it, the mean
+ * squared distance of the positions is least, after an alignment with yaw on all of them. None if the velocity changes
+ * so little that an offset of 1 s would cost less than 0.05 m, if the minimum is at an end of the range, or if the two
+ * have no time in common.
  */
 std::optional<Duration> clockOffset(const Trajectory& estimate, const Eigen::Vector3d& body_p_point,
                                     const PositionTrack& reference);
 
-/** With stamps earlier by so much. */
+/** With all stamps moved back by the duration. */
 PositionTrack earlier(PositionTrack, Duration);
 }  // namespace scanloom

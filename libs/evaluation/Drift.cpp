@@ -10,7 +10,7 @@ namespace
 constexpr double kStep = 0.5;         // m
 constexpr double kFittedShare = 0.1;  // of the path
 
-/** Along the reference, up to the vertex before each sample. */
+/** Of each sample the path length of the reference up to the start of its step. */
 std::vector<double> distancesOf(const std::vector<PositionPair>& pairs)
 {
   std::vector<double> distances;

@@ -1,4 +1,4 @@
-/** How far an estimate runs away from a reference that it agreed with at the start. */
+/** Drift: the distance from a reference, after an alignment on the start of the path. */
 #pragma once
 #include "evaluation/Alignment.h"
 
@@ -11,24 +11,25 @@ namespace scanloom
 struct ErrorAtDistance
 {
   double distance = 0;  // m, along the reference
-  double error = 0;     // m, the largest there
+  double error = 0;     // m, the largest of the samples there
 };
 
 struct Drift
 {
-  double largest = 0;  // m: "the drift"
+  double largest = 0;  // m; this is "the drift"
   Timestamp largest_at;
   double final = 0;        // m, of the last sample
-  double path_length = 0;  // m, of the reference: its polyline in steps of at least 0.5 m, so that noise adds nothing
+  double path_length = 0;  // m, of the reference in steps of at least 0.5 m, so that noise does not lengthen it
   std::size_t samples = 0;
-  std::size_t fitted = 0;  // of them, those up to 10 % of the path, on which the alignment rests
+  std::size_t fitted = 0;  // number of samples in the first 10 % of the path, which the alignment used
   Alignment alignment;
-  std::vector<ErrorAtDistance> over_distance;  // per vertex of the polyline, which gets the samples up to the next one
+  std::vector<ErrorAtDistance> over_distance;  // per step of the path: its samples are those up to the next step
 
-  /** Of the path; nothing if the machine stood still. */
+  /** The drift in percent of the path; none if the machine stood still. */
   std::optional<double> percent() const;
 };
 
-/** Aligned on all samples up to 10 % of the path, then compared in all. Throws std::invalid_argument without pairs. */
+/** Aligns on the samples in the first 10 % of the path, and compares all. Throws std::invalid_argument without pairs.
+ */
 Drift driftOf(const std::vector<PositionPair>&, AlignmentKind);
 }  // namespace scanloom

@@ -1,17 +1,18 @@
 #include "evaluation/Evaluation.h"
 
 #include "evaluation/ClockOffset.h"
-#include "output/Trajectory.h"
+#include "formats/Trajectory.h"
 
 namespace scanloom
 {
 namespace
 {
-/** Measures drift by one reference, by its clock. */
-class Judge
+/** Compares estimates with one reference. */
+class Comparison
 {
  public:
-  Judge(const EvaluationOptions& options, PositionTrack reference) : options_(options), reference_(std::move(reference))
+  Comparison(const EvaluationOptions& options, PositionTrack reference)
+    : options_(options), reference_(std::move(reference))
   {
   }
 
@@ -28,12 +29,12 @@ class Judge
   PositionTrack reference_;
 };
 
-Trajectory knownAtStampsOf(const Trajectory& estimate, const Trajectory& truth)
+Trajectory atStampsOf(const Trajectory& estimate, const Trajectory& truth)
 {
-  Trajectory known;
+  Trajectory poses;
   for (const StampedPose& pose : estimate)
-    if (const auto true_pose = poseAt(truth, pose.stamp)) known.push_back({pose.stamp, *true_pose});
-  return known;
+    if (const auto true_pose = poseAt(truth, pose.stamp)) poses.push_back({pose.stamp, *true_pose});
+  return poses;
 }
 
 Trajectory earlier(Trajectory trajectory, Duration offset)
@@ -61,13 +62,13 @@ Evaluation evaluate(const EvaluationInput& input, const EvaluationOptions& optio
   }
 
   const std::size_t samples = reference.size();
-  const Judge judge(options, std::move(reference));
-  const std::vector<PositionPair> pairs = judge.pairs(input.scans);
+  const Comparison comparison(options, std::move(reference));
+  const std::vector<PositionPair> pairs = comparison.pairs(input.scans);
   evaluation.left_out = samples - pairs.size();
   evaluation.drift = driftOf(pairs, options.alignment);
-  if (input.imu_rate) evaluation.imu_rate_drift = judge.drift(*input.imu_rate);
+  if (input.imu_rate) evaluation.imu_rate_drift = comparison.drift(*input.imu_rate);
   if (const auto& truth = input.truth ? input.truth : true_poses)
-    evaluation.floor = judge.drift(knownAtStampsOf(input.scans, *truth));
+    evaluation.floor = comparison.drift(atStampsOf(input.scans, *truth));
 
   if (true_poses)
   {

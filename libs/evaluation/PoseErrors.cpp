@@ -1,6 +1,6 @@
 #include "evaluation/PoseErrors.h"
 
-#include "output/Trajectory.h"
+#include "formats/Trajectory.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ std::vector<PositionPair> positionsOf(const std::vector<PosePair>& pairs)
   return positions;
 }
 
-/** Where pairs begin and end, each where the one before ended. */
+/** The indices i of the RPE: each pair begins where the one before ended. */
 std::vector<std::size_t> endsOfPairs(const std::vector<PositionPair>& pairs, const RelativeDelta& delta)
 {
   std::vector<std::size_t> ends;

@@ -1,4 +1,4 @@
-/** Absolute and relative pose errors as evo 1.x defines them (evo_ape, evo_rpe: translation_part, angle_deg,
+/** Absolute and relative pose errors, as evo 1.x defines them (evo_ape, evo_rpe: translation_part, angle_deg,
  * point_distance). */
 #pragma once
 #include "evaluation/Alignment.h"
@@ -15,26 +15,25 @@ struct PosePair
 };
 
 /**
- * At the estimate's stamps, the reference interpolated to them (evo takes its nearest pose within 10 ms); both of a
- * point of the body, with the body's orientation.
+ * Poses of a point of the body, with the orientation of the body, at the estimate's stamps. The reference is
+ * interpolated to them (evo takes its nearest pose within 10 ms).
  */
 std::vector<PosePair> posePairs(const Trajectory& estimate, const Eigen::Vector3d& body_p_point,
                                 const Trajectory& reference);
 
-/** Root mean squares and largest values. */
 struct ErrorSize
 {
-  double rmse = 0, largest = 0;
+  double rmse = 0, largest = 0;  // root mean square and largest value
 };
 
 struct PoseErrors
 {
   ErrorSize metres;
-  std::optional<ErrorSize> degrees;  // nothing where only positions are known
-  std::size_t compared = 0;
+  std::optional<ErrorSize> degrees;  // none: only positions are known
+  std::size_t compared = 0;          // number of poses, or of pairs of poses
 };
 
-/** APE: reference^-1 * estimate, once the estimate is aligned on all pairs. Throws std::invalid_argument without pairs.
+/** APE: reference^-1 * estimate, after an alignment on all pairs. Throws std::invalid_argument if there are no pairs.
  */
 PoseErrors absoluteErrors(const std::vector<PosePair>&, AlignmentKind);
 PoseErrors absoluteErrors(const std::vector<PositionPair>&, AlignmentKind);
@@ -42,7 +41,7 @@ PoseErrors absoluteErrors(const std::vector<PositionPair>&, AlignmentKind);
 enum class DeltaUnit
 {
   Frames,
-  Metres  // along the estimate
+  Metres  // path length of the estimate
 };
 struct RelativeDelta
 {
@@ -51,11 +50,11 @@ struct RelativeDelta
 };
 
 /**
- * RPE: (reference_i^-1 reference_j)^-1 (estimate_i^-1 estimate_j) of consecutive pairs `delta` apart. As in evo the
- * first i is where the path first reaches `delta`. Nothing is compared if the path is shorter.
+ * RPE: (reference_i^-1 reference_j)^-1 (estimate_i^-1 estimate_j) for i and j that are `delta` apart, j being the next
+ * i. As in evo, the first i in metres is where the path reaches `delta`. On a shorter path nothing is compared.
  */
 PoseErrors relativeErrors(const std::vector<PosePair>&, const RelativeDelta&);
 
-/** Of positions alone: by how much the distance from i to j differs (evo's point_distance). */
+/** With positions only: the difference of the distances from i to j (evo's point_distance). */
 PoseErrors relativeErrors(const std::vector<PositionPair>&, const RelativeDelta&);
 }  // namespace scanloom

@@ -1,7 +1,7 @@
 #include "evaluation/PositionError.h"
 
 #include "evaluation/PositionTrack.h"
-#include "output/Trajectory.h"
+#include "formats/Trajectory.h"
 
 #include <cmath>
 #include <optional>

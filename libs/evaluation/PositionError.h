@@ -1,4 +1,4 @@
-/** How far an estimated trajectory is from the true one. */
+/** The position error of a trajectory whose first pose is taken as true. */
 #pragma once
 #include "core/StampedPose.h"
 
@@ -8,7 +8,7 @@ namespace scanloom
 {
 struct PositionError
 {
-  std::size_t poses = 0;  // that were compared: those within the reference's time
+  std::size_t poses = 0;  // number of poses that were compared: those within the time of the reference
   double largest = 0;     // m
   Timestamp largest_at;
   double root_mean_square = 0;  // m, the APE of evo for positions
@@ -17,9 +17,9 @@ struct PositionError
 };
 
 /**
- * Moves the reference so that both agree in the first pose they share (position and all of the rotation), then compares
- * positions at the estimate's stamps, the reference interpolated to them. Nothing is fitted: an error of the first
- * rotation grows with the distance. Throws std::invalid_argument if the two share no time.
+ * Moves the reference so that the first common poses are equal (position and rotation), interpolates it to the
+ * estimate's stamps, and compares positions. There is no fit: an error of the first rotation grows with the distance.
+ * Throws std::invalid_argument if the two have no time in common.
  */
 PositionError positionErrorFromFirstPose(const Trajectory& estimate, const Trajectory& reference);
 }  // namespace scanloom

@@ -1,7 +1,7 @@
 #include "evaluation/PositionTrack.h"
 
-#include "output/SecondsText.h"
-#include "output/Trajectory.h"
+#include "formats/SecondsText.h"
+#include "formats/Trajectory.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr Duration kWidestBracket = 2s;
+constexpr Duration kLongestGap = 2s;
 
 std::optional<StampedPosition> parseMeasurement(std::string line)
 {
@@ -71,8 +71,8 @@ PositionTrack positionsOf(const Trajectory& trajectory, const Eigen::Vector3d& b
 
 std::invalid_argument shareNoTime(const PositionTrack& estimate, const PositionTrack& reference)
 {
-  return std::invalid_argument(
-      fmt::format("the trajectory ({}) and the reference ({}) share no time", spanText(estimate), spanText(reference)));
+  return std::invalid_argument(fmt::format("the trajectory ({}) and the reference ({}) have no time in common",
+                                           spanText(estimate), spanText(reference)));
 }
 
 std::vector<PositionPair> pairsAtReference(const Trajectory& estimate, const Eigen::Vector3d& body_p_point,
@@ -80,7 +80,7 @@ std::vector<PositionPair> pairsAtReference(const Trajectory& estimate, const Eig
 {
   std::vector<PositionPair> pairs;
   for (const auto& [stamp, position] : reference)
-    if (const auto pose = poseAt(estimate, stamp, kWidestBracket))
+    if (const auto pose = poseAt(estimate, stamp, kLongestGap))
       pairs.push_back({stamp, *pose * body_p_point, position});
   return pairs;
 }

@@ -1,4 +1,4 @@
-/** One point of the machine over time: what a total station measures of its prism, and where a trajectory has it. */
+/** Positions of one point of the machine over time: of the prism by a total station, or from a trajectory. */
 #pragma once
 #include "core/StampedPose.h"
 
@@ -16,22 +16,22 @@ struct StampedPosition
   Eigen::Vector3d position;  // m
 };
 
-/** Stamps rise strictly. */
+/** With strictly increasing stamps. */
 using PositionTrack = std::vector<StampedPosition>;
 
 /**
- * Lines of `t,x,y,z` in seconds and metres; further columns, comments (#), a header and empty lines are skipped. What
- * else is no measurement, and stamps that do not rise, throw std::invalid_argument with file and line.
+ * Lines of `t,x,y,z` in seconds and metres; further columns, comments (#), a header and empty lines are skipped. Throws
+ * std::invalid_argument with file and line for any other line, and for a stamp that is not after the one before.
  */
 PositionTrack readTotalStation(const std::filesystem::path&);
 
-/** Of a point that is fixed to the body. */
+/** Positions of a point that is fixed to the body. */
 PositionTrack positionsOf(const Trajectory&, const Eigen::Vector3d& body_p_point = Eigen::Vector3d::Zero());
 
-/** To be thrown: names the times of both. */
+/** To be thrown; its message has the times of both. */
 std::invalid_argument shareNoTime(const PositionTrack& estimate, const PositionTrack& reference);
 
-/** The same instant by both. */
+/** Two positions of the same point at the same time. */
 struct PositionPair
 {
   Timestamp stamp;
@@ -40,8 +40,8 @@ struct PositionPair
 };
 
 /**
- * Where the estimate, interpolated to the reference's stamps, has a point of the body. Left out are stamps that it does
- * not cover, and those between two of its poses more than 2 s apart: a chord over a longer gap says nothing about the
+ * Positions of a point of the body by the estimate, interpolated to the reference's stamps. Stamps outside of its time
+ * are left out, and so are those between two poses more than 2 s apart: interpolation there says nothing about the
  * estimate.
  */
 std::vector<PositionPair> pairsAtReference(const Trajectory& estimate, const Eigen::Vector3d& body_p_point,

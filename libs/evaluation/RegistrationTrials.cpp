@@ -1,6 +1,6 @@
 #include "evaluation/RegistrationTrials.h"
 
-#include "dataset/Statistics.h"
+#include "core/Statistics.h"
 
 #include <algorithm>
 #include <cmath>

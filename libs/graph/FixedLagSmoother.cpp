@@ -1,8 +1,10 @@
 #include "graph/FixedLagSmoother.h"
 
+#include "core/Matrix6.h"
 #include "graph/ImuFactor.h"
 #include "graph/PosePriorFactor.h"
 #include "graph/RelativePoseFactor.h"
+#include "graph/Whitening.h"
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
@@ -18,14 +20,14 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kSharpest = 1e16;  // 1/m2: beyond it squares lose every digit of the rest
-constexpr double kFarthest = 1e9;   // m
+constexpr double kMostInformation = 1e16;  // 1/m2: beyond it rounding hides all other measurements
+constexpr double kFarthest = 1e9;          // m
 
 bool isReasonable(const Rigid& pose, const Matrix6d& information)
 {
   return pose.translation.allFinite() && pose.translation.norm() < kFarthest &&
          std::abs(pose.rotation.norm() - 1) < 1e-6 && information.allFinite() &&
-         information.cwiseAbs().maxCoeff() < kSharpest;
+         information.cwiseAbs().maxCoeff() < kMostInformation;
 }
 
 void requireStart(const NavState& initial, const Matrix15d& covariance, const SmootherOptions& options)
@@ -33,7 +35,7 @@ void requireStart(const NavState& initial, const Matrix15d& covariance, const Sm
   if (options.window < 2)
     throw std::invalid_argument(fmt::format("window = {}: a motion joins two states, so two at least", options.window));
   if (!initial.allFinite()) throw std::invalid_argument("the smoother's first state is not finite");
-  if (!covariance.allFinite() || covariance.llt().info() != Eigen::Success)
+  if (!isPositiveDefinite(covariance))
     throw std::invalid_argument("the covariance of the smoother's first state is not positive definite");
 }
 
@@ -44,7 +46,7 @@ ceres::Solver::Options solverOptions(int max_iterations)
   o.num_threads = 1;
   o.max_num_iterations = max_iterations;
   o.logging_type = ceres::SILENT;
-  // The IMU's prediction starts within a hair of the optimum: whole Gauss-Newton steps, damped only where one fails.
+  // The IMU's prediction starts close to the optimum: whole Gauss-Newton steps, damped only where one fails.
   o.initial_trust_region_radius = 1e12;
   o.max_trust_region_radius = 1e20;
   o.function_tolerance = 1e-8;
@@ -79,15 +81,6 @@ ceres::Solver::Summary solve(const std::vector<Factor>& factors, std::vector<Sta
   return summary;
 }
 }  // namespace
-
-std::string SmootherReport::brief() const
-{
-  return fmt::format("{} after {} iterations, cost {:.3g} -> {:.3g}, {} lidar poses refused",
-                     !usable     ? "failed"
-                     : converged ? "converged"
-                                 : "stopped",
-                     iterations, initial_cost, final_cost, refused);
-}
 
 FixedLagSmoother::FixedLagSmoother(const NavState& initial, const Matrix15d& covariance, const Rigid& body_T_imu,
                                    const ImuNoise& noise, const SmootherOptions& options)
@@ -166,7 +159,7 @@ Matrix6d FixedLagSmoother::newestBodyCovariance() const
 {
   std::vector<StateBlocks> window = blocks();
   // A measurement of unit information whose Jacobian is that of the pose asked for.
-  const std::size_t newest_index = states_.size() - 1, anchor_index = hasAnchor() ? indexOf(anchor_) : newest_index;
+  const std::size_t newest_index = states_.size() - 1, anchor_index = hasAnchor() ? indexOf(*anchor_) : newest_index;
   const Rigid map_T_body = bodyAt(newest());
   Factor pose{std::make_unique<PosePriorFactor>(map_T_body, Matrix6d::Identity(), body_T_imu_), {newest_index}};
   if (anchor_index != newest_index)
@@ -184,11 +177,11 @@ Matrix6d FixedLagSmoother::bodyCovarianceAfter(const Matrix6d& before) const
   Matrix6d information = Matrix6d::Zero();
   for (const LidarPose& l : lidar_poses_)
     if (l.stamp == newest().stamp) information += informationOf(l);
-  const Matrix6d after = (Matrix6d::Identity() + before * information).partialPivLu().solve(before);
+  const Matrix6d after = solve(Matrix6d::Identity() + before * information, before);
   return 0.5 * (after + after.transpose());
 }
 
-/** About the newest body as it is now, with the weight that the robust loss leaves it. */
+/** At the newest body's present pose, with the weight of the robust loss. */
 Matrix6d FixedLagSmoother::informationOf(const LidarPose& l) const
 {
   const Rigid map_T_reference = l.reference ? bodyAt(states_[indexOf(*l.reference)]) : Rigid::identity();
@@ -209,11 +202,11 @@ void FixedLagSmoother::forget(std::size_t index)
   const Timestamp leaving = states_[index].stamp;
   std::vector<StateBlocks> window = blocks();
   const std::vector<Factor> all = factors();
-  std::vector<LinearFactor> touching{linearise(all.front(), window)};  // the prior, so that one is left in the end
+  std::vector<LinearFactor> touching{linearise(all.front(), window)};  // the prior
   for (std::size_t i = 1; i < all.size(); ++i)
     if (std::count(all[i].states.begin(), all[i].states.end(), index)) touching.push_back(linearise(all[i], window));
 
-  // The motion to the next state is among them, so that the states left over are never none.
+  // The motion to the next state is among them, so `left` has at least one state.
   LinearFactor left = eliminate(touching, index);
   prior_ = {{}, std::move(left.jacobian), std::move(left.residual)};
   for (const std::size_t state : left.states) prior_.at.push_back(states_[state]);

@@ -10,8 +10,8 @@ using Matrix3d = Eigen::Matrix3d;
 using Vector3d = Eigen::Vector3d;
 
 /**
- * One step makes a covariance of rank 6, its position follows from its velocity. A micrometre is below what linear
- * interpolation of the readings leaves, and lifts the rank.
+ * The covariance of a motion of one step has rank 6, because its position follows from its velocity. A micrometre is
+ * below the error of interpolating the readings linearly, and makes the rank full.
  */
 constexpr double kPositionFloor = 1e-6;  // m
 
@@ -22,13 +22,13 @@ Matrix15d rootOf(const Preintegration& motion, const ImuNoise& noise)
   const double root_duration = std::sqrt(motion.duration());
 
   Matrix15d root = Matrix15d::Zero();
-  root.topLeftCorner<9, 9>() = rootOfInverse<9>(covariance);
+  root.topLeftCorner<9, 9>() = rootOfInverse(covariance);
   root.diagonal().segment<3>(9).setConstant(1 / (noise.gyro_bias_walk_deg * M_PI / 180 * root_duration));
   root.diagonal().tail<3>().setConstant(1 / (noise.accel_bias_walk * root_duration));
   return root;
 }
 
-/** What the two states say about the interval, where the preintegrated motion says Delta R, v, p: eq. (45). */
+/** The motion between the two states minus the preintegrated Delta R, v, p: eq. (45). */
 struct Residual
 {
   Residual(const NavState& from, const NavState& to, const Preintegration& motion)
@@ -37,21 +37,21 @@ struct Residual
     const double dt = motion.duration();
     turn = to_local * to.map_T_imu.rotation.toRotationMatrix();
     velocity_gain = to_local * (to.velocity - from.velocity - gravityInMap() * dt);
-    way = to_local *
-          (to.map_T_imu.translation - from.map_T_imu.translation - from.velocity * dt - 0.5 * dt * dt * gravityInMap());
+    displacement = to_local * (to.map_T_imu.translation - from.map_T_imu.translation - from.velocity * dt -
+                               0.5 * dt * dt * gravityInMap());
     const Eigen::Quaterniond error =
         delta.rotation.conjugate() * from.map_T_imu.rotation.conjugate() * to.map_T_imu.rotation;
-    value << logSo3(error), velocity_gain - delta.velocity, way - delta.position, to.bias.gyro - from.bias.gyro,
-        to.bias.accel - from.bias.accel;
+    value << logSo3(error), velocity_gain - delta.velocity, displacement - delta.position,
+        to.bias.gyro - from.bias.gyro, to.bias.accel - from.bias.accel;
   }
 
   ImuDelta delta;
   Matrix3d to_local, turn;
-  Vector3d velocity_gain, way;
+  Vector3d velocity_gain, displacement;
   Vector15d value;  // rotation, velocity, position, gyro bias, accelerometer bias
 };
 
-/** By the tangents of boxPlus(NavState): pose and motion of either state. */
+/** By the tangents of boxPlus(NavState): pose and motion of both states. */
 struct Jacobians
 {
   Eigen::Matrix<double, 15, 6> by_from_pose = Eigen::Matrix<double, 15, 6>::Zero();
@@ -70,7 +70,7 @@ Jacobians jacobiansOf(const Residual& r, const NavState& from, const Preintegrat
   j.by_from_pose.block<3, 3>(0, 3) = -by_right * r.turn.transpose();
   j.by_from_pose.block<3, 3>(3, 3) = skew(r.velocity_gain);
   j.by_from_pose.block<3, 3>(6, 0) = -Matrix3d::Identity();
-  j.by_from_pose.block<3, 3>(6, 3) = skew(r.way);
+  j.by_from_pose.block<3, 3>(6, 3) = skew(r.displacement);
 
   j.by_from_motion.block<3, 3>(3, 0) = -r.to_local;
   j.by_from_motion.block<3, 3>(6, 0) = -r.to_local * motion.duration();

@@ -7,8 +7,8 @@
 namespace scanloom
 {
 /**
- * A preintegrated motion between two states: its nine residuals, eq. (45) of Forster 2017, with the bias of the first
- * state corrected to first order, and the random walk of the two biases, eq. (48); whitened.
+ * A preintegrated motion between two states: nine residuals, eq. (45) of Forster 2017, with the bias of the first state
+ * corrected to first order, and six of the random walk of the biases, eq. (48); whitened.
  * Blocks: pose and motion of the first state, pose and motion of the second.
  */
 class ImuFactor final : public ceres::SizedCostFunction<15, 7, 9, 7, 9>

@@ -14,7 +14,7 @@ using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 
 Eigen::Index columnsOf(std::size_t states) { return static_cast<Eigen::Index>(states) * kStateSize; }
 
-/** All equations under each other, the columns in the order of `states`, the residual last. */
+/** All equations below each other, with columns in the order of `states` and the residual last. */
 Eigen::MatrixXd stacked(const std::vector<LinearFactor>& factors, const std::vector<std::size_t>& states)
 {
   Eigen::Index rows = 0;
@@ -36,7 +36,7 @@ Eigen::MatrixXd stacked(const std::vector<LinearFactor>& factors, const std::vec
   return all;
 }
 
-/** Equivalent equations with at most one row per column: the cost changes by a constant only. */
+/** Equivalent equations with at most one row per column; the cost changes by a constant. */
 Eigen::MatrixXd compressed(const Eigen::MatrixXd& equations)
 {
   if (equations.rows() < equations.cols()) return equations;
@@ -56,7 +56,7 @@ std::vector<std::size_t> statesOf(const std::vector<LinearFactor>& factors)
 
 std::vector<double*> parametersOf(const Factor& factor, std::vector<StateBlocks>& window)
 {
-  // A pose opens the next state, a motion block belongs to the state whose pose came before.
+  // A pose block begins the next state; a motion block belongs to the state of the pose block before it.
   std::vector<double*> parameters;
   auto state = factor.states.begin();
   for (const int size : factor.cost->parameter_block_sizes())
@@ -116,13 +116,13 @@ LinearFactor eliminate(const std::vector<LinearFactor>& factors, std::size_t sta
   order.insert(order.end(), others.begin(), others.end());
   const Eigen::MatrixXd equations = stacked(factors, order);
 
-  // Columns of one length, so that the rank does not depend on metres beside radians per second.
+  // Columns of equal length, so that the rank does not depend on the units.
   Eigen::MatrixXd leaving = equations.leftCols<kStateSize>();
   for (auto column : leaving.colwise()) column /= std::max(column.norm(), 1e-300);
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(leaving);
   const Eigen::MatrixXd turned = qr.householderQ().adjoint() * equations.rightCols(equations.cols() - kStateSize);
 
-  // Whatever value the other states take, the leaving one satisfies the first rows: they say nothing about the others.
+  // The leaving state can satisfy the first rows for any values of the others: they hold no information about them.
   const Eigen::MatrixXd left = compressed(turned.bottomRows(turned.rows() - qr.rank()));
   return {others, left.leftCols(left.cols() - 1), left.col(left.cols() - 1)};
 }
@@ -142,7 +142,7 @@ Eigen::MatrixXd marginalCovariance(const std::vector<LinearFactor>& factors, con
             f.jacobian.middleCols<kStateSize>(columnsOf(i)).transpose() *
             f.jacobian.middleCols<kStateSize>(columnsOf(j));
 
-  // Of unit diagonal, so that metres beside radians per second cost no digits.
+  // Scaled to a unit diagonal, so that different units cost no digits.
   const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::LLT<Eigen::MatrixXd> solver(scale.asDiagonal() * information * scale.asDiagonal());
   Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(information.rows(), columnsOf(kept.size()));

@@ -1,4 +1,4 @@
-/** Factors made linear at the states' present values: what marginalisation and covariances are computed from. */
+/** Factors linearised at the present values of the states, for marginalisation and covariances. */
 #pragma once
 #include "graph/StateBlocks.h"
 
@@ -14,10 +14,10 @@ struct Factor
 {
   std::unique_ptr<ceres::CostFunction> cost;
   std::vector<std::size_t> states;
-  double huber = 0;  // the norm of the residual from which it counts linearly; 0 never
+  double huber = 0;  // above this norm of the residual the cost grows linearly; 0: never
 };
 
-/** The factor's blocks among the window's, in the order of its cost function. */
+/** The factor's blocks in the window, in the order of its cost function. */
 std::vector<double*> parametersOf(const Factor&, std::vector<StateBlocks>& window);
 
 /** Whitened equations jacobian * step + residual = 0 on the steps (boxPlus) of some states, 15 columns each. */
@@ -30,14 +30,14 @@ struct LinearFactor
   bool touches(std::size_t state) const;
 };
 
-/** At the window's values; a robust factor with the weight that it has there. */
+/** At the window's values; a robust factor with its weight there. */
 LinearFactor linearise(const Factor&, std::vector<StateBlocks>& window);
 
 /**
- * The same equations without `state`: what they say about the other states when it takes its best value. This is the
- * Schur complement of the normal equations, taken in square root form by an orthogonal transform (N. Demmel, D.
- * Schubert, C. Sommer, D. Cremers, V. Usenko: Square Root Marginalization for Sliding-Window Bundle Adjustment, ICCV
- * 2021), which keeps the digits that squaring loses. At most as many rows as columns are left.
+ * Marginalises `state` out: the equations for the other states when `state` takes its best value. This is the Schur
+ * complement of the normal equations in square root form, by an orthogonal transform (N. Demmel, D. Schubert, C.
+ * Sommer, D. Cremers, V. Usenko: Square Root Marginalization for Sliding-Window Bundle Adjustment, ICCV 2021), which
+ * avoids the loss of digits by squaring. At most as many rows as columns are left.
  */
 LinearFactor eliminate(const std::vector<LinearFactor>&, std::size_t state);
 

@@ -11,7 +11,7 @@ using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eig
 
 MarginalPrior priorOf(const NavState& state, const Matrix15d& covariance)
 {
-  return {{state}, rootOfInverse<15>(covariance), Vector15d::Zero()};
+  return {{state}, rootOfInverse(covariance), Vector15d::Zero()};
 }
 
 MarginalFactor::MarginalFactor(const MarginalPrior& prior) : prior_(prior)

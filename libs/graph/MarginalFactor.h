@@ -8,8 +8,8 @@
 namespace scanloom
 {
 /**
- * What is known about some states from everything that is no longer in the window, as whitened linear equations
- * about a fixed point: residual + jacobian * boxMinus(states, at).
+ * Information about some states from all measurements that have left the window, as whitened linear equations at a
+ * fixed point: residual + jacobian * boxMinus(states, at).
  */
 struct MarginalPrior
 {
@@ -18,7 +18,7 @@ struct MarginalPrior
   Eigen::VectorXd residual;
 };
 
-/** A state known with a covariance (tangent of boxPlus at it, positive definite), before anything was measured. */
+/** Of a state with this covariance (tangent of boxPlus at it, positive definite). */
 MarginalPrior priorOf(const NavState&, const Matrix15d& covariance);
 
 /** Blocks: pose and motion of each state in turn. The prior must outlive the factor. */

@@ -26,12 +26,12 @@ class PoseManifold final : public ceres::Manifold
   static Eigen::Matrix<double, 6, 7> minusJacobian(const Rigid&);
 };
 
-/** How boxMinus(boxPlus(to, step), from) grows with a small step: the derivative that every pose residual shares. */
+/** Derivative of boxMinus(boxPlus(to, step), from) by a small step; every pose residual needs it. */
 Matrix6d boxMinusByStep(const Rigid& to, const Rigid& from);
 
 /**
- * Stores the derivative of R residuals by a pose's step as Ceres wants it, by the seven numbers of the block:
- * multiplied by PlusJacobian it gives `by_step` again. Nothing where Ceres asks for none (out is null).
+ * Writes the derivative of R residuals by the seven numbers of a pose block, as Ceres needs it, given the derivative by
+ * a step. Multiplied by PlusJacobian it gives `by_step` again. Does nothing if out is null: Ceres did not ask for it.
  */
 template <int R>
 void writePoseJacobian(const Eigen::Matrix<double, R, 6>& by_step, const Rigid& pose, double* out)

@@ -15,7 +15,7 @@ Matrix6d bodyStepByImuStep(const Rigid& imu_T_body)
 }
 
 PosePriorFactor::PosePriorFactor(const Rigid& map_T_body, const Matrix6d& information, const Rigid& body_T_imu)
-  : map_T_body_(map_T_body), imu_T_body_(body_T_imu.inverse()), root_(rootOfInformation<6>(information))
+  : map_T_body_(map_T_body), imu_T_body_(body_T_imu.inverse()), root_(rootOfInformation(information))
 {
 }
 

@@ -6,11 +6,11 @@
 namespace scanloom
 {
 /**
- * A measured pose of the body in the map, where the state holds the IMU's: six whitened residuals
+ * A measured pose of the body in the map; the state is the IMU's. Six whitened residuals
  * boxMinus(map_T_imu * imu_T_body, measured). Block: the state's pose.
  *
- * A pose relative to a keyframe that does not move is this factor too: boxMinus does not see the frame in which both
- * of its arguments stand, so map_T_keyframe * keyframe_T_body may be given with the same information.
+ * Also for a pose relative to a keyframe that does not move: boxMinus is the same in every frame, so pass
+ * map_T_keyframe * keyframe_T_body with the same information.
  */
 class PosePriorFactor final : public ceres::SizedCostFunction<6, 7>
 {
@@ -26,6 +26,6 @@ class PosePriorFactor final : public ceres::SizedCostFunction<6, 7>
   Matrix6d root_;  // of the information
 };
 
-/** The body's step that a step of the IMU causes, to first order, both in their own frames. */
+/** Derivative of the body's step by a step of the IMU, each in its own frame. */
 Matrix6d bodyStepByImuStep(const Rigid& imu_T_body);
 }  // namespace scanloom

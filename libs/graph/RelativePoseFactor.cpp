@@ -7,13 +7,13 @@ namespace scanloom
 {
 namespace
 {
-/** How `reference_T_body` moves, in its own tangent, with a step of the reference: minus the adjoint of its inverse. */
+/** Derivative of reference_T_body, in its own tangent, by a step of the reference: minus the adjoint of its inverse. */
 Matrix6d byStepOfReference(const Rigid& reference_T_body) { return -bodyStepByImuStep(reference_T_body); }
 }  // namespace
 
 RelativePoseFactor::RelativePoseFactor(const Rigid& reference_T_body, const Matrix6d& information,
                                        const Rigid& body_T_imu)
-  : reference_T_body_(reference_T_body), imu_T_body_(body_T_imu.inverse()), root_(rootOfInformation<6>(information))
+  : reference_T_body_(reference_T_body), imu_T_body_(body_T_imu.inverse()), root_(rootOfInformation(information))
 {
 }
 

@@ -6,8 +6,8 @@
 namespace scanloom
 {
 /**
- * The body's pose at one state as measured from the body at another, both free: six whitened residuals
- * boxMinus(reference_T_body of the states, measured). Blocks: pose of the reference state, pose of the state.
+ * A measured pose of the body at one state relative to the body at another state; both are estimated. Six whitened
+ * residuals boxMinus(reference_T_body of the states, measured). Blocks: pose of the reference state, pose of the state.
  */
 class RelativePoseFactor final : public ceres::SizedCostFunction<6, 7, 7>
 {

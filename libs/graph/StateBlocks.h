@@ -1,4 +1,4 @@
-/** A state as Ceres sees it: two blocks of numbers. */
+/** A state as two parameter blocks of Ceres. */
 #pragma once
 #include "graph/PoseManifold.h"
 #include "imu/NavState.h"

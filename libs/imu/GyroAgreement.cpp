@@ -18,7 +18,7 @@ constexpr std::size_t kFewestTurns = 30;
 constexpr Duration kLeastTime = 5s;
 constexpr double kWorstSigma = 5 * M_PI / 180;
 
-/** The attitude that a gyroscope alone tells, from its first sample on. */
+/** The attitude by a gyroscope alone, relative to its first sample. */
 class GyroAttitude
 {
  public:
@@ -71,7 +71,7 @@ Eigen::Matrix3Xd ratesOf(const std::vector<BodyTurn>& turns)
   return withoutMean(std::move(rates));
 }
 
-/** What the gyroscope tells of the same turns if its stamps are late by so much. */
+/** The same turns by the gyroscope, if its stamps are late by `lag`. */
 Eigen::Matrix3Xd ratesOf(const std::vector<BodyTurn>& turns, const GyroAttitude& gyro, Duration lag)
 {
   Eigen::Matrix3Xd rates(3, static_cast<Eigen::Index>(turns.size()));
@@ -96,7 +96,7 @@ Duration timeOf(const std::vector<BodyTurn>& turns)
   return sum;
 }
 
-/** The rotation with the largest tr(R' a b'), and how well two axes are known by it. */
+/** The rotation R with the largest tr(R' a b'), and the singular values that tell its accuracy. */
 struct Alignment
 {
   Eigen::Matrix3d a_R_b;
@@ -112,7 +112,7 @@ Alignment alignmentOf(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b)
           svd.singularValues()[1]};
 }
 
-/** Where between its neighbours a maximum lies, by the parabola through the three: -0.5 to 0.5. */
+/** Offset of a maximum from its sample, by the parabola through the neighbours: -0.5 to 0.5. */
 double peakBeside(const std::vector<double>& values, std::size_t maximum)
 {
   if (maximum == 0 || maximum + 1 == values.size()) return 0;
@@ -147,7 +147,7 @@ std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const
   agreement.scale = rates_b.norm() / rates_a.norm();
   const Eigen::Matrix3Xd residual = rates_a - alignment.a_R_b * rates_b / agreement.scale;
   const double noise = residual.norm() / std::sqrt(3.0 * static_cast<double>(residual.cols()));
-  // Only the two axes with the most motion: the third follows from them.
+  // By the two axes with the most motion: the third follows from them.
   agreement.sigma = noise / std::sqrt(alignment.second / agreement.scale);
   if (!(agreement.sigma < kWorstSigma)) return std::nullopt;
   const double by_lag =

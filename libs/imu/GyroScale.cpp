@@ -1,10 +1,12 @@
 #include "imu/GyroScale.h"
 
+#include "core/So3.h"
+#include "imu/NavState.h"
+
 #include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
-
-#include "core/So3.h"
 
 namespace scanloom
 {
@@ -12,11 +14,10 @@ namespace
 {
 constexpr double kWindow = 0.25;  // s: the engine's vibration averages out, sway of 1 Hz does not
 constexpr std::size_t kWindowsApart = 2;
-constexpr std::ptrdiff_t kEdge = 8;  // a window begins and ends with the mean of such a share: differences are noisy
+constexpr std::ptrdiff_t kEdge = 8;  // the rates at a window's ends are means over this share of it, to reduce noise
 constexpr std::size_t kFewestPairs = 18;
-constexpr double kStandardGravity = 9.80665;
 
-/** Means of one window, and its number. */
+/** Means of one window. */
 struct Window
 {
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), rate = Eigen::Vector3d::Zero();
@@ -39,7 +40,7 @@ Window meanOf(const ImuSample* first, const ImuSample* last)
   return window;
 }
 
-/** In a row; those of an IMU below 8 Hz end at once. */
+/** Consecutive; none for an IMU below 8 Hz. */
 std::vector<Window> windowsOf(const std::vector<ImuSample>& samples)
 {
   std::vector<Window> windows;
@@ -78,7 +79,7 @@ std::vector<Row3> rowsOf(const std::vector<Window>& windows)
   return rows;
 }
 
-/** Takes the means out. */
+/** Removes the means, and returns them. */
 Row3 centre(std::vector<Row3>& rows)
 {
   Row3 mean{Eigen::Matrix<double, 3, 4>::Zero(), Eigen::Vector3d::Zero()};
@@ -120,7 +121,7 @@ std::optional<GyroScale> gyroScale(const std::vector<ImuSample>& samples)
   GyroScale result;
   result.scale = solution[0];
   result.sigma = std::sqrt(variance * solver.solve(Unknowns::Unit(0))[0]);
-  result.tilt_rate = mean.told.col(0).norm() / (kWindowsApart * kWindow * kStandardGravity);
+  result.tilt_rate = mean.told.col(0).norm() / (kWindowsApart * kWindow * kGravity);
   return result;
 }
 }  // namespace scanloom

@@ -20,6 +20,11 @@ ImuSample sampleAt(const std::deque<ImuSample>& samples, Timestamp stamp)
 }
 }  // namespace
 
+ImuBuffer::ImuBuffer(const std::vector<ImuSample>& samples)
+{
+  for (const ImuSample& sample : samples) add(sample);
+}
+
 bool ImuBuffer::add(const ImuSample& sample)
 {
   if (!samples_.empty() && sample.stamp <= samples_.back().stamp) return false;

@@ -6,26 +6,31 @@
 
 namespace scanloom
 {
-/** The IMU's samples in time order, kept until they are forgotten. */
+/** The IMU's samples in time order, until forgetBefore() removes them. */
 class ImuBuffer
 {
  public:
+  ImuBuffer() = default;
+
+  /** Of the samples that add() does not refuse. */
+  explicit ImuBuffer(const std::vector<ImuSample>&);
+
   /** False, and nothing stored, if the stamp is not after the newest one or a value is not finite. */
   bool add(const ImuSample&);
 
   /** A sample at or before `from` and one at or after `to` are there: between() needs no extrapolation. */
   bool covers(Timestamp from, Timestamp to) const;
 
-  /** Within [from, to] no instant lies in a gap between samples that is longer than `widest`; nor do the ends. */
+  /** No gap between samples that is longer than `widest` reaches into [from, to]. */
   bool coversDensely(Timestamp from, Timestamp to, Duration widest) const;
 
   /**
-   * First sample at exactly `from`, last at exactly `to` (both interpolated linearly), all measured ones in between.
-   * Where coverage ends early the nearest sample is held. Empty if the buffer is empty or to <= from.
+   * The samples between the ends, with one at exactly `from` and one at exactly `to`, both interpolated linearly. Where
+   * coverage ends early the nearest sample is held. Empty if the buffer is empty or to <= from.
    */
   std::vector<ImuSample> between(Timestamp from, Timestamp to) const;
 
-  /** Drops what between(from, ...) can no longer need. */
+  /** Removes the samples that between(from, ...) does not need. */
   void forgetBefore(Timestamp from);
 
   bool empty() const { return samples_.empty(); }

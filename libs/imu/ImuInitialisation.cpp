@@ -17,23 +17,23 @@ namespace
 constexpr double kDegree = M_PI / 180;
 constexpr int kParts = 8;
 
-// An accelerometer's and a gyroscope's own noise over one part, which passes whatever the share.
+// Noise of the sensors in the mean of one part: allowed in addition to max_slow_share.
 constexpr double kQuietAccel = 0.01;           // m/s2
 constexpr double kQuietGyro = 0.05 * kDegree;  // rad/s
 
-/** What is not known at the start, one standard deviation each. */
+/** Standard deviations at the start. */
 struct StartUncertainty
 {
   double velocity;            // m/s
   double gyro_bias;           // rad/s
-  double acceleration;        // m/s2, of the machine while the mean was taken: it looks like tilt
+  double acceleration;        // m/s2, mean over the samples: cannot be separated from tilt
   double bias_along_gravity;  // m/s2
 };
-constexpr double kRestVelocity = 0.02;             // m/s, a boom's sway
+constexpr double kRestVelocity = 0.02;             // m/s, sway of a boom
 constexpr double kGyroBiasWalk = 0.002 * kDegree;  // rad/s, over the standstill
 constexpr double kLocalGravity = 0.03;             // m/s2, 9.78 at the equator to 9.83 at the poles
 constexpr double kMovingVelocity = 2.0;            // m/s
-constexpr double kMovingGyroBias = 1.0 * kDegree;  // rad/s, of a cheap sensor when warm
+constexpr double kMovingGyroBias = 1.0 * kDegree;  // rad/s, of a cheap sensor
 constexpr double kMovingAcceleration = 0.5;        // m/s2
 constexpr double kOriginSigma = 1e-3;              // m and rad: position and yaw define the map, they are not measured
 
@@ -66,6 +66,33 @@ Eigen::Vector2d deviationsFrom(const Means& centre, const Readings& readings)
   return (sum / static_cast<double>(std::size(readings))).cwiseSqrt();
 }
 
+/** Standard deviations are over three axes; the slow ones are of the means of kParts equal parts. */
+struct ImuStatistics
+{
+  Eigen::Vector3d mean_gyro = Eigen::Vector3d::Zero();   // rad/s
+  Eigen::Vector3d mean_accel = Eigen::Vector3d::Zero();  // m/s2
+  double gyro_deviation = 0;                             // rad/s
+  double accel_deviation = 0;                            // m/s2
+  double slow_gyro_deviation = 0;                        // rad/s
+  double slow_accel_deviation = 0;                       // m/s2
+};
+
+ImuStatistics statisticsOf(const std::vector<ImuSample>& samples)
+{
+  if (samples.empty()) return {};
+  const Means mean = meansOf(samples.begin(), samples.end());
+  const Eigen::Vector2d deviation = deviationsFrom(mean, samples);
+
+  std::vector<Means> parts;
+  for (std::size_t k = 0; k < kParts; ++k)
+  {
+    const auto cut = [&](std::size_t part) { return static_cast<std::ptrdiff_t>(samples.size() * part / kParts); };
+    if (cut(k) != cut(k + 1)) parts.push_back(meansOf(samples.begin() + cut(k), samples.begin() + cut(k + 1)));
+  }
+  const Eigen::Vector2d slow = deviationsFrom(mean, parts);
+  return {mean.gyro, mean.accel, deviation.x(), deviation.y(), slow.x(), slow.y()};
+}
+
 bool isAtRest(const ImuStatistics& s, const StandstillOptions& o)
 {
   return s.accel_deviation <= o.max_accel_deviation && s.gyro_deviation <= o.max_gyro_deviation_deg * kDegree &&
@@ -92,7 +119,7 @@ Matrix15d covarianceOf(const Eigen::Vector3d& up, const Rigid& body_T_imu, doubl
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along;
   const Eigen::Matrix3d bias = square(accel_bias_sigma) * across + square(sigma.bias_along_gravity) * along;
 
-  // What is not gravity turns `up` towards itself. The body, not the IMU, is at the origin: tilt swings the IMU.
+  // An acceleration tilts `up` towards itself. The body is at the origin, so a tilt moves the IMU.
   const Eigen::Matrix3d tilt_by_force = skew(up) / kGravity;
   const Eigen::Matrix3d shift_by_tilt = -skew(body_T_imu.rotation.conjugate() * body_T_imu.translation);
   Eigen::Matrix<double, 6, 3> pose_by_force;
@@ -110,24 +137,8 @@ Matrix15d covarianceOf(const Eigen::Vector3d& up, const Rigid& body_T_imu, doubl
 }
 }  // namespace
 
-ImuStatistics statisticsOf(const std::vector<ImuSample>& samples)
-{
-  if (samples.empty()) return {};
-  const Means mean = meansOf(samples.begin(), samples.end());
-  const Eigen::Vector2d deviation = deviationsFrom(mean, samples);
-
-  std::vector<Means> parts;
-  for (std::size_t k = 0; k < kParts; ++k)
-  {
-    const auto cut = [&](std::size_t part) { return static_cast<std::ptrdiff_t>(samples.size() * part / kParts); };
-    if (cut(k) != cut(k + 1)) parts.push_back(meansOf(samples.begin() + cut(k), samples.begin() + cut(k + 1)));
-  }
-  const Eigen::Vector2d slow = deviationsFrom(mean, parts);
-  return {mean.gyro, mean.accel, deviation.x(), deviation.y(), slow.x(), slow.y()};
-}
-
-std::optional<ImuInitialisation> initialiseAtRest(const std::vector<ImuSample>& samples, const Rigid& body_T_imu,
-                                                  const StandstillOptions& options, double accel_bias_sigma)
+std::optional<NavEstimate> initialiseAtRest(const std::vector<ImuSample>& samples, const Rigid& body_T_imu,
+                                            const StandstillOptions& options, double accel_bias_sigma)
 {
   requireIncreasingStamps(samples);
   if (samples.empty() || samples.back().stamp - samples.front().stamp < fromSeconds(options.duration)) return {};
@@ -138,7 +149,7 @@ std::optional<ImuInitialisation> initialiseAtRest(const std::vector<ImuSample>& 
   if (!isAtRest(statistics, options)) return {};
 
   const Eigen::Vector3d up = statistics.mean_accel.normalized();
-  ImuInitialisation initial;
+  NavEstimate initial;
   initial.state.stamp = samples.back().stamp;
   initial.state.map_T_imu = levelled(up, body_T_imu);
   initial.state.bias = {statistics.mean_gyro, statistics.mean_accel - kGravity * up};
@@ -146,12 +157,10 @@ std::optional<ImuInitialisation> initialiseAtRest(const std::vector<ImuSample>& 
   const double mean_accel = statistics.slow_accel_deviation / std::sqrt(kParts);
   initial.covariance = covarianceOf(up, body_T_imu, accel_bias_sigma,
                                     {kRestVelocity, gyro_bias, mean_accel, std::hypot(kLocalGravity, mean_accel)});
-  initial.statistics = statistics;
-  initial.at_rest = true;
   return initial;
 }
 
-ImuInitialisation gravityOnly(const std::vector<ImuSample>& samples, const Rigid& body_T_imu, double accel_bias_sigma)
+NavEstimate gravityOnly(const std::vector<ImuSample>& samples, const Rigid& body_T_imu, double accel_bias_sigma)
 {
   requireIncreasingStamps(samples);
   const ImuStatistics statistics = statisticsOf(samples);
@@ -161,12 +170,11 @@ ImuInitialisation gravityOnly(const std::vector<ImuSample>& samples, const Rigid
         samples.size(), statistics.mean_accel.norm()));
 
   const Eigen::Vector3d up = statistics.mean_accel.normalized();
-  ImuInitialisation initial;
+  NavEstimate initial;
   initial.state.stamp = samples.back().stamp;
   initial.state.map_T_imu = levelled(up, body_T_imu);
   initial.covariance = covarianceOf(up, body_T_imu, accel_bias_sigma,
                                     {kMovingVelocity, kMovingGyroBias, kMovingAcceleration, accel_bias_sigma});
-  initial.statistics = statistics;
   return initial;
 }
 }  // namespace scanloom

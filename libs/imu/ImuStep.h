@@ -1,4 +1,4 @@
-/** One step between two neighbouring IMU samples: the only place where readings are integrated. */
+/** Integration of the readings over one step between two neighbouring IMU samples. */
 #pragma once
 #include "core/ImuSample.h"
 #include "imu/NavState.h"
@@ -15,19 +15,19 @@ struct ImuDelta
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
-/** Throws std::invalid_argument that names the stamp which is not after the one before it. */
+/** Throws std::invalid_argument with the first stamp that is not after the one before it. */
 void requireIncreasingStamps(const std::vector<ImuSample>&);
 
-/** The readings on the straight line between two samples; `stamp` lies between theirs. */
+/** Linear; `stamp` is between those of the samples. */
 ImuSample interpolate(const ImuSample& first, const ImuSample& second, Timestamp stamp);
 
 /**
- * Carries `start`, valid at first.stamp, on to second.stamp: the mean rate turns, and the specific force, turned into
- * the first instant's frame, runs linearly between the two samples. Second order in the step: what lies beyond is
- * smaller than the error of interpolating the readings linearly.
+ * From `start` at first.stamp to second.stamp, with the mean rate and with a specific force that is linear in time in
+ * the first instant's frame. Accurate to second order in the step; higher orders are smaller than the error of
+ * interpolating the readings linearly.
  */
 ImuDelta advance(const ImuDelta& start, const ImuSample& first, const ImuSample& second, const ImuBias&);
 
-/** The state at `delta`'s end if it was `from` at its first instant: gravity comes back in. Keeps from's bias. */
+/** The state after `delta` from `from`, with gravity. Keeps from's bias. */
 NavState compose(const NavState& from, const ImuDelta& delta, Timestamp end);
 }  // namespace scanloom

@@ -1,8 +1,10 @@
 #include "imu/MeanForce.h"
 
-#include <fmt/format.h>
+#include "imu/NavState.h"
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
+
 #include <cmath>
 
 namespace scanloom
@@ -10,7 +12,6 @@ namespace scanloom
 namespace
 {
 constexpr double kDegree = M_PI / 180;
-constexpr double kStandardGravity = 9.80665;
 constexpr double kUnitTolerance = 0.2;  // a scale of an axis is never that wrong
 
 bool isAbout(double value, double unit) { return std::abs(value / unit - 1) < kUnitTolerance; }
@@ -26,7 +27,7 @@ std::optional<Eigen::Vector3d> meanForce(const std::vector<ImuSample>& samples)
 
 ForceUnit forceUnitOf(double magnitude)
 {
-  if (isAbout(magnitude, kStandardGravity)) return ForceUnit::MetresPerSecondSquared;
+  if (isAbout(magnitude, kGravity)) return ForceUnit::MetresPerSecondSquared;
   if (isAbout(magnitude, 1)) return ForceUnit::StandardGravity;
   if (isAbout(magnitude, 1000)) return ForceUnit::MilliGravity;
   return magnitude < 0.5 ? ForceUnit::GravityTakenOut : ForceUnit::Unclear;

@@ -1,4 +1,4 @@
-/** Which way is up, and how strong gravity is, by an accelerometer. */
+/** Direction and strength of gravity by an accelerometer. */
 #pragma once
 #include "core/ImuSample.h"
 
@@ -9,8 +9,8 @@
 namespace scanloom
 {
 /**
- * Mean specific force (m/s2 if the samples are) in the IMU's frame: at rest it points up; of a machine that drives,
- * what it adds averages out. None without samples.
+ * Mean specific force in the IMU's frame, in the unit of the samples. It points up: accelerations of a drive average
+ * out. None without samples.
  */
 std::optional<Eigen::Vector3d> meanForce(const std::vector<ImuSample>&);
 
@@ -19,12 +19,12 @@ enum class ForceUnit
   MetresPerSecondSquared,
   StandardGravity,  // about 1
   MilliGravity,     // about 1000; cm/s2 look the same
-  GravityTakenOut,  // about 0: what phones call linear acceleration
+  GravityTakenOut,  // about 0: phones call it linear acceleration
   Unclear,
 };
 ForceUnit forceUnitOf(double magnitude);
 
-/** How to mend it; empty for m/s2. */
+/** How to correct the samples; empty for m/s2. */
 std::string adviceFor(ForceUnit);
 
 /** "+y" */
@@ -33,6 +33,6 @@ std::string nearestAxis(const Eigen::Vector3d&);
 /** Degrees between two directions, 0 to 180. */
 double degreesBetween(const Eigen::Vector3d&, const Eigen::Vector3d&);
 
-/** How to turn a direction upwards, for a person: "90 deg about x", "37 deg about the axis (0.50 0.87 0.00)". */
+/** The rotation that turns a direction upwards, as text: "90 deg about x", "37 deg about the axis (0.50 0.87 0.00)". */
 std::string turnUpwards(const Eigen::Vector3d& up_in_body);
 }  // namespace scanloom

@@ -12,14 +12,14 @@ namespace
 {
 using Matrix96d = Eigen::Matrix<double, 9, 6>;
 
-/** How the error at a step's end follows from that at its start and from that of the readings (gyro, accel). */
+/** Derivatives of the error at a step's end by the error at its start and by that of the readings (gyro, accel). */
 struct StepJacobians
 {
   Matrix9d by_start;
   Matrix96d by_reading;
 };
 
-/** Derivatives of advance(); the reading's error is one for the whole step. */
+/** Derivatives of advance(), with one error of the readings for the whole step. */
 StepJacobians jacobiansOfStep(const ImuDelta& start, const ImuDelta& end, const ImuSample& first,
                               const ImuSample& second, const ImuBias& bias)
 {
@@ -50,7 +50,7 @@ StepJacobians jacobiansOfStep(const ImuDelta& start, const ImuDelta& end, const 
   return j;
 }
 
-/** Variances of one reading per unit of time: divided by the step they are those of its mean over the step. */
+/** Variances per unit of time: divided by the step they are those of the mean reading over the step. */
 Eigen::Matrix<double, 6, 1> densities(const ImuNoise& noise)
 {
   const double gyro = noise.gyro_noise_deg * M_PI / 180;
@@ -60,8 +60,8 @@ Eigen::Matrix<double, 6, 1> densities(const ImuNoise& noise)
 }
 
 /**
- * Of the mean over a step between readings that lie far apart, or of one that is held: what a machine that sways, turns
- * and starts does in between is on no straight line.
+ * Variances of the mean over a step between readings that are far apart, or of one that is held: the motion of a
+ * machine in between is not linear.
  */
 Eigen::Matrix<double, 6, 1> unseenMotion(double dt)
 {
@@ -106,9 +106,7 @@ Preintegration preintegrate(std::vector<ImuSample> samples, const ImuBias& bias,
   motion.from = samples.front().stamp;
   motion.to = samples.back().stamp;
   motion.bias = bias;
-  motion.rotation = delta.rotation;
-  motion.velocity = delta.velocity;
-  motion.position = delta.position;
+  motion.delta = delta;
   motion.covariance = 0.5 * (covariance + covariance.transpose());
   motion.rotation_by_gyro = by_bias.block<3, 3>(0, 0);
   motion.velocity_by_gyro = by_bias.block<3, 3>(3, 0);
@@ -130,9 +128,9 @@ ImuDelta deltaAt(const Preintegration& motion, const ImuBias& bias)
 {
   const Eigen::Vector3d gyro = bias.gyro - motion.bias.gyro;
   const Eigen::Vector3d accel = bias.accel - motion.bias.accel;
-  return {(motion.rotation * expSo3(motion.rotation_by_gyro * gyro)).normalized(),
-          motion.velocity + motion.velocity_by_gyro * gyro + motion.velocity_by_accel * accel,
-          motion.position + motion.position_by_gyro * gyro + motion.position_by_accel * accel};
+  return {(motion.delta.rotation * expSo3(motion.rotation_by_gyro * gyro)).normalized(),
+          motion.delta.velocity + motion.velocity_by_gyro * gyro + motion.velocity_by_accel * accel,
+          motion.delta.position + motion.position_by_gyro * gyro + motion.position_by_accel * accel};
 }
 
 NavState predict(const NavState& from, const Preintegration& motion)

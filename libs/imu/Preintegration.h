@@ -13,7 +13,7 @@
 
 namespace scanloom
 {
-/** White noise densities and bias random walks. */
+/** White noise densities and random walks of the biases. */
 struct ImuNoise
 {
   double gyro_noise_deg = 0.003;     // deg/s/sqrt(Hz)
@@ -33,7 +33,7 @@ struct ImuNoise
     visit(o.accel_bias_walk,
           Field{"accel_bias_walk", "m/s2/sqrt(s)", "random walk of the accelerometer's bias", above(0)});
     visit(o.accel_bias_sigma,
-          Field{"accel_bias_sigma", "m/s2", "what the accelerometer's bias may be at the start", above(0)});
+          Field{"accel_bias_sigma", "m/s2", "standard deviation of the accelerometer's bias at the start", above(0)});
   }
 };
 
@@ -44,12 +44,10 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 struct Preintegration
 {
   Timestamp from, to;
-  ImuBias bias;                                                  // linearisation point
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // Delta R_ij, eq. (35)
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();            // Delta v_ij
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();            // Delta p_ij
-  Matrix9d covariance = Matrix9d::Zero();                        // eq. (63); of rank 6 where there is one step only
-  Eigen::Matrix3d rotation_by_gyro = Eigen::Matrix3d::Zero();    // the five bias Jacobians, eq. (44) and appendix B
+  ImuBias bias;                                                // linearisation point
+  ImuDelta delta;                                              // Delta R, v and p, eq. (35)
+  Matrix9d covariance = Matrix9d::Zero();                      // eq. (63); of rank 6 where there is one step only
+  Eigen::Matrix3d rotation_by_gyro = Eigen::Matrix3d::Zero();  // the five bias Jacobians, eq. (44) and appendix B
   Eigen::Matrix3d velocity_by_gyro = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d velocity_by_accel = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d position_by_gyro = Eigen::Matrix3d::Zero();
@@ -65,19 +63,19 @@ struct Preintegration
  */
 Preintegration preintegrate(std::vector<ImuSample> samples, const ImuBias&, const ImuNoise&);
 
-/** Farther than this from its linearisation point first order is not enough: the samples are integrated again. */
+/** If a bias is farther than this from the linearisation point, the samples are integrated again. */
 inline constexpr double kGyroBiasReach = 0.01;  // rad/s
 inline constexpr double kAccelBiasReach = 0.1;  // m/s2
 
-/** `motion` itself while `bias` is within reach of its linearisation point, else integrated again at `bias`. */
+/** `motion` itself if `bias` is within reach of its linearisation point, else integrated again at `bias`. */
 Preintegration corrected(const Preintegration& motion, const ImuBias& bias, const ImuNoise&);
 
-/** What the motion would be at `bias`, to first order: eq. (44). */
+/** The motion at `bias`, to first order: eq. (44). */
 ImuDelta deltaAt(const Preintegration& motion, const ImuBias& bias);
 
 /**
- * Where the IMU is at motion.to if it was at `from` at motion.from; bias deviations are corrected to first order.
- * Throws std::invalid_argument if from.stamp is not motion.from.
+ * The state at motion.to from the state at motion.from; the motion is corrected to from.bias to first order. Throws
+ * std::invalid_argument if from.stamp is not motion.from.
  */
 NavState predict(const NavState& from, const Preintegration& motion);
 

@@ -24,7 +24,8 @@ BeamTable::BeamTable(const std::vector<Beam>& beams, const Rigid& body_T_lidar)
     const double cos_al = std::cos(beam.altitude);
     const double cos_az = std::cos(beam.azimuth), sin_az = std::sin(beam.azimuth);
 
-    // Direction and origin of the ray are c u + s v + w each, since Rz(th) p = c (x, y, 0) + s (-y, x, 0) + (0, 0, z).
+    // Direction and origin of the ray are of the form c u + s v + w, since Rz(th) p = c (x, y, 0) + s (-y, x, 0) + (0,
+    // 0, z).
     const Eigen::Vector3d u{cos_az * cos_al, sin_az * cos_al, 0}, v{-sin_az * cos_al, cos_az * cos_al, 0};
     const Eigen::Vector3d w{0, 0, std::sin(beam.altitude)};
     const Eigen::Vector3d ou{beam.origin.x(), beam.origin.y(), 0}, ov{-beam.origin.y(), beam.origin.x(), 0};
@@ -44,12 +45,6 @@ BeamTable::BeamTable(const std::vector<Beam>& beams, const Rigid& body_T_lidar)
     put(block.e, rotation * ov);
     put(block.f, rotation * ow + body_T_lidar.translation);
   }
-}
-
-void BeamTable::project(float cos_th, float sin_th, const Eigen::Ref<const Ranges>& range_mm,
-                        Eigen::Ref<Coordinates> points) const
-{
-  for (Eigen::Index i = 0; i < size_; ++i) points.row(i) = project(i, cos_th, sin_th, range_mm[i]).transpose().array();
 }
 
 Eigen::Vector3f BeamTable::project(Eigen::Index beam, float cos_th, float sin_th, float range_mm) const

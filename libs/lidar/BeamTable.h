@@ -1,4 +1,4 @@
-/** Geometry of a spinning lidar with the extrinsics folded in: 19 floats per beam, one cosine and sine per block. */
+/** From ranges to points in the body frame: a table of 19 floats per beam, with the extrinsics already applied. */
 #pragma once
 #include "core/Rigid.h"
 
@@ -8,16 +8,16 @@
 
 namespace scanloom
 {
-/** One laser, in the frame whose x axis turns with the encoder angle th. Metres and radians. */
+/** One laser, in a frame whose x axis turns with the encoder angle th. Metres and radians. */
 struct Beam
 {
-  double azimuth = 0;                                // of the beam against that x axis, counter-clockwise from above
-  double altitude = 0;                               // above the plane of rotation
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of the ray: turns with th
+  double azimuth = 0;                                // from that x axis, counter-clockwise seen from above
+  double altitude = 0;                               // angle above the plane of rotation
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // of the ray, in the turning frame
   double range_offset = 0;                           // the measured range minus the distance from `origin`
 };
 
-/** Coefficients of sixteen beams, so that a vector of them is one load; by coordinate, then by beam. */
+/** Coefficients of sixteen beams, by coordinate, then by beam: a vector register of them is one load. */
 struct alignas(64) BeamBlock
 {
   static constexpr std::size_t kBeams = 16;
@@ -32,29 +32,22 @@ struct alignas(64) BeamBlock
  *   p_body = (r - n) (c A + s B + C) + (c D + s E + F)
  *
  * which is body_T_lidar applied to (r - n) [cos(th+az) cos(al), sin(th+az) cos(al), sin(al)] + Rz(th) origin, where n
- * is range_offset. A to C hold metres per millimetre, so that the integer range is converted once and without rounding.
+ * is range_offset. A to C are in metres per millimetre: the integer range in mm needs no conversion to metres.
  */
 class BeamTable
 {
  public:
-  using Coordinates = Eigen::Array<float, Eigen::Dynamic, 3>;  // beams x (x, y, z), each coordinate contiguous
-  using Ranges = Eigen::Array<float, Eigen::Dynamic, 1>;
-
   BeamTable(const std::vector<Beam>&, const Rigid& body_T_lidar);
 
   Eigen::Index size() const { return size_; }
 
-  /** One point per beam in the body frame, metres. `range_mm` has size() rows, and so has `points`. */
-  void project(float cos_th, float sin_th, const Eigen::Ref<const Ranges>& range_mm,
-               Eigen::Ref<Coordinates> points) const;
-
-  /** One beam's point. */
+  /** The point that one beam measured, in the body frame, m. */
   Eigen::Vector3f project(Eigen::Index beam, float cos_th, float sin_th, float range_mm) const;
 
-  /** All beams start from one point and have one range offset: then D, E, F and n are those of any beam. */
+  /** Whether all beams have the same origin and range offset, and so the same D, E, F and n. */
   bool hasOneOrigin() const { return has_one_origin_; }
 
-  /** The last block is filled up with zeros. */
+  /** The last block is padded with zeros. */
   const BeamBlock* blocks() const { return blocks_.data(); }
 
  private:
@@ -63,12 +56,12 @@ class BeamTable
   bool has_one_origin_;
 };
 
-/** Cosine and sine of each column's encoder angle, computed in double. */
+/** Cosine and sine of each column's encoder angle, computed in double precision. */
 struct ColumnAngles
 {
   std::vector<float> cosine, sine;
 };
 
-/** th = 2 pi (1 - u / columns_per_frame): Ouster turns clockwise seen from above and starts at its connector. */
+/** th = 2 pi (1 - u / columns_per_frame) for column u: clockwise seen from above. */
 ColumnAngles clockwiseColumns(int columns_per_frame);
 }  // namespace scanloom

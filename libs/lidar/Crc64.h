@@ -1,6 +1,5 @@
 #pragma once
 #include "core/Bytes.h"
-#include "core/Kernel.h"
 
 #include <cstdint>
 
@@ -8,7 +7,4 @@ namespace scanloom
 {
 /** CRC-64/XZ: ECMA-182 polynomial, reflected (0xC96C5795D7870F42), initial value and final xor all ones. */
 std::uint64_t crc64(Bytes);
-
-/** The same by one kernel, which this machine must be able to run: for tests and benchmarks. */
-std::uint64_t crc64(Bytes, Kernel);
 }  // namespace scanloom

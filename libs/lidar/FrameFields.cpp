@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lidar/Digest.h"
+#include "core/Digest.h"
 
 namespace scanloom
 {
@@ -94,7 +94,7 @@ std::vector<FieldFrame> FrameFields::push(Bytes packet)
   std::vector<MeasurementBlock> blocks;
   decoder_.readBlocks(packet, blocks);
   const FieldFrame fields = fieldsOf(decoder_, packet);
-  // LEGACY columns bear their own frame ids.
+  // Columns of LEGACY packets have frame ids of their own.
   for (const MeasurementBlock& block : blocks)
     if (block.valid)
       copyColumn(fields, block.index, frameWithId(block.frame_id), block.measurement_id, decoder_.layout().channels);

@@ -1,4 +1,4 @@
-/** Raw channel fields, turn by turn, as the maker's tools show them: for digests against reference decodes. */
+/** Raw channel fields of Ouster packets, frame by frame, and their digests: to compare with the maker's decoder. */
 #pragma once
 #include "lidar/OusterDecoder.h"
 
@@ -9,7 +9,7 @@
 
 namespace scanloom
 {
-/** One field of every pixel: rows are channels, columns are columns (as measured, not destaggered), row by row. */
+/** One field of all pixels, row by row: a row per channel, a column per measurement block (not destaggered). */
 struct FieldImage
 {
   std::string name;                  // "RANGE", "NEAR_IR", ...
@@ -17,7 +17,7 @@ struct FieldImage
   std::vector<std::uint8_t> values;  // rows x columns x bytes_per_value
 };
 
-/** A turn or a packet: the headers of its columns and every field that the profile has. */
+/** The columns of a turn or of a packet: their headers, and every field of the profile. */
 struct FieldFrame
 {
   std::uint32_t frame_id = 0;
@@ -27,12 +27,12 @@ struct FieldFrame
   std::vector<FieldImage> fields;
 };
 
-/** A lidar packet alone, in its own order of columns, the invalid ones as they stand there. */
+/** The fields of one lidar packet, columns in its order, invalid ones included. */
 FieldFrame fieldsOf(const OusterDecoder&, Bytes lidar_packet);
 
 /**
- * Puts packets together into turns by their frame id. Columns that are invalid or never came are zero everywhere. A
- * packet that comes late still finds its turn as long as no packet of the second turn after it has come.
+ * Assembles turns by frame id. Columns that are invalid or missing are zero in all fields. A late packet is still added
+ * to its turn until the first packet of the second turn after it arrives.
  */
 class FrameFields
 {
@@ -40,10 +40,10 @@ class FrameFields
   /** The decoder must outlive this. */
   explicit FrameFields(const OusterDecoder& decoder) : decoder_(decoder) {}
 
-  /** The turns that this lidar packet completes, oldest first. */
+  /** Adds a lidar packet. Returns the turns that are complete with it, oldest first. */
   std::vector<FieldFrame> push(Bytes lidar_packet);
 
-  /** What is still under construction, oldest first. */
+  /** Returns the incomplete turns, oldest first. */
   std::vector<FieldFrame> finish();
 
  private:
@@ -53,6 +53,7 @@ class FrameFields
   std::deque<FieldFrame> open_;  // the newest two at most, in order of arrival
 };
 
-/** Field name to MD5 of its little-endian values, with TIMESTAMP, STATUS, MEASUREMENT_ID and, as a number, FRAME_ID. */
+/** By field name the MD5 of its little-endian values, also of TIMESTAMP, STATUS and MEASUREMENT_ID. FRAME_ID is a
+ * number. */
 std::map<std::string, std::string> digestsOf(const FieldFrame&);
 }  // namespace scanloom

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <stdexcept>
 
 #include "lidar/MetadataKeys.h"
@@ -12,16 +13,17 @@ namespace scanloom
 {
 namespace
 {
+struct LidarFamily
+{
+  const char* described;  // what its metadata file is, for the error that lists the families
+  bool (*recognises)(const std::string& metadata_text);
+  std::unique_ptr<PacketDecoder> (*make)(const std::string& metadata_text, const std::string& file_name,
+                                         const Rigid& body_T_sensor);
+};
+
 std::unique_ptr<PacketDecoder> makeOuster(const std::string& text, const std::string& name, const Rigid& body_T_sensor)
 {
   return std::make_unique<OusterDecoder>(parseOusterMetadata(text, name), body_T_sensor);
-}
-
-/** Any JSON object, if no other family took it: what it lacks is said by the parser, key by key. */
-bool looksLikeOuster(const std::string& text)
-{
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  return first != std::string::npos && text[first] == '{';
 }
 
 std::unique_ptr<PacketDecoder> makeVelodyne(const std::string& text, const std::string& name,
@@ -29,18 +31,12 @@ std::unique_ptr<PacketDecoder> makeVelodyne(const std::string& text, const std::
 {
   return std::make_unique<VelodyneDecoder>(parseVelodyneMetadata(text, name), body_T_sensor);
 }
-}  // namespace
 
-const std::vector<LidarFamily>& lidarFamilies()
-{
-  static const std::vector<LidarFamily> families{
-      // The first that recognises a file has it; Ouster's says nothing of its maker, so it comes last.
-      {"velodyne", "a JSON file that begins with \"lidar\": \"velodyne\" (params/lidars/)", &looksLikeVelodyne,
-       &makeVelodyne},
-      {"ouster", "the JSON text of an Ouster sensor's metadata", &looksLikeOuster, &makeOuster},
-  };
-  return families;
-}
+const std::array<LidarFamily, 2> kFamilies{{
+    {"a JSON file that begins with \"lidar\": \"velodyne\" (params/lidars/)", &looksLikeVelodyne, &makeVelodyne},
+    {"the JSON text of an Ouster sensor's metadata", &looksLikeOuster, &makeOuster},
+}};
+}  // namespace
 
 std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_file, const Rigid& body_T_sensor)
 {
@@ -51,11 +47,13 @@ std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_text, con
                                            const Rigid& body_T_sensor)
 {
   std::string expected;
-  for (const LidarFamily& family : lidarFamilies())
+  for (const LidarFamily& family : kFamilies)
   {
     if (family.recognises(metadata_text)) return family.make(metadata_text, name, body_T_sensor);
     expected += fmt::format("{}{}", expected.empty() ? "" : ", or ", family.described);
   }
   throw std::invalid_argument(fmt::format("{}: belongs to no known lidar; expected {}", name, expected));
 }
+
+SensorPorts defaultPorts() { return {kOusterLidarPort, kOusterImuPort}; }
 }  // namespace scanloom

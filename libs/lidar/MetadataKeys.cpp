@@ -1,13 +1,12 @@
 #include "lidar/MetadataKeys.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-
-#include "core/Rigid.h"
 
 namespace scanloom
 {
@@ -41,23 +40,25 @@ MetadataKeys::MetadataKeys(const std::string& text, std::string name) : name_(st
 {
   try
   {
-    root_ = nlohmann::json::parse(text);
+    root_ = std::make_unique<const nlohmann::json>(nlohmann::json::parse(text));
   }
   catch (const nlohmann::json::exception& e)
   {
     throw std::invalid_argument(
         fmt::format("{}: not a metadata file, its text is no valid JSON ({})", name_, e.what()));
   }
-  if (!root_.is_object())
+  if (!root_->is_object())
     throw std::invalid_argument(fmt::format("{}: not a metadata file, expected a JSON object with keys", name_));
 }
 
+MetadataKeys::~MetadataKeys() = default;
+
 const nlohmann::json* MetadataKeys::find(const std::string& section, const std::string& key) const
 {
-  const auto within = root_.find(section);
-  for (const nlohmann::json* object : {within == root_.end() ? nullptr : &*within, &root_})
+  const auto within = root_->find(section);
+  for (const nlohmann::json* object : {within == root_->end() ? nullptr : &*within, root_.get()})
   {
-    // Firmware 1.12 and 1.13 answer some sections with the text of an error: then there is no such section.
+    // A section may be a text instead: Ouster's firmware 1.12 and 1.13 write an error there.
     if (!object || !object->is_object()) continue;
     const auto found = object->find(key);
     if (found != object->end() && !found->is_null()) return &*found;
@@ -107,31 +108,12 @@ std::optional<std::vector<double>> MetadataKeys::numbers(const std::string& sect
   std::vector<double> result;
   for (const nlohmann::json& element : *value)
   {
-    if (element.is_array()) fail(key, "is a table, one row per channel: solid-state sensors are not supported");
+    if (element.is_array()) fail(key, "is a table, not a list of numbers: solid-state sensors are not supported");
     if (!isNumberWithin(element, lowest, highest))
       fail(key, fmt::format("element {} must be a number from {} to {}, not {}", result.size(), lowest, highest,
                             shown(element)));
     result.push_back(element.get<double>());
   }
   return result;
-}
-
-std::optional<Eigen::Matrix4d> MetadataKeys::transform(const std::string& section, const std::string& key) const
-{
-  constexpr double kTenMetresInMm = 10000;
-  const auto elements = numbers(section, key, -kTenMetresInMm, kTenMetresInMm);
-  if (!elements) return std::nullopt;
-  if (elements->size() != 16)
-    fail(key, fmt::format("must have 16 numbers (4x4, row by row), not {}", elements->size()));
-  const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(elements->data());
-  try
-  {
-    Rigid::fromMatrix(matrix);
-  }
-  catch (const std::invalid_argument& e)
-  {
-    fail(key, fmt::format("must be a rigid transform ({})", e.what()));
-  }
-  return matrix;
 }
 }  // namespace scanloom

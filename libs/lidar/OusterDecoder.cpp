@@ -1,6 +1,8 @@
 #include "lidar/OusterDecoder.h"
 
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 #include "lidar/Crc64.h"
 #include "lidar/OusterImu.h"
@@ -39,11 +41,23 @@ LidarDescription describe(const OusterMetadata& m, const Rigid& body_T_sensor)
   return d;
 }
 
-bool crcHolds(Bytes packet, Kernel kernel)
+/** What reading packets relies on, for metadata that no parser has checked. */
+OusterMetadata checked(OusterMetadata m)
+{
+  const auto channels = static_cast<std::size_t>(m.channels);
+  const auto isColumn = [&m](int column) { return column >= 0 && column < m.columns_per_frame; };
+  if (m.channels < 1 || m.beam_altitude_deg.size() != channels || m.beam_azimuth_deg.size() != channels ||
+      m.columns_per_packet < 1 || m.columns_per_frame < m.columns_per_packet || !isColumn(m.first_column) ||
+      !isColumn(m.last_column) || !(m.frame_rate > 0) || m.imu_measurements_per_packet < 0)
+    throw std::invalid_argument("OusterMetadata filled by hand: channels, columns, window, rate or beams are faulty");
+  return m;
+}
+
+bool crcHolds(Bytes packet)
 {
   const std::size_t end = packet.size() - kOusterCrcBytes;
   const auto stored = load<std::uint64_t>(packet, end);
-  return stored == kNoCrcFirmware22 || stored == kNoCrcFirmware23 || stored == crc64(packet.slice(0, end), kernel);
+  return stored == kNoCrcFirmware22 || stored == kNoCrcFirmware23 || stored == crc64(packet.slice(0, end));
 }
 }  // namespace
 
@@ -64,12 +78,10 @@ std::vector<Beam> beamsOf(const OusterMetadata& m)
   return beams;
 }
 
-// By value and checked again: metadata may have been put together by hand.
 OusterDecoder::OusterDecoder(OusterMetadata metadata, const Rigid& body_T_sensor, Kernel kernel)
-  : metadata_(parseOusterMetadata(toJson(metadata), "OusterDecoder")),
+  : metadata_(checked(std::move(metadata))),
     layout_(layoutOf(metadata_)),
     description_(describe(metadata_, body_T_sensor)),
-    kernel_(kernel),
     serial_(serialNumber(metadata_)),
     is_legacy_(layout_.isLegacy()),
     first_column_(layout_.columnOffset(0)),
@@ -89,28 +101,32 @@ bool OusterDecoder::isForeign(Bytes packet) const
   return type >= kOusterLidarType && type <= kOusterZoneType && serial != 0 && serial != *serial_;
 }
 
-PacketKind OusterDecoder::kindIfIntact(Bytes packet, OusterHeader header, PacketKind kind) const
-{
-  if (header == OusterHeader::None) return kind;
-  if (OusterLayout::hasCrc(header) && !crcHolds(packet, kernel_)) return PacketKind::BadCrc;
-  return isForeign(packet) ? PacketKind::Foreign : kind;
-}
-
-PacketKind OusterDecoder::kind(Bytes packet) const
+/** Which of the formats that this sensor sends a packet has, by size and type. */
+std::optional<OusterDecoder::Format> OusterDecoder::formatOf(Bytes packet) const
 {
   const auto isOfType = [&](OusterHeader header, std::uint64_t type)
-  {
-    const OusterHeaderFields& fields = headerFields(header);
-    return header == OusterHeader::None || loadField(packet, fields.type) == type;
-  };
+  { return header == OusterHeader::None || loadField(packet, headerFields(header).type) == type; };
   if (packet.size() == layout_.lidarPacketBytes() && isOfType(layout_.lidar_header, kOusterLidarType))
-    return kindIfIntact(packet, layout_.lidar_header, PacketKind::Lidar);
+    return Format{PacketKind::Lidar, layout_.lidar_header};
   if (!packet.empty() && packet.size() == layout_.imuPacketBytes() && isOfType(layout_.imu_header, kOusterImuType))
-    return kindIfIntact(packet, layout_.imu_header, PacketKind::Imu);
+    return Format{PacketKind::Imu, layout_.imu_header};
   if (packet.size() == kOusterZonePacketBytes && isOfType(metadata_.header_type, kOusterZoneType))
-    return kindIfIntact(packet, metadata_.header_type, PacketKind::Other);
-  // Of a size that this sensor never sends: a neighbour's on the same port, or damage.
+    return Format{PacketKind::Other, metadata_.header_type};
+  return std::nullopt;
+}
+
+PacketKind OusterDecoder::kindByHeader(Bytes packet) const
+{
+  const std::optional<Format> format = formatOf(packet);
+  if (format) return format->header != OusterHeader::None && isForeign(packet) ? PacketKind::Foreign : format->kind;
+  // Of a size that this sensor never sends: another sensor's on the same port, or damaged.
   return !layout_.isLegacy() && isForeign(packet) ? PacketKind::Foreign : PacketKind::Malformed;
+}
+
+bool OusterDecoder::isIntact(Bytes packet) const
+{
+  const std::optional<Format> format = formatOf(packet);
+  return !format || !OusterLayout::hasCrc(format->header) || crcHolds(packet);
 }
 
 PacketHeader OusterDecoder::header(Bytes packet) const

@@ -26,7 +26,7 @@ void storeVector(Packet& packet, std::size_t offset, const Eigen::Vector3d& v)
 
 std::uint64_t unsignedNanoseconds(Timestamp t) { return static_cast<std::uint64_t>(nanoseconds(t)); }
 
-/** 0 where the field is too narrow: a range that is cut off would be a wrong point. */
+/** The range, or 0 if the field is too narrow for it: a truncated range would be a wrong point. */
 std::uint32_t withinReach(std::uint32_t range_mm, BitField f) { return range_mm <= f.mask() << f.shift ? range_mm : 0; }
 
 void seal(Packet& packet, OusterHeader header)
@@ -71,7 +71,7 @@ void OusterEncoder::writeChannel(Packet& packet, std::size_t offset, const Ouste
 void OusterEncoder::writeColumn(Packet& packet, std::size_t offset, const OusterColumn& column) const
 {
   if (!column.readings.empty() && column.readings.size() != layout_.channels)
-    throw std::invalid_argument(fmt::format("OusterEncoder: a column of {} readings, but the sensor has {} channels",
+    throw std::invalid_argument(fmt::format("OusterEncoder: a column has {} readings, but the sensor has {} channels",
                                             column.readings.size(), layout_.channels));
   store(packet, offset + kOusterColumnStamp, unsignedNanoseconds(column.stamp));
   store(packet, offset + kOusterColumnMeasurementId, column.measurement_id);

@@ -1,4 +1,4 @@
-/** The other direction: readings to the bytes that a sensor would send. For simulation and tests. */
+/** From readings to the bytes that a sensor sends: for simulation and tests. */
 #pragma once
 #include "core/ImuSample.h"
 #include "lidar/OusterMetadata.h"
@@ -10,7 +10,7 @@ namespace scanloom
 {
 struct OusterReturn
 {
-  std::uint32_t range_mm = 0;  // 0: nothing came back
+  std::uint32_t range_mm = 0;  // 0: no return
   std::uint8_t reflectivity = 0;
   std::uint16_t signal = 0;  // photons
 };
@@ -27,12 +27,13 @@ struct OusterColumn
   std::uint32_t frame_id = 0;
   std::uint16_t measurement_id = 0;
   bool valid = true;
-  std::vector<OusterReading> readings;  // one per channel; may be empty: nothing came back
+  std::vector<OusterReading> readings;  // one per channel; empty: no returns
 };
 
 /**
- * Writes through the layouts that OusterDecoder reads. What a profile can't hold is rounded to its steps (ranges of 8
- * mm, near infrared of 16) or left out (signal, the second return); a range beyond the profile's reach is no return.
+ * Writes the layouts that OusterDecoder reads. Values are rounded to the steps of the profile (ranges 8 mm, near
+ * infrared 16); fields that it lacks (signal, second return) are left out; a range that does not fit is written as no
+ * return.
  */
 class OusterEncoder
 {
@@ -41,15 +42,15 @@ class OusterEncoder
   explicit OusterEncoder(const OusterMetadata& metadata);
 
   /**
-   * Needs columns_per_packet columns of one frame; the header's frame id is that of the first one, modulo what its
-   * field holds. Throws std::invalid_argument on another number of columns or of readings.
+   * Takes columns_per_packet columns of one frame. The header gets the frame id of the first one, modulo
+   * frame_id_modulus. Throws std::invalid_argument for another number of columns or readings.
    */
   std::vector<std::uint8_t> lidarPacket(const std::vector<OusterColumn>&) const;
 
-  /** Needs imuSamplesPerPacket() samples in the IMU's frame, oldest first; throws std::invalid_argument otherwise. */
+  /** Takes imuSamplesPerPacket() samples in the IMU's frame, oldest first. Throws std::invalid_argument otherwise. */
   std::vector<std::uint8_t> imuPacket(const std::vector<ImuSample>&, std::uint32_t frame_id = 0) const;
 
-  /** 1 in LEGACY packets, 0 if the sensor sends none. */
+  /** 1 in LEGACY packets; 0 if the sensor sends no IMU packets. */
   std::size_t imuSamplesPerPacket() const;
 
   const OusterMetadata& metadata() const { return metadata_; }

@@ -1,4 +1,6 @@
-/** What the kernels of OusterPoints have in common. They include nothing that could be compiled into inline functions.
+/**
+ * Shared by the kernels of OusterPoints. Kernels are compiled for other instruction sets: they must not include inline
+ * functions that the linker could also take for the rest of the program.
  */
 #pragma once
 #include "lidar/OusterPoints.h"
@@ -12,9 +14,8 @@ namespace scanloom::ouster_kernels
 using Table = std::array<OusterPoints::Write, kOusterProfiles.size()>;
 extern const Table kPortable;
 extern const Table kAvx2;
-extern const Table kAvx512;
 
-/** Kernels write whole vectors: up to the end of the last block of each return, and 64 bytes of what is the same. */
+/** Points that a kernel may write: whole vectors, so more than there are returns. */
 constexpr std::size_t roomFor(std::size_t beams, int returns)
 {
   return static_cast<std::size_t>(returns) * ((beams + 15) / 16 * 16) + 64;
@@ -27,8 +28,8 @@ enum class Return
 };
 
 /**
- * How one operation moves a field from its 32 bit word of the channel to bit kTo of another word: a shift, to the left
- * where kShift is positive, and a mask where other bits would come along. Every field lies within one word.
+ * How to move a field from its 32 bit word of the channel to bit kTo of another word: shift by kShift (to the left if
+ * positive), then mask if kNeedsMask. Every field lies within one word.
  */
 template <std::size_t kProfile, OusterField kField, int kTo = 0>
 struct Move
@@ -43,7 +44,7 @@ struct Move
   static_assert(kBits.first % 32 + kBits.width <= 32 && kTo + kBits.shift + kBits.width <= 32);
 };
 
-/** Words of a channel. */
+/** Number of 32 bit words of a channel. */
 template <std::size_t kProfile>
 constexpr int kWords = kOusterProfiles[kProfile].channel_bytes / 4;
 
@@ -56,12 +57,12 @@ struct Fields
   static constexpr OusterField kSignal = kFirst ? OusterField::Signal : OusterField::Signal2;
 };
 /**
- * Asks for the lines that the next column is going to fill. Stores leave the processor in order, so each one whose line
- * is still far away holds up all that follow it, those of other fields too.
+ * Prefetches the cache lines that the next column will fill. Stores complete in order: one whose line is not yet in the
+ * cache delays all that follow.
  */
 constexpr std::size_t kAhead = 128;  // points
 
-/** Once per block of sixteen points: a line of each field of four bytes. */
+/** To be called per block of sixteen points: one cache line of each field of four bytes. */
 [[gnu::always_inline]] inline void fetchWideFields(const PointRoom& to, std::size_t n)
 {
   __builtin_prefetch(to.x + n + kAhead, 1);
@@ -71,7 +72,7 @@ constexpr std::size_t kAhead = 128;  // points
   __builtin_prefetch(to.t + n + kAhead, 1);
 }
 
-/** Once per column. */
+/** To be called per column. */
 [[gnu::always_inline]] inline void fetchNarrowFields(const PointRoom& to, std::size_t n)
 {
   for (std::size_t ahead = kAhead; ahead < 2 * kAhead; ahead += 32)

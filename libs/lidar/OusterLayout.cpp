@@ -17,7 +17,7 @@ constexpr bool allConsistent()
     if (!isConsistent(p)) return false;
   return true;
 }
-static_assert(allConsistent(), "a field of kOusterProfiles leaves its channel or its type");
+static_assert(allConsistent(), "a field of kOusterProfiles does not fit into its channel or its type");
 }  // namespace
 
 std::size_t OusterLayout::imuPacketBytes() const

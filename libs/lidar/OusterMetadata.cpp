@@ -1,19 +1,21 @@
 #include "lidar/OusterMetadata.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <stdexcept>
 
+#include "core/Rigid.h"
 #include "lidar/MetadataKeys.h"
 
 namespace scanloom
 {
 namespace
 {
-// Sections of the nested layout; in the flat one their keys lie at the top level, the data format in a section of its
-// own.
+// Sections of the nested layout. In the flat layout their keys are at the top level, except for kFlatFormat.
 const std::string kSensor = "sensor_info", kBeams = "beam_intrinsics", kLidar = "lidar_intrinsics",
                   kImu = "imu_intrinsics", kConfig = "config_params", kImuFormat = "imu_data_format",
                   kFormat = "lidar_data_format", kFlatFormat = "data_format";
@@ -64,7 +66,7 @@ std::pair<int, int> parseMode(const MetadataKeys& keys, const std::string& mode)
   return {columns, rate};
 }
 
-/** Shared by both layouts: which section describes the packets. */
+/** The section that describes the packets, in either layout. */
 const std::string& formatSection(const MetadataKeys& keys)
 {
   return keys.integer(kFormat, "columns_per_frame", 1, 8192) ? kFormat : kFlatFormat;
@@ -80,7 +82,7 @@ void readFormat(const MetadataKeys& keys, OusterMetadata& m)
   m.lidar_mode = *mode;
   m.columns_per_frame = keys.integer(section, "columns_per_frame", 1, 8192).value_or(columns);
   m.frame_rate = keys.number(section, "fps", 0, 100).value_or(rate);
-  if (m.frame_rate == 0) m.frame_rate = rate;  // the SDK writes 0 where it does not know
+  if (m.frame_rate == 0) m.frame_rate = rate;  // the SDK writes 0 if it does not know
   if (m.columns_per_frame != columns)
     keys.fail("columns_per_frame", fmt::format("{} contradicts lidar_mode {}", m.columns_per_frame, *mode));
 
@@ -111,7 +113,7 @@ void readProfiles(const MetadataKeys& keys, OusterMetadata& m)
   m.imu_profile =
       valueNamed(kImuProfiles, keys, "udp_profile_imu", keys.text(section, "udp_profile_imu").value_or("LEGACY"));
 
-  // Before firmware 3.2 there is no header_type: the profile's name alone says FUSA.
+  // Before firmware 3.2 there is no header_type: the profile's name tells FUSA.
   const std::string implied = m.lidar_profile.rfind("FUSA_", 0) == 0 ? "FUSA" : "STANDARD";
   m.header_type = valueNamed(kHeaderTypes, keys, "header_type", keys.text(section, "header_type").value_or(implied));
   if (implied == "FUSA") m.header_type = OusterHeader::Fusa;
@@ -146,8 +148,7 @@ void readBeams(const MetadataKeys& keys, OusterMetadata& m)
       keys.fail(key, fmt::format("must have one number per channel ({}), not {}", m.channels, list->size()));
 }
 
-/** Distance of the beams' origin from the axis, mm, where the file has none; without a product line: first generation.
- */
+/** Default distance of the beams' origin from the axis, mm; without a product line that of the first generation. */
 double defaultBeamOrigin(const std::string& product_line)
 {
   constexpr std::array<std::pair<std::string_view, double>, 3> kOrigins{
@@ -164,16 +165,38 @@ Eigen::Matrix4d translation(double x, double y, double z)
   return matrix;
 }
 
+/** 16 numbers, row by row, of a rigid transform; translations in mm, within 10 m. */
+std::optional<Eigen::Matrix4d> readTransform(const MetadataKeys& keys, const std::string& section,
+                                             const std::string& key)
+{
+  constexpr double kTenMetresInMm = 10000;
+  const auto elements = keys.numbers(section, key, -kTenMetresInMm, kTenMetresInMm);
+  if (!elements) return std::nullopt;
+  if (elements->size() != 16)
+    keys.fail(key, fmt::format("must have 16 numbers (4x4, row by row), not {}", elements->size()));
+  const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(elements->data());
+  try
+  {
+    Rigid::fromMatrix(matrix);
+  }
+  catch (const std::invalid_argument& e)
+  {
+    keys.fail(key, fmt::format("must be a rigid transform ({})", e.what()));
+  }
+  return matrix;
+}
+
 void readTransforms(const MetadataKeys& keys, OusterMetadata& m)
 {
   const double origin =
       keys.number(kBeams, "lidar_origin_to_beam_origin_mm", -1000, 1000).value_or(defaultBeamOrigin(m.product_line));
-  m.beam_to_lidar_mm = keys.transform(kBeams, "beam_to_lidar_transform").value_or(translation(origin, 0, 0));
+  m.beam_to_lidar_mm = readTransform(keys, kBeams, "beam_to_lidar_transform").value_or(translation(origin, 0, 0));
 
   Eigen::Matrix4d half_turn = translation(0, 0, 36.18);
   half_turn(0, 0) = half_turn(1, 1) = -1;
-  m.lidar_to_sensor_mm = keys.transform(kLidar, "lidar_to_sensor_transform").value_or(half_turn);
-  m.imu_to_sensor_mm = keys.transform(kImu, "imu_to_sensor_transform").value_or(translation(6.253, -11.775, 7.645));
+  m.lidar_to_sensor_mm = readTransform(keys, kLidar, "lidar_to_sensor_transform").value_or(half_turn);
+  m.imu_to_sensor_mm =
+      readTransform(keys, kImu, "imu_to_sensor_transform").value_or(translation(6.253, -11.775, 7.645));
 }
 
 void readIdentity(const MetadataKeys& keys, OusterMetadata& m)
@@ -189,6 +212,16 @@ void readIdentity(const MetadataKeys& keys, OusterMetadata& m)
 }
 }  // namespace
 
+bool looksLikeOuster(const std::string& text)
+{
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos || text[first] != '{') return false;
+  constexpr std::array kKeys{"sensor_info", "beam_intrinsics", "beam_altitude_angles", "beam_azimuth_angles",
+                             "lidar_mode",  "prod_line",       "data_format"};
+  return std::any_of(kKeys.begin(), kKeys.end(),
+                     [&](const char* key) { return text.find(fmt::format("\"{}\"", key)) != std::string::npos; });
+}
+
 OusterMetadata parseOusterMetadata(const std::string& text, const std::string& name)
 {
   const MetadataKeys keys(text, name);
@@ -200,7 +233,7 @@ OusterMetadata parseOusterMetadata(const std::string& text, const std::string& n
   readTransforms(keys, m);
   if (layoutOf(m).lidarPacketBytes() > kLargestDatagram)
     keys.fail("columns_per_packet",
-              fmt::format("{} columns of {} channels make packets of {} bytes: more than UDP carries",
+              fmt::format("{} columns of {} channels make packets of {} bytes, more than UDP can carry",
                           m.columns_per_packet, m.channels, layoutOf(m).lidarPacketBytes()));
   return m;
 }

@@ -1,5 +1,4 @@
-/** What an Ouster sensor says about itself: its metadata file, old (flat) or new (nested) layout, firmware 1.12 to 3.x.
- */
+/** The metadata file of an Ouster sensor: old (flat) or new (nested) layout, firmware 1.12 to 3.x. */
 #pragma once
 #include "lidar/OusterLayout.h"
 
@@ -12,6 +11,7 @@
 
 namespace scanloom
 {
+/** The contents of the file, hence more than a dozen members. */
 struct OusterMetadata
 {
   std::string product_line;  // "OS-0-128"; empty if the file does not say
@@ -39,25 +39,31 @@ struct OusterMetadata
   Eigen::Matrix4d imu_to_sensor_mm = Eigen::Matrix4d::Identity();
 };
 
+/** Where a sensor sends unless it is configured otherwise. */
+constexpr std::uint16_t kOusterLidarPort = 7502, kOusterImuPort = 7503;
+
+/** Whether this is the text of such a file, complete or not: a JSON object that names one of its keys. */
+bool looksLikeOuster(const std::string& text);
+
 /**
- * Reads either layout. Needed: lidar_mode, beam_altitude_angles, beam_azimuth_angles. What files of older firmware
- * leave out is taken as the maker's SDK does: profile LEGACY, 16 columns per packet, a full window, one channel per
- * beam angle, the transforms of the product line (without one: of the first generation). The user's extrinsics in
- * "ouster-sdk" are not read: poses on the machine come from the configuration alone.
+ * Reads either layout. Required: lidar_mode, beam_altitude_angles, beam_azimuth_angles. Defaults for the rest are those
+ * of the maker's SDK: profile LEGACY, 16 columns per packet, a full window, one channel per beam angle, the transforms
+ * of the product line (without one: of the first generation). Extrinsics in "ouster-sdk" are not read: poses on the
+ * machine come from the configuration alone.
  *
- * Throws std::invalid_argument with `name`, the key and what is expected there: text that is no JSON, a needed key
- * missing, a wrong type or length, a value out of range, an unknown profile, a solid-state sensor.
+ * Throws std::invalid_argument with `name`, the key and what is expected: not JSON, a required key missing, a wrong
+ * type or length, a value out of range, an unknown profile, a solid-state sensor.
  */
 OusterMetadata parseOusterMetadata(const std::string& text, const std::string& name);
 
-/** The same from a file; also throws std::invalid_argument if it can't be read. */
+/** The same from a file. Also throws std::invalid_argument if it cannot be read. */
 OusterMetadata loadOusterMetadata(const std::string& path);
 
-/** In the nested layout; parseOusterMetadata gives the same values back. */
+/** JSON in the nested layout. parseOusterMetadata() returns the same values from it. */
 std::string toJson(const OusterMetadata&);
 
 OusterLayout layoutOf(const OusterMetadata&);
 
-/** The serial number as packets carry it; nothing if there is none or it is not a number of 40 bits. */
+/** The serial number as in packets; nothing if there is none or it does not fit into 40 bits. */
 std::optional<std::uint64_t> serialNumber(const OusterMetadata&);
 }  // namespace scanloom

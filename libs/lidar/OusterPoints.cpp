@@ -10,18 +10,10 @@ namespace scanloom
 {
 namespace
 {
+/** Points have no kernel of their own for AVX-512. */
 const ouster_kernels::Table& tableOf(Kernel kernel)
 {
-  switch (kernel)
-  {
-    case Kernel::Avx512:
-      return ouster_kernels::kAvx512;
-    case Kernel::Avx2:
-      return ouster_kernels::kAvx2;
-    case Kernel::Portable:
-      break;
-  }
-  return ouster_kernels::kPortable;
+  return kernel == Kernel::Portable ? ouster_kernels::kPortable : ouster_kernels::kAvx2;
 }
 
 std::size_t rowOf(const OusterProfile& profile)

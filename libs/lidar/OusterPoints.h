@@ -1,19 +1,19 @@
 /**
- * The inner loop of decoding: one column's channels into points. Compiled once per profile, from the profile's row of
- * kOusterProfiles, and once per kernel. All kernels give the same bits.
+ * The inner loop of decoding: from the channels of a column to points. Compiled per row of kOusterProfiles and per
+ * kernel. All kernels give the same bits.
  */
 #pragma once
 #include "core/Bytes.h"
+#include "core/Kernel.h"
 #include "core/PointCloud.h"
 #include "lidar/BeamTable.h"
-#include "core/Kernel.h"
 #include "lidar/OusterProfiles.h"
 
 #include <cstdint>
 
 namespace scanloom
 {
-/** One column and what all its points share. */
+/** The bytes of a column, and the values that its points share. */
 struct OusterColumnView
 {
   const std::uint8_t* channels = nullptr;  // channel_bytes for each beam of the table
@@ -25,14 +25,13 @@ struct OusterColumnView
 
 constexpr std::size_t kMostOusterChannels = 256;
 
-/** Appends the returns of a column. */
+/** Appends the returns of columns to a cloud. */
 class OusterPoints
 {
  public:
   /**
    * `profile` is a row of kOusterProfiles. Throws std::invalid_argument if the beams differ in origin or range offset,
-   * or if there are none or more than
-   * kMostOusterChannels.
+   * if there are none or more than kMostOusterChannels, or if this machine cannot run the kernel.
    */
   OusterPoints(const OusterProfile& profile, BeamTable, Kernel);
 
@@ -42,8 +41,8 @@ class OusterPoints
   }
 
   /**
-   * Writes the points of `beams` channels and returns how many; memory for roomFor(beams, returns) is touched, channels
-   * and blocks are read to their ends and not past them.
+   * Writes the points of `beams` channels and returns their number. It may write memory of roomFor(beams, returns)
+   * points, and reads channels and blocks only up to their ends.
    */
   using Write = std::size_t (*)(const OusterColumnView&, const BeamBlock* blocks, std::size_t beams, const PointRoom&);
 

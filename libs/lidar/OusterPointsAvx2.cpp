@@ -1,4 +1,4 @@
-/** Eight channels at a time; what has no return is squeezed out by a permutation from a table. */
+/** Eight channels at a time. A permutation from a table moves those with a return to the front. */
 #include "lidar/OusterKernels.h"
 
 #include <x86intrin.h>
@@ -12,7 +12,7 @@ namespace
 {
 constexpr int kLanes = 8;
 
-/** Per set of lanes: which they are, lowest first, a byte each. */
+/** For each set of lanes their numbers, lowest first, a byte each. */
 struct Orders
 {
   alignas(64) std::uint8_t lanes[256][kLanes];
@@ -32,14 +32,14 @@ AVX2_INLINE __m256i load(const std::uint8_t* from)
   return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
 }
 
-/** 16 bytes in each half: what vectors of 32 bytes shuffle, they shuffle within their halves. */
+/** 16 bytes into each half: AVX2 shuffles within halves only. */
 AVX2_INLINE __m256i load(const std::uint8_t* low, const std::uint8_t* high)
 {
   const __m128i l = _mm_loadu_si128(reinterpret_cast<const __m128i*>(low));
   return _mm256_inserti128_si256(_mm256_castsi128_si256(l), _mm_loadu_si128(reinterpret_cast<const __m128i*>(high)), 1);
 }
 
-/** Of an odd number of words per channel: the words kWord of eight channels lie in eight different lanes. */
+/** For an odd number of words per channel: word kWord of each of eight channels, each in a lane of its own. */
 template <int kWords, int kWord, int kRegister = 0>
 AVX2_INLINE __m256i blend(const std::uint8_t* channels, __m256i blended)
 {
@@ -80,7 +80,7 @@ AVX2_INLINE __m256i word(const std::uint8_t* channels)
   return _mm256_permutevar8x32_epi32(blend<kWords, kWord>(channels, _mm256_setzero_si256()), order);
 }
 
-/** A field of eight channels, its lowest bit at kTo of 32. */
+/** A field of eight channels, with its lowest bit at bit kTo. */
 template <std::size_t kProfile, OusterField kField, int kTo = 0>
 AVX2_INLINE __m256i field(const std::uint8_t* channels)
 {
@@ -93,7 +93,7 @@ AVX2_INLINE __m256i field(const std::uint8_t* channels)
   return value;
 }
 
-/** The column's angle and the origin of its rays: what all beams share. */
+/** Angle of the column and origin of its rays, in all lanes. */
 struct Column
 {
   __m256 cos_th, sin_th, range_offset;
@@ -102,7 +102,7 @@ struct Column
 
 AVX2_INLINE Column columnOf(const OusterColumnView& view, const BeamBlock& any)
 {
-  Column column;  // not zeroed first: gcc calls that "rep stos", which takes longer than a block of channels
+  Column column;  // not zeroed first: gcc makes that a slow "rep stos"
   column.cos_th = _mm256_set1_ps(view.cos_th);
   column.sin_th = _mm256_set1_ps(view.sin_th);
   column.range_offset = _mm256_set1_ps(any.range_offset[0]);
@@ -119,7 +119,7 @@ AVX2_INLINE __m256 coordinate(const Column& column, const BeamBlock& beams, std:
   return _mm256_add_ps(_mm256_mul_ps(along, direction), column.origin[k]);
 }
 
-/** Sorts the bytes of eight words: all first ones, all second ones, all upper halves. */
+/** Sorts the bytes of eight words: first bytes, second bytes, then upper halves. */
 AVX2_INLINE __m256i apart(__m256i words)
 {
   const __m256i within_halves = _mm256_setr_epi8(0, 4, 8, 12, 1, 5, 9, 13, 2, 3, 6, 7, 10, 11, 14, 15,  //
@@ -128,7 +128,7 @@ AVX2_INLINE __m256i apart(__m256i words)
   return _mm256_permutevar8x32_epi32(_mm256_shuffle_epi8(words, within_halves), across);
 }
 
-/** The returns of the eight channels from `ring` on go to `to`, from the n-th on. Returns how many there are. */
+/** Writes the returns of the eight channels from `ring` on to `to`, from the n-th point on. Returns their number. */
 template <std::size_t kProfile, Return kReturn>
 AVX2_INLINE std::size_t writeBlock(const std::uint8_t* channels, const Column& column, const BeamBlock& beams,
                                    std::size_t ring, PointRoom to, std::size_t n)
@@ -138,7 +138,7 @@ AVX2_INLINE std::size_t writeBlock(const std::uint8_t* channels, const Column& c
   __m256i seen = _mm256_cmpgt_epi32(range, zero);
   if constexpr (kReturn == Return::Second)
   {
-    // A second return where the first one is, is the first one.
+    // A second return at the range of the first is left out.
     const __m256i second = field<kProfile, OusterField::Range2>(channels);
     seen = _mm256_andnot_si256(_mm256_cmpeq_epi32(second, range), _mm256_cmpgt_epi32(second, zero));
     range = second;
@@ -173,13 +173,13 @@ AVX2_INLINE std::size_t writeBlock(const std::uint8_t* channels, const Column& c
   return static_cast<std::size_t>(_mm_popcnt_u32(set));
 }
 
-/** The channels of the last block where there are fewer than a vector holds. */
+/** The same for a last block of fewer channels. */
 template <std::size_t kProfile, Return kReturn>
 [[gnu::noinline]] AVX2 std::size_t writeLast(const std::uint8_t* channels, std::size_t count, const Column& column,
                                              const BeamBlock& beams, std::size_t ring, PointRoom to, std::size_t n)
 {
   constexpr std::size_t kBytes = kOusterProfiles[kProfile].channel_bytes;
-  alignas(64) std::uint8_t filled_up[kLanes * kBytes] = {};  // channels that are not there have no return
+  alignas(64) std::uint8_t filled_up[kLanes * kBytes] = {};  // missing channels have no return
   std::memcpy(filled_up, channels, count * kBytes);
   return writeBlock<kProfile, kReturn>(filled_up, column, beams, ring, to, n);
 }

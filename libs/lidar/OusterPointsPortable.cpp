@@ -1,4 +1,4 @@
-/** Sixteen channels at a time in plain C++, in loops that compilers vectorise for any machine. */
+/** Sixteen channels at a time in plain C++, in loops that compilers can vectorise. */
 #include "lidar/OusterKernels.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::uint32_t field(const std::uint8_t* channel)
   return (To::kShift < 0 ? word >> -To::kShift : word << To::kShift) & To::kMask;
 }
 
-/** The range that becomes a point; 0 for none. A second return where the first one is, is the first one. */
+/** The range of a return, 0 for none. A second return at the range of the first is left out. */
 template <std::size_t kProfile, Return kReturn>
 std::uint32_t rangeOf(const std::uint8_t* channel)
 {
@@ -53,7 +53,7 @@ void read(const std::uint8_t* channels, std::size_t ring, Readings& readings)
   }
 }
 
-/** The column's angle and the origin of its rays: what all beams share. */
+/** Angle of the column and origin of its rays. */
 struct Column
 {
   float cos_th, sin_th, range_offset, origin[3];
@@ -61,7 +61,7 @@ struct Column
 
 Column columnOf(const OusterColumnView& view, const BeamBlock& any)
 {
-  Column column;  // not zeroed first: gcc calls that "rep stos", which takes longer than a block of channels
+  Column column;  // not zeroed first: gcc makes that a slow "rep stos"
   column.cos_th = view.cos_th;
   column.sin_th = view.sin_th;
   column.range_offset = any.range_offset[0];
@@ -69,7 +69,7 @@ Column columnOf(const OusterColumnView& view, const BeamBlock& any)
   return column;
 }
 
-/** Without __restrict, compilers would have to suppose that a coordinate overwrites the table. */
+/** Without __restrict compilers must assume that writing a coordinate changes the table. */
 void project(const Column& column, const BeamBlock& beams, int k, const float* __restrict along, float* __restrict to)
 {
   const float* __restrict a = beams.a[k];
@@ -102,8 +102,7 @@ void copy(const Readings& from, std::size_t i, const PointRoom& to, std::size_t 
   std::memcpy(to.near_ir + n, from.near_ir + i, kCount * sizeof *to.near_ir);
 }
 
-/** Four neighbours that all have a return are copied as one; else each is written and may be overwritten by the next.
- */
+/** Copies the returns. Four neighbours with returns are one copy; otherwise one without is overwritten by the next. */
 std::size_t squeeze(const Readings& readings, const PointRoom& to, std::size_t n)
 {
   for (std::size_t i = 0; i < kLanes; i += 4)
@@ -135,7 +134,7 @@ std::size_t writeReturn(const OusterColumnView& view, const BeamBlock* blocks, s
   Readings readings;
   for (std::size_t ring = 0; ring < beams; ring += kLanes, channels += kLanes * kBytes, ++blocks)
   {
-    std::uint8_t last[kLanes * kBytes] = {};  // channels that are not there have no return
+    std::uint8_t last[kLanes * kBytes] = {};  // missing channels have no return
     const bool whole = ring + kLanes <= beams;
     if (!whole) std::memcpy(last, channels, (beams - ring) * kBytes);
     read<kProfile, kReturn>(whole ? channels : last, ring, readings);

@@ -1,7 +1,7 @@
 /**
- * Every lidar UDP profile of Ouster, once: where each field lies in a channel's bytes.
- * Source: the packet tables of Ouster's sensor manuals (firmware 2.0 to 3.x) and, for the profiles they leave out, of
- * the public SDK 1.0.1. The decoder, the encoder and the digests read nothing else.
+ * The table of Ouster's lidar UDP profiles: where each field lies in a channel's bytes. Decoder, encoder and digests
+ * all use it. Source: packet tables of the sensor manuals (firmware 2.0 to 3.x); profiles that they lack from the
+ * public SDK 1.0.1.
  */
 #pragma once
 #include "core/Bytes.h"
@@ -35,7 +35,7 @@ enum class OusterField : std::uint8_t
 };
 constexpr std::size_t kOusterFieldCount = 14;
 
-/** The maker's name of a field and the size of the integer that holds its value. */
+/** Ouster's name of a field, and the size of the integer for its value. */
 struct OusterFieldType
 {
   std::string_view name;
@@ -59,7 +59,7 @@ constexpr std::array<OusterFieldType, kOusterFieldCount> kOusterFieldTypes{{
     {"B", 2},
 }};
 
-/** Bits of a channel, counted from its first byte's lowest one; the value is what stands there times 2^shift. */
+/** Bits of a channel, counted from the lowest bit of its first byte. The value is these bits times 2^shift. */
 struct BitField
 {
   std::uint8_t first = 0;
@@ -99,7 +99,7 @@ constexpr OusterProfile profile(std::string_view name, std::size_t channel_bytes
 
 using F = OusterField;
 
-/** The first four words that all 19 bit profiles with two returns share. */
+/** The first three words are the same in all 19 bit profiles with two returns. */
 constexpr OusterProfile dual19(std::string_view name, std::size_t channel_bytes, std::initializer_list<Row> rest)
 {
   OusterProfile p = profile(name, channel_bytes,
@@ -115,7 +115,7 @@ constexpr OusterProfile dual19(std::string_view name, std::size_t channel_bytes,
   return p;
 }
 
-/** The word that all low-rate profiles begin with, ranges in steps of 8 mm. */
+/** The first word is the same in all low-rate profiles; ranges have steps of 8 mm. */
 constexpr OusterProfile low15(std::string_view name, std::size_t channel_bytes, std::initializer_list<Row> rest)
 {
   OusterProfile p = profile(name, channel_bytes, {{F::Range, 0, 15, 3}, {F::Flags, 15, 1}, {F::Reflectivity, 16, 8}});
@@ -135,7 +135,7 @@ constexpr OusterProfile low15Dual(std::string_view name)
 }  // namespace ouster_profiles
 
 inline constexpr std::array kOusterProfiles{
-    // The reflectivity of a single return lies in the second word, that of two returns in the first.
+    // The reflectivity is in the second word of profiles with one return, in the first word with two returns.
     ouster_profiles::profile("LEGACY", 12,
                              {{OusterField::Range, 0, 20},
                               {OusterField::Flags, 28, 4},
@@ -185,10 +185,10 @@ inline constexpr std::array kOusterProfiles{
     ouster_profiles::dual19("FIVE_WORD_PIXEL", 20, {{OusterField::NearIr, 96, 16}, {OusterField::Window, 120, 8}}),
 };
 
-/** The row of that name; nothing if there is none. */
+/** The row of that name, or null. */
 const OusterProfile* findOusterProfile(std::string_view name);
 
-/** The fields of a profile lie inside its channel and fit into the integers that hold them. */
+/** Whether all fields lie inside the channel and fit into their types. */
 constexpr bool isConsistent(const OusterProfile& p)
 {
   for (std::size_t i = 0; i < kOusterFieldCount; ++i)
@@ -200,14 +200,14 @@ constexpr bool isConsistent(const OusterProfile& p)
   return p[OusterField::Range].present();
 }
 
-/** The value of a field of one channel; throws std::out_of_range if `channel` is too short. */
+/** The value of a field of one channel. Throws std::out_of_range if `channel` is too short. */
 inline std::uint32_t readField(Bytes channel, BitField f)
 {
   const auto word = static_cast<std::uint32_t>(loadUnsigned(channel, f.firstByte(), f.byteCount()));
   return ((word >> (f.first % 8)) & f.mask()) << f.shift;
 }
 
-/** The reverse: rounds `value` to the field's steps and stops at its largest. Throws std::out_of_range as readField. */
+/** Writes `value`, rounded to the field's steps and limited to its largest value. Throws std::out_of_range. */
 inline void writeField(std::vector<std::uint8_t>& packet, std::size_t channel_offset, BitField f, std::uint32_t value)
 {
   const std::size_t first = channel_offset + f.firstByte();

@@ -13,14 +13,14 @@
 
 namespace scanloom
 {
-/** How a lidar's packets are put in order and missed. */
+/** By what packets are put in order, and gaps between them seen. */
 enum class Numbering
 {
-  Ids,     // by frame id and measurement id
-  Stamps,  // packets bear no ids: by their stamps alone, at the packets' regular distance
+  Ids,     // frame id and measurement id
+  Stamps,  // packets have no ids: stamps at regular intervals
 };
 
-/** What does not change while a lidar runs. */
+/** What does not change while a lidar runs: a table with one row per property. */
 struct LidarDescription
 {
   std::string model;   // as the maker writes it: "OS-0-128"
@@ -35,8 +35,8 @@ struct LidarDescription
   std::uint64_t frame_id_modulus = 0;  // frame ids count modulo this: 65536 or 2^32
   Numbering numbering = Numbering::Ids;
   Duration stamp_modulus{0};       // stamps count modulo this (Velodyne: 1 h); 0: they do not wrap
-  Duration fixed_block_period{0};  // where it does not depend on the rotor's speed; 0: a turn's share
-  std::uint16_t lidar_port = 0;        // 0 if the metadata has none
+  Duration fixed_block_period{0};  // where it does not depend on the rotor's speed; 0: it does
+  std::uint16_t lidar_port = 0;    // 0 if the metadata has none
   std::uint16_t imu_port = 0;
   Rigid sensor_T_imu;   // the pose of the built-in IMU
   Rigid body_T_sensor;  // the extrinsics folded into the conversion
@@ -44,8 +44,7 @@ struct LidarDescription
 
   Duration blockPeriod() const
   {
-    return fixed_block_period > Duration{0} ? fixed_block_period
-                                            : fromSeconds(1.0 / (frame_rate * columns_per_frame));
+    return fixed_block_period > Duration{0} ? fixed_block_period : fromSeconds(1.0 / (frame_rate * columns_per_frame));
   }
 };
 
@@ -53,10 +52,10 @@ enum class PacketKind
 {
   Lidar,
   Imu,
-  Other,      // this lidar's, but of no use here (zone state)
-  Malformed,  // this lidar's port, but the size or the type fits nothing it sends
-  BadCrc,
-  Foreign,  // another sensor's: serial or init id of somebody else
+  Other,      // of this lidar, but without measurements (zone state)
+  Malformed,  // neither size nor type is one that this lidar sends
+  BadCrc,     // damaged on the way
+  Foreign,    // of another sensor, by its serial number or product id
 };
 
 /** What a packet says about the whole sensor. */
@@ -77,13 +76,13 @@ struct MeasurementBlock
   std::uint32_t frame_id = 0;
   std::uint16_t measurement_id = 0;  // column of the turn
   std::uint16_t index = 0;           // place in the packet
-  bool valid = false;                // says the sensor; and its id lies within the turn, its stamp within 62 bits
+  bool valid = false;                // the sensor says so, its id lies within the turn and its stamp within 62 bits
 };
 
 /**
- * Reads bounded bytes and never trusts them: what kind() calls Lidar can be given to readBlocks and appendPoints, what
- * it calls Imu to imuSamples, and both to header; they throw std::out_of_range on anything too short for them. Const
- * and free of state: one decoder may serve many threads.
+ * Reads bytes within their bounds and trusts none: what kind() calls Lidar can be given to readBlocks and appendPoints,
+ * what it calls Imu to imuSamples, and both to header; they throw std::out_of_range on a packet that is too short.
+ * Const and without state: one decoder may serve many threads.
  */
 class PacketDecoder
 {
@@ -92,16 +91,23 @@ class PacketDecoder
 
   virtual const LidarDescription& description() const = 0;
 
-  /** Checked once per packet: size, type, serial, CRC where the profile has one. */
-  virtual PacketKind kind(Bytes packet) const = 0;
+  /** By size, type and serial number: the cheap tests. Never BadCrc. */
+  virtual PacketKind kindByHeader(Bytes packet) const = 0;
+
+  /** False if the packet's format has a checksum, and it is not that of its bytes: a slow test. */
+  virtual bool isIntact(Bytes) const { return true; }
+
+  /** By all tests, where there is one decoder only: else see PacketRouter. */
+  PacketKind kind(Bytes packet) const { return isIntact(packet) ? kindByHeader(packet) : PacketKind::BadCrc; }
+
   virtual PacketHeader header(Bytes packet) const = 0;
 
   /** Replaces `blocks` by the headers of the packet's blocks, in the packet's order. */
   virtual void readBlocks(Bytes packet, std::vector<MeasurementBlock>& blocks) const = 0;
 
   /**
-   * Appends the valid returns of one block, converted into the body frame; `t` is written to every point
-   * (plus the channel's own firing offset where a brand has one). First returns of all channels, then the second ones.
+   * Appends the valid returns of one block in the body frame: first returns of all channels, then the second ones. `t`
+   * is written to every point, plus the channel's own firing time where a brand has one.
    */
   virtual void appendPoints(Bytes packet, std::size_t block_index, std::int32_t t, std::uint8_t sensor_id,
                             PointCloud& points) const = 0;

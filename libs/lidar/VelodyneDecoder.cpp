@@ -70,7 +70,7 @@ VelodyneDecoder::VelodyneDecoder(VelodyneMetadata metadata, const Rigid& body_T_
 {
 }
 
-PacketKind VelodyneDecoder::kind(Bytes packet) const
+PacketKind VelodyneDecoder::kindByHeader(Bytes packet) const
 {
   if (packet.size() == kVelodynePositionBytes) return PacketKind::Other;
   if (packet.size() != kVelodynePacketBytes) return PacketKind::Malformed;
@@ -91,6 +91,7 @@ void VelodyneDecoder::readBlocks(Bytes packet, std::vector<MeasurementBlock>& bl
   const Duration hour = description_.stamp_modulus;
   const Duration first_shot = std::chrono::microseconds{view.microseconds()} + metadata_.model->first_shot;
   blocks.clear();
+  blocks.reserve(view.sequences());
   for (std::size_t i = 0; i < view.sequences(); ++i)
   {
     const VelodyneSequence sequence = view.sequence(i);

@@ -18,10 +18,10 @@ namespace scanloom
  * no serial. frame_id is 0; measurement_id is the azimuth as a column of columns_per_frame: of two blocks half a column
  * apart both may have the same.
  *
- * kind(): Foreign is a packet with another product id; Other is a position packet; Malformed is also one with another
- * number of returns than the metadata says, since packets are put in order by how long each lasts. Of two returns the
- * first is that of the first data block of a pair (the maker: last, then strongest, or second strongest if the last is
- * the strongest).
+ * Foreign is a packet with another product id; Other is a position packet; Malformed is also one whose number of
+ * returns is not that of the metadata, since packets are put in order by how long each lasts. Of two returns the first
+ * is that of the first data block of a pair (the maker: last, then strongest, or second strongest if the last is the
+ * strongest).
  */
 class VelodyneDecoder : public PacketDecoder
 {
@@ -29,7 +29,7 @@ class VelodyneDecoder : public PacketDecoder
   VelodyneDecoder(VelodyneMetadata metadata, const Rigid& body_T_sensor);
 
   const LidarDescription& description() const override { return description_; }
-  PacketKind kind(Bytes packet) const override;
+  PacketKind kindByHeader(Bytes packet) const override;
   PacketHeader header(Bytes) const override { return {}; }
   void readBlocks(Bytes packet, std::vector<MeasurementBlock>& blocks) const override;
   void appendPoints(Bytes packet, std::size_t block_index, std::int32_t t, std::uint8_t sensor_id,

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "lidar/MetadataKeys.h"
 
 namespace scanloom
@@ -34,11 +36,15 @@ std::vector<double> perLaser(const MetadataKeys& keys, const std::string& key, c
 
 bool looksLikeVelodyne(const std::string& text)
 {
-  if (text.find("velodyne") == std::string::npos) return false;  // most files are long and of another maker
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) return false;
-  const auto lidar = json.find("lidar");
-  return lidar != json.end() && lidar->is_string() && *lidar == "velodyne";
+  if (text.find("velodyne") == std::string::npos) return false;  // spares parsing long files of other makers
+  try
+  {
+    return MetadataKeys(text, "").text(kTopLevel, "lidar") == "velodyne";
+  }
+  catch (const std::invalid_argument&)
+  {
+    return false;
+  }
 }
 
 VelodyneMetadata parseVelodyneMetadata(const std::string& text, const std::string& name)

@@ -1,4 +1,4 @@
-/** The small file that says which Velodyne sensor it is and where its beams point: params/lidars/velodyne_*.json. */
+/** The file with model, settings and beam angles of a Velodyne sensor: params/lidars/velodyne_*.json. */
 #pragma once
 #include "lidar/VelodyneModels.h"
 
@@ -7,12 +7,12 @@
 
 namespace scanloom
 {
-/** One value per laser in the order of firing (laser id of the maker's calibration files). */
+/** Lists have one value per laser in the order of firing (laser id of the maker's calibration files). */
 struct VelodyneMetadata
 {
   const VelodyneModel* model = nullptr;  // a row of kVelodyneModels
-  std::uint8_t product_id = 0;           // the packets' last byte; the model's own unless the file says otherwise
-  std::string serial;                    // for reports: packets bear none
+  std::uint8_t product_id = 0;           // last byte of packets; that of the model unless the file has one
+  std::string serial;                    // for reports only: packets have none
   double rpm = 600;                      // as set in the sensor
   int returns = 1;                       // as set in the sensor: 1 (strongest or last) or 2
   std::uint16_t lidar_port = 2368;
@@ -25,6 +25,6 @@ struct VelodyneMetadata
 /** Whether this is the text of such a file: a JSON object with "lidar": "velodyne". */
 bool looksLikeVelodyne(const std::string& text);
 
-/** Throws std::invalid_argument with `name`, key and what is expected. */
+/** Throws std::invalid_argument with `name`, the key and what is expected. */
 VelodyneMetadata parseVelodyneMetadata(const std::string& text, const std::string& name);
 }  // namespace scanloom

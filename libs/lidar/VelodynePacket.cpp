@@ -14,10 +14,10 @@ constexpr std::size_t kStamp = 1200, kReturnMode = 1204, kProductId = 1205;     
 constexpr std::uint8_t kStrongest = 0x37, kDual = 0x39;                             // 0x38 is the last return
 constexpr std::array<std::uint16_t, 4> kBankFlags{0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF};  // lasers 0-31, 32-63, ...
 
-// The fastest a rotor turns is 20 Hz; what goes on faster is the jump over the part of a turn that is switched off.
+// Rotors turn at up to 20 Hz. A faster step is a gap: the jump over the part of a turn that is switched off.
 constexpr double kFastestRate = 24.0 * kVelodyneTurn * 1e-9;
 
-// A rotor that is this close to its set speed has been governed to it, far better than one packet can measure.
+// If the measured rate is this close to the set one, the set one is the more exact.
 constexpr double kGoverned = 0.02;
 }  // namespace
 
@@ -54,7 +54,7 @@ bool VelodynePacket::isSound() const
   return true;
 }
 
-/** From this group's azimuth to the next one's, forwards unless the encoder trembled. */
+/** Azimuth from this group to the next one; negative if the encoder went back a little. */
 int VelodynePacket::step(std::size_t group) const
 {
   const int forwards = (azimuth(group + 1) - azimuth(group) + 2 * kVelodyneTurn) % kVelodyneTurn;
@@ -78,9 +78,9 @@ double VelodynePacket::measuredRate() const
 }
 
 /**
- * Where part of the turn is switched off, a packet runs on behind the gap, and only the azimuth tells how long it
- * was. Lasers fire in step all the time, so that it is a whole number of periods; rounded down, because a stamp that is
- * too early by some is better than one behind the next packet's. Two gaps in one packet are no gaps but damage.
+ * If part of the turn is switched off, a packet continues after the gap, and only the azimuth tells how long the gap
+ * was. It is a whole number of periods, since lasers fire at all times. Rounded down: a stamp that is a little too
+ * early is better than one after the next packet's. Two gaps in one packet are damage.
  */
 void VelodynePacket::findGap()
 {

@@ -1,4 +1,4 @@
-/** What a Velodyne data packet holds, by firing sequence: 12 blocks of 32 readings, stamp, return mode, product id. */
+/** A Velodyne data packet (12 blocks of 32 readings, stamp, return mode, product id), read by firing sequence. */
 #pragma once
 #include "core/Bytes.h"
 #include "lidar/VelodyneModels.h"
@@ -6,7 +6,7 @@
 namespace scanloom
 {
 constexpr std::size_t kVelodynePacketBytes = 1206;
-constexpr std::size_t kVelodynePositionBytes = 512;  // GPS sentence and housekeeping, on a port of its own
+constexpr std::size_t kVelodynePositionBytes = 512;  // position packets: GPS sentence and housekeeping, on another port
 constexpr int kVelodyneTurn = 36000;                 // azimuths count hundredths of a degree, clockwise from above
 
 struct VelodyneReading
@@ -15,24 +15,24 @@ struct VelodyneReading
   std::uint8_t reflectivity = 0;
 };
 
-/** When and where to a sequence fires. */
+/** Time and direction of a firing sequence. */
 struct VelodyneSequence
 {
-  Duration after_first{0};  // of its first shot, after the packet's first one
-  double azimuth = 0;       // at its first shot, in hundredths of a degree; below 36000
+  Duration after_first{0};  // time of its first shot after the first one of the packet
+  double azimuth = 0;       // of its first shot, in hundredths of a degree; below 36000
   bool valid = false;
 };
 
 /**
- * A view: throws std::out_of_range on fewer than kVelodynePacketBytes. Two returns come as pairs of data blocks with
- * one azimuth: such a packet has half as many sequences with two readings per laser.
+ * A view of the bytes. Throws std::out_of_range for fewer than kVelodynePacketBytes. With two returns, pairs of data
+ * blocks have the same azimuth: there are half as many sequences, with two readings per laser.
  */
 class VelodynePacket
 {
  public:
   VelodynePacket(Bytes packet, const VelodyneModel& model, double rpm);
 
-  /** Return mode, block flags and model fit together. */
+  /** Whether return mode, block flags and model fit together. */
   bool isSound() const;
 
   bool hasTwoReturns() const { return mode_ == 0x39; }
@@ -42,10 +42,10 @@ class VelodynePacket
   std::size_t sequences() const { return groups_ * sequences_per_group_; }
   VelodyneSequence sequence(std::size_t index) const;
 
-  /** Hundredths of a degree per ns, over this packet. */
+  /** Rate of rotation within this packet, hundredths of a degree per ns. */
   double rate() const { return rate_; }
 
-  /** `which`: 0, or 1 where there are two returns. */
+  /** `which` return: 0, or 1 in packets with two. */
   VelodyneReading reading(std::size_t sequence, std::size_t laser, std::size_t which) const;
 
  private:
@@ -59,12 +59,12 @@ class VelodynePacket
   Bytes packet_;
   const VelodyneModel& model_;
   std::uint8_t mode_ = 0;
-  std::size_t blocks_per_group_ = 1;     // data blocks that share one azimuth
-  std::size_t sequences_per_group_ = 1;  // two where a block holds 16 lasers twice
+  std::size_t blocks_per_group_ = 1;     // a group: the data blocks with one azimuth
+  std::size_t sequences_per_group_ = 1;  // two if a block has two sequences of 16 lasers
   std::size_t groups_ = 12;
   Duration group_period_;
   double nominal_rate_ = 0, rate_ = 0;
-  std::size_t first_behind_gap_ = 12;  // group
+  std::size_t first_behind_gap_ = 12;  // the group after a gap
   std::int64_t gap_periods_ = 0;
 };
 }  // namespace scanloom

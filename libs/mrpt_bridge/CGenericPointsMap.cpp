@@ -9,6 +9,7 @@
 #include <mrpt/serialization/stl_serialization.h>
 
 #include <algorithm>
+#include <type_traits>
 
 IMPLEMENTS_SERIALIZABLE(CGenericPointsMap, CPointsMap, mrpt::maps)
 
@@ -18,12 +19,13 @@ using mrpt::serialization::CArchive;
 
 namespace
 {
-/** Which types a version of the wire format holds: float and uint16 always. */
-bool holds(const CGenericPointsMap::Fields<float>&, std::uint8_t) { return true; }
-bool holds(const CGenericPointsMap::Fields<double>&, std::uint8_t version) { return version >= 1; }
-bool holds(const CGenericPointsMap::Fields<std::uint16_t>&, std::uint8_t) { return true; }
-bool holds(const CGenericPointsMap::Fields<std::uint8_t>&, std::uint8_t version) { return version >= 2; }
-bool holds(const CGenericPointsMap::Fields<std::uint32_t>&, std::uint8_t version) { return version >= 4; }
+/** Whether a version of the wire format has fields of the type; float and uint16 always. */
+template <typename T>
+bool hasFieldsOf(const CGenericPointsMap::Fields<T>&, std::uint8_t version)
+{
+  const int first = std::is_same_v<T, double> ? 1 : std::is_same_v<T, std::uint8_t> ? 2 : 4;
+  return std::is_same_v<T, float> || std::is_same_v<T, std::uint16_t> || version >= first;
+}
 
 template <typename T>
 void writeValues(CArchive& out, const mrpt::aligned_std_vector<T>& values)
@@ -31,7 +33,7 @@ void writeValues(CArchive& out, const mrpt::aligned_std_vector<T>& values)
   if (!values.empty()) out.WriteBufferFixEndianness(values.data(), values.size());
 }
 
-/** A damaged length must end in an exception at the end of the data, not in 50 GB: memory grows with what arrives. */
+/** Memory grows with the data that arrives: a damaged count ends in an exception, not in a request for 50 GB. */
 template <typename T>
 void readValues(CArchive& in, std::size_t count, mrpt::aligned_std_vector<T>& values)
 {
@@ -49,7 +51,7 @@ void readValues(CArchive& in, std::size_t count, mrpt::aligned_std_vector<T>& va
 template <typename T>
 void readField(CArchive& in, std::uint8_t version, mrpt::aligned_std_vector<T>& values)
 {
-  // Up to version 2 the values went through MRPT's operators for containers, which put names of types before some.
+  // Up to version 2 the values were written by MRPT's operators for containers, which write some types' names first.
   if (version < 3)
     in >> values;
   else
@@ -68,7 +70,7 @@ void CGenericPointsMap::serializeTo(CArchive& out) const
   forEachType(*this,
               [&](const auto& fields)
               {
-                if (!holds(fields, serializeGetVersion())) return;
+                if (!hasFieldsOf(fields, serializeGetVersion())) return;
                 out.WriteAs<std::uint32_t>(fields.size());
                 for (const auto& [name, values] : fields)
                 {
@@ -93,7 +95,7 @@ void CGenericPointsMap::serializeFrom(CArchive& in, std::uint8_t version)
   forEachType(*this,
               [&](auto& fields)
               {
-                if (!holds(fields, version)) return;
+                if (!hasFieldsOf(fields, version)) return;
                 const auto count = in.ReadAs<std::uint32_t>();
                 for (std::uint32_t i = 0; i < count; i++)
                 {
@@ -114,41 +116,14 @@ bool CGenericPointsMap::hasPointField(const std::string& name) const
   return found;
 }
 
-template <typename T>
-bool CGenericPointsMap::registerIn(Fields<T>& fields, const std::string& name)
-{
-  if (hasPointField(name)) THROW_EXCEPTION_FMT("Field '%s' already exists.", name.c_str());
-  fields[name].resize(m_x.size());
-  return true;
-}
-template bool CGenericPointsMap::registerIn(Fields<float>&, const std::string&);
-template bool CGenericPointsMap::registerIn(Fields<double>&, const std::string&);
-template bool CGenericPointsMap::registerIn(Fields<std::uint16_t>&, const std::string&);
-template bool CGenericPointsMap::registerIn(Fields<std::uint8_t>&, const std::string&);
-template bool CGenericPointsMap::registerIn(Fields<std::uint32_t>&, const std::string&);
-
 void CGenericPointsMap::reserve(std::size_t length)
 {
-  m_x.reserve(length);
-  m_y.reserve(length);
-  m_z.reserve(length);
-  forEachType(*this,
-              [&](auto& fields)
-              {
-                for (auto& [name, values] : fields) values.reserve(length);
-              });
+  forEachColumn([&](auto& values) { values.reserve(length); });
 }
 
 void CGenericPointsMap::resize(std::size_t length)
 {
-  m_x.resize(length);
-  m_y.resize(length);
-  m_z.resize(length);
-  forEachType(*this,
-              [&](auto& fields)
-              {
-                for (auto& [name, values] : fields) values.resize(length);
-              });
+  forEachColumn([&](auto& values) { values.resize(length); });
   mark_as_modified();
 }
 
@@ -238,16 +213,6 @@ void CGenericPointsMap::internal_clear()
   forEachType(*this, [](auto& fields) { fields.clear(); });
 }
 
-template <typename RangeScan>
-void CGenericPointsMap::appendRangeScan(const RangeScan& scan, const std::optional<const mrpt::poses::CPose3D>& pose)
-{
-  CSimplePointsMap points;
-  points.insertionOptions = insertionOptions;
-  points.loadFromRangeScan(scan, pose);
-  if (!insertionOptions.addToExistingPointsMap) resize(0);
-  insertAnotherMap(&points, mrpt::poses::CPose3D::Identity());
-}
-
 void CGenericPointsMap::loadFromRangeScan(const mrpt::obs::CObservation2DRangeScan& scan,
                                           const std::optional<const mrpt::poses::CPose3D>& pose)
 {
@@ -258,6 +223,16 @@ void CGenericPointsMap::loadFromRangeScan(const mrpt::obs::CObservation3DRangeSc
                                           const std::optional<const mrpt::poses::CPose3D>& pose)
 {
   appendRangeScan(scan, pose);
+}
+
+template <typename RangeScan>
+void CGenericPointsMap::appendRangeScan(const RangeScan& scan, const std::optional<const mrpt::poses::CPose3D>& pose)
+{
+  CSimplePointsMap points;
+  points.insertionOptions = insertionOptions;
+  points.loadFromRangeScan(scan, pose);
+  if (!insertionOptions.addToExistingPointsMap) resize(0);
+  insertAnotherMap(&points, mrpt::poses::CPose3D::Identity());
 }
 }  // namespace mrpt::maps
 #endif

@@ -1,9 +1,9 @@
 /**
- * MRPT's point map with named fields. MRPT has it from 2.15.0 on; for an older MRPT this file gives a class of the same
- * name, the same wire format and the part of the interface that we use, so that one rawlog serves both.
+ * MRPT's point map with named fields. MRPT has it from 2.15.0 on. For an older MRPT this file defines a class of the
+ * same name and wire format, with the part of the interface that we use, so that both read the same rawlogs.
  *
- * Reads the versions 0 to 4 and writes version 3, which MRPT reads from 2.15.3 on (2.15.0 to 2.15.2 know no uint8
- * fields and refuse it). A map with uint32 fields, which only version 4 can hold, is written as version 4.
+ * Reads versions 0 to 4 of the wire format and writes version 3, which MRPT reads from 2.15.3 on (2.15.0 to 2.15.2 have
+ * no uint8 fields and refuse it). A map with uint32 fields is written as version 4, the only one that has them.
  */
 #pragma once
 #if __has_include(<mrpt/maps/CGenericPointsMap.h>)
@@ -36,7 +36,7 @@ class CGenericPointsMap : public CPointsMap
     return *this;
   }
 
-  /** Adds a field of zeros; throws std::exception if one of that name is there. Returns true, as MRPT's does. */
+  /** Adds a field of zeros; throws std::exception if the name is used already. Returns true, as MRPT's does. */
   bool registerField_float(const std::string& name) { return registerIn(float_fields_, name); }
   bool registerField_double(const std::string& name) { return registerIn(double_fields_, name); }
   bool registerField_uint16(const std::string& name) { return registerIn(uint16_fields_, name); }
@@ -51,7 +51,7 @@ class CGenericPointsMap : public CPointsMap
   const Fields<std::uint8_t>& uint8_fields() const { return uint8_fields_; }
   const Fields<std::uint32_t>& uint32_fields() const { return uint32_fields_; }
 
-  /** The values of a field, null if there is none of that name and type. */
+  /** The values of a field; null if there is no field of that name and type. */
   auto* getPointsBufferRef_float_field(const std::string& name) { return find(float_fields_, name); }
   auto* getPointsBufferRef_float_field(const std::string& name) const { return find(float_fields_, name); }
   auto* getPointsBufferRef_double_field(const std::string& name) { return find(double_fields_, name); }
@@ -100,8 +100,25 @@ class CGenericPointsMap : public CPointsMap
     return found == fields.end() ? nullptr : &found->second;
   }
 
+  /** Calls visit(values) for x, y, z and every field. */
+  template <typename Visitor>
+  void forEachColumn(Visitor&& visit)
+  {
+    for (auto* values : {&m_x, &m_y, &m_z}) visit(*values);
+    forEachType(*this,
+                [&](auto& fields)
+                {
+                  for (auto& [name, values] : fields) visit(values);
+                });
+  }
+
   template <typename T>
-  bool registerIn(Fields<T>&, const std::string& name);
+  bool registerIn(Fields<T>& fields, const std::string& name)
+  {
+    if (hasPointField(name)) THROW_EXCEPTION_FMT("Field '%s' already exists.", name.c_str());
+    fields[name].resize(m_x.size());
+    return true;
+  }
 
   template <typename RangeScan>
   void appendRangeScan(const RangeScan&, const std::optional<const mrpt::poses::CPose3D>&);

@@ -1,9 +1,10 @@
 #include "mrpt_bridge/CMultiLidarSensor.h"
 
+#include "core/Interruption.h"
 #include "mrpt_bridge/rigSettingsFrom.h"
+#include "rig/Rig.h"
 
 #include <algorithm>
-#include <csignal>
 #include <utility>
 
 IMPLEMENTS_GENERIC_SENSOR(CMultiLidarSensor, scanloom)
@@ -12,32 +13,14 @@ namespace scanloom
 {
 namespace
 {
-/** After so many periods of the grabber in which nothing was freed, nothing more can be expected of it. */
+/** After so many periods in which it freed nothing, the grabber will not write any more. */
 constexpr int kGrabberPeriods = 12;
 
-/** Half of max_queue_len may be read ahead, and as many scans may wait at the application. */
+/** Half of max_queue_len is for observations that are read ahead, the other half for scans at the application. */
 std::size_t readAhead(std::size_t max_queue_len) { return std::max<std::size_t>(1, max_queue_len / 2); }
 
-/** At least two: rawlog-grabber writes half of what waits, rounded down. */
+/** At least two: rawlog-grabber writes half of the waiting ones, rounded down. */
 std::size_t mostWaiting(std::size_t max_queue_len) { return std::max<std::size_t>(2, max_queue_len / 2); }
-
-volatile std::sig_atomic_t g_interrupted = 0;  // all that a signal handler may touch
-
-/** Stock applications die of these signals and leave a cut file. Whoever minds them already is left alone. */
-void catchInterruption()
-{
-  g_interrupted = 0;
-  for (const int signal : {SIGINT, SIGTERM})
-  {
-    struct sigaction current = {};
-    sigaction(signal, nullptr, &current);
-    if (current.sa_handler != SIG_DFL) continue;
-    struct sigaction action = {};
-    action.sa_handler = [](int) { g_interrupted = 1; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(signal, &action, nullptr);
-  }
-}
 }  // namespace
 
 CMultiLidarSensor::~CMultiLidarSensor()
@@ -62,7 +45,7 @@ void CMultiLidarSensor::initialize()
 {
   observations_ = std::make_unique<RigObservations>(makeRig(settings_), settings_.driver);
   feed_ = std::make_unique<ObservationFeed>([this] { return observations_->next(); }, readAhead(m_max_queue_len));
-  if (isLive()) catchInterruption();
+  if (isLive()) catchUnhandledInterruption();  // stock applications would end at once and leave a cut file
   m_state = ssWorking;
 }
 
@@ -71,7 +54,7 @@ void CMultiLidarSensor::doProcess()
   const Time now = std::chrono::steady_clock::now();
   if (isLive())
   {
-    if (g_interrupted) observations_->stop();
+    if (interrupted()) observations_->stop();
     logWarnings();
   }
   if (!input_ended_) handOver(now);
@@ -96,7 +79,7 @@ void CMultiLidarSensor::handOver(Time now)
   }
   catch (...)
   {
-    // What was read before the error is to be written like all else before the application hears of it.
+    // The application first writes what was read before the error; then doProcess() throws it.
     error_ = std::current_exception();
     input_ended_ = true;
     m_state = ssError;
@@ -104,7 +87,7 @@ void CMultiLidarSensor::handOver(Time now)
   if (!input_ended_) return;
   logWarnings();
   logAccount();
-  giveSacrifice();
+  announceEnd();
 }
 
 void CMultiLidarSensor::give(const mrpt::obs::CObservation::Ptr& observation, Time now)
@@ -118,13 +101,13 @@ void CMultiLidarSensor::give(const mrpt::obs::CObservation::Ptr& observation, Ti
 
 bool CMultiLidarSensor::isDecimated()
 {
-  if (++scans_passed_over_ < scan_decimation_) return true;
-  scans_passed_over_ = 0;
+  if (++scans_left_out_ < scan_decimation_) return true;
+  scans_left_out_ = 0;
   return false;
 }
 
-/** rawlog-grabber never writes its last object: let it be one that nobody misses. */
-void CMultiLidarSensor::giveSacrifice()
+/** As a comment, because rawlog-grabber never writes the last object that it was given. */
+void CMultiLidarSensor::announceEnd()
 {
   auto comment = mrpt::obs::CObservationComment::Create();
   comment->timestamp = latest_stamp_ + mrpt::Clock::duration(1);

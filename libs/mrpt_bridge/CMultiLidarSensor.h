@@ -2,7 +2,7 @@
 #include "mrpt_bridge/HandedOver.h"
 #include "mrpt_bridge/ObservationFeed.h"
 #include "mrpt_bridge/RigObservations.h"
-#include "source/RigOptions.h"
+#include "rig/RigOptions.h"
 
 #include <mrpt/hwdrivers/CGenericSensor.h>
 #include <mrpt/system/COutputLogger.h>
@@ -13,10 +13,10 @@
 namespace scanloom
 {
 /**
- * Several spinning lidars as one sensor: all their measurement blocks in one cloud per period, in time order and in the
- * body frame, batched by sampling time.
+ * Several spinning lidars as one sensor: one cloud per period with the measurement blocks of all lidars, by sampling
+ * time, in time order and in the body frame.
  *
- * Gives, in the order of the events:
+ * Its observations, in the order of the events:
  *  - first an mrpt::obs::CObservationComment that describes the lidars (RecordingHeader, JSON),
  *  - mrpt::obs::CObservationPointCloud, one per period, label `sensorLabel`: see Observations.h for its fields,
  *  - mrpt::obs::CObservationIMU, label `imu_label` for the body's own IMU and `imu_label`_NAME for that of lidar NAME.
@@ -60,12 +60,12 @@ namespace scanloom
  *   #queue_packets  = 1024     // packets that wait per lidar at most
  *  \endcode
  *
- * Live, the first SIGINT or SIGTERM is the end of input (unless the application itself minds these signals); a second
- * one ends the application as ever.
+ * Live, the first SIGINT or SIGTERM ends the input, unless the application handles these signals itself. A second one
+ * ends the application.
  *
- * At the end of input, when the application has written everything, doProcess() throws "end of input: drained (not an
- * error)": rawlog-grabber knows no other way to be told. It ends all sections then, so give other sensors of the same
- * run their own grabber. Set GRABBER_PERIOD_MS = 200 in [global].
+ * At the end of the input, when the application has written everything, doProcess() throws "end of input: drained (not
+ * an error)": an exception is the only way to stop rawlog-grabber. It then ends all sections, so run other sensors in a
+ * grabber of their own. Set GRABBER_PERIOD_MS = 200 in [global].
  */
 class CMultiLidarSensor : public mrpt::hwdrivers::CGenericSensor, public mrpt::system::COutputLogger
 {
@@ -75,7 +75,7 @@ class CMultiLidarSensor : public mrpt::hwdrivers::CGenericSensor, public mrpt::s
   CMultiLidarSensor() : COutputLogger("CMultiLidarSensor") {}
   ~CMultiLidarSensor() override;
 
-  /** Opens metadata and captures or sockets and begins to read; throws what is wrong with them. */
+  /** Opens the captures or the sockets and begins to read. Throws what makeRig() and RigObservations throw. */
   void initialize() override;
   void doProcess() override;
 
@@ -90,17 +90,17 @@ class CMultiLidarSensor : public mrpt::hwdrivers::CGenericSensor, public mrpt::s
   void handOver(Time now);
   void give(const mrpt::obs::CObservation::Ptr&, Time now);
   bool isDecimated();
-  void giveSacrifice();
+  void announceEnd();
   void logWarnings();
   void logAccount() const;
 
   RigSettings settings_;
   std::size_t scan_decimation_ = 0;  // 0 or 1: keep all
-  std::size_t scans_passed_over_ = 0;
+  std::size_t scans_left_out_ = 0;
   std::optional<HandedOver> scans_given_;  // from loadConfig on
   std::optional<HandedOver> others_given_;
   mrpt::Clock::time_point latest_stamp_;
-  std::exception_ptr error_;  // what ended the input, if not its end
+  std::exception_ptr error_;  // that ended the input, if one did
   bool input_ended_ = false;
   std::unique_ptr<RigObservations> observations_;  // from initialize on; the feed's thread reads them
   std::unique_ptr<ObservationFeed> feed_;

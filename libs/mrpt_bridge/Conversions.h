@@ -1,4 +1,4 @@
-/** The rim: our time and poses as MRPT's, and back. Inside the house they are int64 ns and Rigid. */
+/** Times and poses as MRPT's types, and back. */
 #pragma once
 #include "core/Rigid.h"
 #include "core/Time.h"
@@ -8,9 +8,10 @@
 
 namespace scanloom
 {
-/** MRPT counts 100 ns ticks since 1601: rounds down, so that nothing measured after `stamp` gets a negative offset. */
+/** MRPT counts ticks of 100 ns. Rounds down, so that no time relative to the result is negative. */
 mrpt::Clock::time_point toMrpt(Timestamp stamp);
-/** What 64 bits of nanoseconds do not hold (before 1677, after 2262) becomes the nearest that they do. */
+
+/** Times before 1677 or after 2262, which 64 bits of ns do not hold, become the nearest that they hold. */
 Timestamp fromMrpt(mrpt::Clock::time_point);
 
 mrpt::poses::CPose3D toMrpt(const Rigid&);

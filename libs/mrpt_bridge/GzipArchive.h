@@ -1,6 +1,6 @@
 /**
- * A gzip file as MRPT's archive. mrpt::io::CFileGZ*Stream would do but for what they keep to themselves: a damaged or
- * cut file (gzread's -1 becomes a length of 2^64 - 1) and a full disk (gzclose's result is dropped).
+ * A gzip file as MRPT's archive. MRPT's own CFileGZInputStream and CFileGZOutputStream do not report a damaged or cut
+ * file (gzread's -1 becomes a length of 2^64 - 1) nor a full disk (gzclose's result is ignored).
  */
 #pragma once
 #include <mrpt/serialization/CArchive.h>
@@ -17,31 +17,31 @@ class GzipArchive : public mrpt::serialization::CArchive
   static GzipArchive reading(const std::filesystem::path&);
   /** Level 0 (stored) to 9. */
   static GzipArchive writing(const std::filesystem::path&, int level);
-  /** Reads it to the end. Throws std::runtime_error if it can't be opened, is cut short or damaged. */
+  /** Reads the file to its end. Throws std::runtime_error if it can't be opened, is cut short or damaged. */
   static std::uint64_t uncompressedBytes(const std::filesystem::path&);
 
   GzipArchive(GzipArchive&&) noexcept;
   GzipArchive& operator=(GzipArchive&&) = delete;
   ~GzipArchive() override;
 
-  /** Whether the file ends here, in good order; throws std::runtime_error if it ends because it was cut or damaged. */
+  /** Whether the file ends here. Throws std::runtime_error if it ends because it is cut or damaged. */
   bool atEnd();
 
-  /** Of the file as it lies on the disk, for a progress bar: runs ahead of the objects by a buffer. */
+  /** Compressed bytes, for a progress bar; ahead of the objects by up to one buffer. */
   std::uint64_t bytesRead() const;
 
   /**
-   * What was written so far is handed to the operating system as a whole gzip member: readable whatever becomes of this
-   * program. Readers take the members of a file for one stream. Throws std::runtime_error if the disk says no.
+   * Ends the gzip member and passes it to the operating system: what was written so far is readable even if the program
+   * is killed. Readers take the members of a file as one stream. Throws std::runtime_error if it cannot be written.
    */
   void endMember();
 
-  /** Throws std::runtime_error if not everything got onto the disk. */
+  /** Throws std::runtime_error if not everything could be written. */
   void close();
 
  protected:
   std::size_t write(const void* bytes, std::size_t count) override;
-  /** All of them, or std::runtime_error. */
+  /** Reads all `count` bytes, or throws std::runtime_error. */
   std::size_t read(void* bytes, std::size_t count) override;
 
  private:

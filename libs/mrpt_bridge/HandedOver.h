@@ -9,15 +9,16 @@
 namespace scanloom
 {
 /**
- * The observations that an application was given and still holds. rawlog-grabber tells nobody what it has written, and
- * it writes only half of what waits per period; but what it has written it frees, and that can be seen from here.
+ * The observations that an application was given and still holds. rawlog-grabber writes only half of the waiting
+ * observations per period and does not report what it has written. But it frees what it has written, and weak pointers
+ * show that.
  */
 class HandedOver
 {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /** An application that frees nothing for so long is taken for one that keeps everything. */
+  /** An application that frees nothing for `patience` is assumed to keep everything. */
   explicit HandedOver(std::chrono::nanoseconds patience) : patience_(patience) {}
 
   void add(const mrpt::obs::CObservation::Ptr&, Time now);
@@ -25,7 +26,7 @@ class HandedOver
   /** How many it still holds. */
   std::size_t held(Time now);
 
-  /** Whether it holds some and may yet free them. */
+  /** Whether it holds observations and may still free them. */
   bool isWorthWaitingFor(Time now) { return held(now) > 0 && now - last_change_ < patience_; }
 
  private:

@@ -1,4 +1,4 @@
-/** The IMU of any MRPT sensor, run as rawlog-grabber runs it. */
+/** The IMU samples of an MRPT sensor, which is run as rawlog-grabber runs it. */
 #pragma once
 #include "core/ImuSample.h"
 #include "core/Rigid.h"
@@ -16,9 +16,9 @@
 namespace scanloom
 {
 /**
- * A thread of its own calls the sensor's doProcess() at `process_rate` and keeps what is a CObservationIMU with angular
- * rates and accelerations. The sensor is the class that the section's `driver` names, of MRPT or of a plugin that was
- * loaded before.
+ * A thread of its own calls the sensor's doProcess() at `process_rate` and keeps each CObservationIMU with angular
+ * rates and accelerations. The section's `driver` names the sensor's class, of MRPT or of a plugin that was loaded
+ * before.
  */
 class ImuDriver
 {
@@ -29,13 +29,13 @@ class ImuDriver
   ImuDriver& operator=(const ImuDriver&) = delete;
   ~ImuDriver();
 
-  /** Where the IMU sits, as the sensor says; waits for its first sample. Throws std::runtime_error if none comes. */
+  /** The pose that comes with the samples. Waits for the first one; throws std::runtime_error if none comes. */
   Rigid body_T_imu(Duration patience);
 
-  /** What came since the last call, at most ten minutes of it. */
+  /** The samples since the last call, at most those of ten minutes at 1 kHz. */
   std::vector<ImuSample> take();
 
-  /** Why the sensor ended, once: it gives no more samples. */
+  /** Why the sensor gives no more samples, if it failed; only once. */
   std::optional<std::string> takeFailure();
 
  private:

@@ -1,25 +1,26 @@
 #pragma once
-#include <mrpt/obs/CObservation.h>
+#include "core/BoundedQueue.h"
 
-#include <condition_variable>
+#include <mrpt/obs/obs_frwds.h>
+
 #include <cstddef>
-#include <deque>
-#include <exception>
 #include <functional>
-#include <mutex>
+#include <memory>
 #include <thread>
 
 namespace scanloom
 {
 /**
- * Reads ahead in a thread of its own, a bounded number of observations before whoever takes them. For input that can
- * wait: when the queue is full, the reading rests and nothing is dropped.
+ * Reads a source in a thread of its own, a bounded number of observations ahead of take(). Reading pauses while so many
+ * wait; nothing is dropped.
  */
 class ObservationFeed
 {
  public:
+  using Observation = std::shared_ptr<mrpt::obs::CObservation>;
+
   /** Called in the feed's thread; null at the end of input. What it throws comes out of take(). */
-  using Source = std::function<mrpt::obs::CObservation::Ptr()>;
+  using Source = std::function<Observation()>;
 
   ObservationFeed(Source, std::size_t capacity);
   ~ObservationFeed();
@@ -27,22 +28,16 @@ class ObservationFeed
   ObservationFeed& operator=(const ObservationFeed&) = delete;
 
   /** Never waits; null if nothing is ready. Once everything before it is taken, throws what the source threw. */
-  mrpt::obs::CObservation::Ptr take();
+  Observation take() { return queue_.pop(Duration{0}).value_or(nullptr); }
 
-  /** Whether input has ended and everything is taken. */
-  bool ended() const;
+  /** Whether the source has ended and everything was taken. */
+  bool ended() const { return queue_.ended(); }
 
  private:
   void read();
 
   Source source_;
-  std::size_t capacity_;
-  mutable std::mutex mutex_;
-  std::condition_variable taken_;
-  std::deque<mrpt::obs::CObservation::Ptr> queue_;
-  std::exception_ptr error_;
-  bool source_ended_ = false;
-  bool stop_ = false;
+  BoundedQueue<Observation> queue_;
   std::thread thread_;  // last: it uses all of the above
 };
 }  // namespace scanloom

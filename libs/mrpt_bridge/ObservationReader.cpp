@@ -1,6 +1,6 @@
 #include "mrpt_bridge/ObservationReader.h"
 
-#include "mrpt_bridge/MrptMessage.h"
+#include "config/MrptMessage.h"
 #include "mrpt_bridge/registerClasses.h"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ void ObservationReader::readObject()
   catch (const std::exception& e)
   {
     ended_ = true;
-    damage_ = fmt::format("after {} objects: {}", objects_, messageOf(e));
+    damage_ = fmt::format("after {} objects: {}", objects_, messageIn(e.what()));
   }
 }
 }  // namespace scanloom

@@ -10,9 +10,9 @@
 namespace scanloom
 {
 /**
- * The observations of any rawlog in the file's order: of the observation format, and those within the frames of the
- * action/frame format (actions are passed over). Where the file is damaged, cut, or holds an unknown class, it ends,
- * and damage() says why.
+ * The observations of a rawlog in the file's order: the objects of the observation format, or the contents of the
+ * frames in the action/frame format. Reading ends where the file is damaged, cut, or has an object of an unknown class;
+ * damage() then says why.
  */
 class ObservationReader
 {
@@ -23,10 +23,10 @@ class ObservationReader
   /** Null at the end. */
   mrpt::obs::CObservation::Ptr next();
 
-  /** Empty if all is well so far. */
+  /** Empty if there is none so far. */
   const std::string& damage() const { return damage_; }
 
-  /** Of the file as it lies on the disk. */
+  /** Compressed bytes. */
   std::uint64_t bytesRead() const { return archive_.bytesRead(); }
 
   /** Objects that are no observations: actions, maps. */

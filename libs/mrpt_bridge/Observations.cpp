@@ -2,6 +2,7 @@
 
 #include "mrpt_bridge/CGenericPointsMap.h"
 #include "mrpt_bridge/Conversions.h"
+#include "mrpt_bridge/RecordingHeaderJson.h"
 
 #if __has_include(<mrpt/maps/CPointsMapXYZI.h>)
 #include <mrpt/maps/CPointsMapXYZI.h>
@@ -118,7 +119,7 @@ void takePositions(const CPointsMap& map, const Rigid& body_T_sensor, PointCloud
   }
 }
 
-/** Longer than any measurement block, shorter than any turn: two blocks with one id are told apart. */
+/** Longer than any measurement block, shorter than any turn: distinguishes two blocks of the same id. */
 constexpr std::int32_t kLongestBlock = 1'000'000;  // ns
 
 std::vector<Column> columnsOf(const PointCloud& points, Timestamp start)

@@ -2,7 +2,7 @@
 #pragma once
 #include "batching/Scan.h"
 #include "core/ImuSample.h"
-#include "mrpt_bridge/RecordingHeader.h"
+#include "rig/RecordingHeader.h"
 
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
@@ -14,9 +14,9 @@
 
 namespace scanloom
 {
-/** MOLA's default labels, so that its pipelines find our sensors unchanged. */
+/** MOLA's default labels, so that its pipelines work without changes. */
 inline constexpr const char* kLidarLabel = "lidar";
-inline constexpr const char* kSliceSuffix = "_slice";  // of the label of clouds that scans hold again
+inline constexpr const char* kSliceSuffix = "_slice";  // of the label of slices; a scan contains its slices again
 
 /** By its label. */
 bool isSlice(const mrpt::obs::CObservation&);
@@ -41,13 +41,13 @@ mrpt::obs::CObservationPointCloud::Ptr toObservation(const Scan&, CloudClass = C
                                                      const std::string& label = kLidarLabel);
 
 /**
- * The scan of a cloud that was written by us, or any other cloud as far as it has our fields (the rest are zeros);
- * points come in the body frame, whatever the sensorPose. Columns are rebuilt from runs of equal (sensor_id, column).
+ * The scan of a cloud. Fields that the cloud does not have are 0. Points are in the body frame, whatever the
+ * sensorPose. Columns are rebuilt from runs of equal (sensor_id, column).
  *
- * What a rawlog can't hold: columns without a valid return (so columns_of counts the others only), frame ids, range,
- * signal and near infrared (all 0), and whether the scan was complete (true). Stamps are within 104 ns of the
- * original's in absolute terms and 4 ns of each other (t is a float). Without a header, the period ends with the last
- * point. Throws std::invalid_argument if the cloud is stored in a file that is not there.
+ * A rawlog does not contain columns without a valid return (columns_of does not count them), frame ids, range, signal
+ * and near infrared (all 0), and whether the scan was complete (assumed). Stamps have errors of up to 104 ns, relative
+ * to each other of up to 4 ns (t is a float). Without a header, the period ends with the last point. Throws
+ * std::invalid_argument if the cloud is stored in a file that does not exist.
  */
 Scan fromObservation(const mrpt::obs::CObservationPointCloud&, const std::optional<RecordingHeader>&);
 
@@ -62,9 +62,9 @@ struct RecordedImu
 mrpt::obs::CObservationIMU::Ptr toObservation(const ImuSample&, const Rigid& body_T_imu,
                                               const std::string& label = kImuLabel);
 
-/** Nothing if it lacks an axis of the accelerometer or of the gyroscope. */
+/** Nothing if an axis of the accelerometer or the gyroscope is missing. */
 std::optional<RecordedImu> fromObservation(const mrpt::obs::CObservationIMU&);
 
-/** The comment that opens a rawlog. */
+/** The first object of a rawlog. */
 mrpt::obs::CObservationComment::Ptr toObservation(const RecordingHeader&, Timestamp);
 }  // namespace scanloom

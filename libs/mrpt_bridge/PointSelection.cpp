@@ -9,8 +9,8 @@ namespace
 using mrpt::maps::CGenericPointsMap;
 using mrpt::maps::CPointsMap;
 
-// MRPT's class has fields of uint32 from 3.0 on (ours always); MRPT 2.15 has no applyDeletionMask() any more. What a
-// call with 0 finds is the first overload where the class has that member, else the second.
+// MRPT's class has fields of uint32 from 3.0 on (ours always has them), and MRPT 2.15 has no applyDeletionMask() any
+// more. A call with 0 chooses the first overload if the class has that member, else the second.
 
 template <typename Map, typename Visitor>
 auto forEachUint32Field(const Map& from, Map& to, const std::string& without, Visitor&& visit, int)
@@ -41,7 +41,7 @@ void removeMarked(Map& map, const Map& whole, const std::vector<bool>& marked, l
     if (!marked[i]) map.insertPointFrom(i, context);
 }
 
-/** Calls visit(values of `from`, values of `to`) for each field of `from`, which `to` then has, too. */
+/** Calls visit(values of `from`, values of `to`) for each field of `from`. A field that `to` lacks is added to it. */
 template <typename Visitor>
 void forEachField(const CGenericPointsMap& from, CGenericPointsMap& to, const std::string& without, Visitor&& visit)
 {
@@ -120,7 +120,7 @@ CPointsMap::Ptr kept(const CPointsMap::Ptr& cloud, const std::vector<std::uint8_
       if (keep[i]) points.push_back(static_cast<std::uint32_t>(i));
     return selected(*generic, points);
   }
-  // Other classes hold floats and bytes, which MRPT's own way through floats leaves as they are.
+  // Other classes have fields of floats and bytes; MRPT copies them as floats, without loss.
   std::vector<bool> deletion(keep.size());
   for (std::size_t i = 0; i < keep.size(); ++i) deletion[i] = keep[i] == 0;
   auto map = std::dynamic_pointer_cast<CPointsMap>(cloud->duplicateGetSmartPtr());

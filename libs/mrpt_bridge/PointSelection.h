@@ -1,4 +1,4 @@
-/** Points of a cloud with all their fields, whatever they are called, and the cloud's own options. */
+/** Clouds made of points of other clouds, with all fields of any name and the options of the cloud. */
 #pragma once
 #include "mrpt_bridge/CGenericPointsMap.h"
 
@@ -8,11 +8,11 @@
 
 namespace scanloom
 {
-/** These points in this order; all fields but `without`. */
+/** The points with these indices, in this order, with all fields except `without`. */
 mrpt::maps::CGenericPointsMap::Ptr selected(const mrpt::maps::CGenericPointsMap&,
                                             const std::vector<std::uint32_t>& points, const std::string& without = "");
 
-/** One after the other, at least one; options are those of the first. Where a part lacks a field it is 0. */
+/** The parts (at least one) one after another, with the options of the first. A field that a part lacks is 0 there. */
 mrpt::maps::CGenericPointsMap::Ptr joined(const std::vector<mrpt::maps::CGenericPointsMap::Ptr>& parts);
 
 /** The points with keep[i] not 0, of a cloud of any class. Throws std::invalid_argument if the sizes differ. */

@@ -1,7 +1,7 @@
-/** What a rawlog holds, without converting any of it. */
+/** A summary of a rawlog's contents. */
 #pragma once
 #include "core/Time.h"
-#include "mrpt_bridge/RecordingHeader.h"
+#include "rig/RecordingHeader.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -32,10 +32,11 @@ struct RawlogInfo
 
   std::size_t observations() const;
   std::uint64_t points() const;
-  /** Earliest stamp to latest; 0 if there is nothing. */
+
+  /** From the earliest stamp to the latest; 0 if there is no observation. */
   Duration span() const;
 };
 
-/** Throws std::runtime_error if the file can't be opened, std::invalid_argument if its header is ours but damaged. */
+/** Throws std::runtime_error if the file cannot be opened, std::invalid_argument if its header is damaged. */
 RawlogInfo rawlogInfo(const std::filesystem::path&);
 }  // namespace scanloom

@@ -1,17 +1,23 @@
+#include "mrpt_bridge/RawlogInput.h"
+
+#include "config/Names.h"
+#include "core/ConfigError.h"
+#include "mrpt_bridge/RawlogReader.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <deque>
 #include <stdexcept>
-
-#include "mrpt_bridge/RawlogReader.h"
-#include "mrpt_bridge/SensorInput.h"
+#include <utility>
 
 namespace scanloom
 {
 namespace
 {
-/** The scan with the columns of some lidars only, which are numbered anew. */
+// Between two scans there is a sample of every IMU: after so many scans it is known which IMUs there are.
+constexpr std::uint64_t kFirstScans = 2;
+
+/** The scan with the columns of those lidars only that have a new id. */
 Scan keepLidars(Scan scan, const std::vector<std::optional<std::uint8_t>>& new_id)
 {
   std::vector<std::uint8_t> keep(scan.points.size());
@@ -38,124 +44,101 @@ Scan keepLidars(Scan scan, const std::vector<std::optional<std::uint8_t>>& new_i
   return scan;
 }
 
-class RawlogInput : public SensorInput
-{
- public:
-  RawlogInput(const std::filesystem::path& path, const std::vector<std::string>& only) : reader_(path), new_id_(256)
-  {
-    if (!reader_.header())
-      throw std::runtime_error(
-          fmt::format("{}: its first object is not scanloom's header, so nothing is known of its "
-                      "lidars: record it with scanloom",
-                      path.string()));
-    header_ = *reader_.header();
-    std::vector<RecordedLidar> kept;
-    for (const std::string& name : only) requireLidar(name);
-    for (std::size_t i = 0; i < header_.lidars.size(); ++i)
-    {
-      if (!only.empty() && std::find(only.begin(), only.end(), header_.lidars[i].name) == only.end()) continue;
-      new_id_[i] = static_cast<std::uint8_t>(kept.size());
-      kept.push_back(header_.lidars[i]);
-    }
-    all_kept_ = kept.size() == header_.lidars.size();
-    header_.lidars = std::move(kept);
-    while (scans_ < kScansAhead)
-    {
-      std::optional<SensorEvent> event = read();
-      if (!event) break;
-      ahead_.push_back(std::move(*event));
-    }
-  }
-
-  std::optional<SensorEvent> next(Duration) override
-  {
-    if (ahead_.empty())
-    {
-      std::optional<SensorEvent> event = read();
-      ended_ = !event;
-      return event;
-    }
-    std::optional<SensorEvent> event(std::move(ahead_.front()));
-    ahead_.pop_front();
-    return event;
-  }
-
-  bool ended() const override { return ended_; }
-  const RecordingHeader& header() const override { return header_; }
-  double progress() const override { return 0; }
-
-  std::vector<std::string> takeWarnings() override
-  {
-    const std::string damage = std::exchange(warned_of_, reader_.damage());
-    return warned_of_ == damage ? std::vector<std::string>() : std::vector<std::string>{warned_of_};
-  }
-
-  std::optional<Rigid> body_T_imu(int sensor) const override
-  {
-    const auto found = body_T_imu_.find(sensor);
-    return found == body_T_imu_.end() ? std::optional<Rigid>() : found->second;
-  }
-
-  std::map<std::string, std::uint64_t> counts() const override
-  {
-    return {{"rawlog_scans", scans_}, {"rawlog_other_objects", other_objects_}};
-  }
-
- private:
-  std::optional<SensorEvent> read()
-  {
-    while (auto event = reader_.next())
-    {
-      if (auto* recorded = std::get_if<RecordedScan>(&*event))
-      {
-        ++scans_;
-        return all_kept_ ? std::move(recorded->scan) : keepLidars(std::move(recorded->scan), new_id_);
-      }
-      if (const auto* recorded = std::get_if<RecordedImu>(&*event))
-        if (const auto sensor = sensorOf(recorded->label))
-        {
-          body_T_imu_[*sensor] = recorded->body_T_imu;
-          return SensorImu{*sensor, recorded->sample};
-        }
-      ++other_objects_;
-    }
-    return std::nullopt;
-  }
-
-  void requireLidar(const std::string& name) const
-  {
-    std::vector<std::string> names;
-    for (const RecordedLidar& lidar : header_.lidars) names.push_back(lidar.name);
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw ConfigError(fmt::format("no lidar of the rawlog is called '{}': {}", name, suggestion(name, names)));
-  }
-
-  /** `imu` is the body's, `imu_<name>` a lidar's. */
-  std::optional<int> sensorOf(const std::string& label) const
-  {
-    if (label == kImuLabel) return SensorImu::kBody;
-    for (std::size_t i = 0; i < header_.lidars.size(); ++i)
-      if (label == std::string(kImuLabel) + "_" + header_.lidars[i].name) return static_cast<int>(i);
-    return std::nullopt;
-  }
-
-  // Every IMU shows up between two scans: after that many it is known which there are.
-  static constexpr std::uint64_t kScansAhead = 2;
-
-  RawlogReader reader_;
-  std::deque<SensorEvent> ahead_;
-  bool ended_ = false;
-  RecordingHeader header_;
-  std::vector<std::optional<std::uint8_t>> new_id_;  // by the rawlog's sensor id
-  bool all_kept_ = true;
-  std::map<int, Rigid> body_T_imu_;
-  std::uint64_t scans_ = 0, other_objects_ = 0;
-  std::string warned_of_;
-};
 }  // namespace
 
-std::unique_ptr<SensorInput> makeRawlogInput(const std::filesystem::path& path, const std::vector<std::string>& only)
+RawlogInput::RawlogInput(const std::filesystem::path& path, const std::vector<std::string>& only)
+  : reader_(std::make_unique<RawlogReader>(path))
 {
-  return std::make_unique<RawlogInput>(path, only);
+  if (!reader_->header())
+    throw std::runtime_error(
+        fmt::format("{}: its first object is not scanloom's header, so nothing is known of its lidars: record it with "
+                    "scanloom",
+                    path.string()));
+  chooseLidars(only);
+  while (scans_ < kFirstScans)
+  {
+    std::optional<SensorEvent> event = read();
+    if (!event) break;
+    first_.push_back(std::move(*event));
+  }
+}
+
+RawlogInput::~RawlogInput() = default;
+
+void RawlogInput::chooseLidars(const std::vector<std::string>& only)
+{
+  const RecordingHeader& recorded = *reader_->header();
+  std::vector<std::string> names;
+  for (const RecordedLidar& lidar : recorded.lidars) names.push_back(lidar.name);
+  for (const std::string& name : only)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw ConfigError(fmt::format("no lidar of the rawlog is called '{}': {}", name, suggestion(name, names)));
+
+  setup_.header = recorded;
+  setup_.header.lidars.clear();
+  new_id_.resize(kMostLidars);
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    if (!only.empty() && std::find(only.begin(), only.end(), names[i]) == only.end()) continue;
+    new_id_[i] = static_cast<std::uint8_t>(setup_.header.lidars.size());
+    setup_.header.lidars.push_back(recorded.lidars[i]);
+  }
+  all_wanted_ = setup_.header.lidars.size() == names.size();
+}
+
+std::optional<SensorEvent> RawlogInput::next(Duration)
+{
+  if (first_.empty())
+  {
+    std::optional<SensorEvent> event = stop_ ? std::nullopt : read();
+    ended_ = !event;
+    return event;
+  }
+  std::optional<SensorEvent> event(std::move(first_.front()));
+  first_.pop_front();
+  return event;
+}
+
+std::optional<SensorEvent> RawlogInput::read()
+{
+  while (auto event = reader_->next())
+  {
+    if (auto* recorded = std::get_if<RecordedScan>(&*event))
+    {
+      ++scans_;
+      return all_wanted_ ? std::move(recorded->scan) : keepLidars(std::move(recorded->scan), new_id_);
+    }
+    if (const auto* recorded = std::get_if<RecordedImu>(&*event))
+      if (const auto sensor = sensorOf(recorded->label))
+      {
+        setup_.body_T_imu[*sensor] = recorded->body_T_imu;
+        return SensorImu{*sensor, recorded->sample};
+      }
+    ++other_objects_;
+  }
+  return std::nullopt;
+}
+
+/** `imu` is the body's, `imu_<name>` a lidar's. */
+std::optional<int> RawlogInput::sensorOf(const std::string& label) const
+{
+  if (label == kImuLabel) return SensorImu::kBody;
+  const std::vector<RecordedLidar>& lidars = setup_.header.lidars;
+  for (std::size_t i = 0; i < lidars.size(); ++i)
+    if (label == std::string(kImuLabel) + "_" + lidars[i].name) return static_cast<int>(i);
+  return std::nullopt;
+}
+
+RigAccount RawlogInput::account() const
+{
+  RigAccount account;
+  account.input = {{"rawlog_scans", scans_}, {"rawlog_other_objects", other_objects_}};
+  return account;
+}
+
+std::vector<std::string> RawlogInput::takeWarnings()
+{
+  const std::string told = std::exchange(damage_, reader_->damage());
+  return damage_ == told ? std::vector<std::string>() : std::vector<std::string>{damage_};
 }
 }  // namespace scanloom

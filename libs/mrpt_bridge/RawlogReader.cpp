@@ -1,5 +1,7 @@
 #include "mrpt_bridge/RawlogReader.h"
 
+#include "mrpt_bridge/RecordingHeaderJson.h"
+
 #include <utility>
 
 namespace scanloom
@@ -58,7 +60,7 @@ void RawlogReader::take(RecordedEvent event)
   released_.push_back(std::move(event));
 }
 
-/** Scans of one label don't overlap, so the first ones held are the first ones over. */
+/** Scans of one label do not overlap: the one that was held first ends first. */
 void RawlogReader::releaseScansUntil(Timestamp stamp)
 {
   for (; !held_.empty() && held_.front().scan.end() <= stamp; held_.pop_front())

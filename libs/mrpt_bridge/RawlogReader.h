@@ -2,7 +2,7 @@
 #include "batching/Scan.h"
 #include "mrpt_bridge/ObservationReader.h"
 #include "mrpt_bridge/Observations.h"
-#include "mrpt_bridge/RecordingHeader.h"
+#include "rig/RecordingHeader.h"
 
 #include <deque>
 #include <optional>
@@ -16,20 +16,20 @@ struct RecordedScan
   std::string label;
 };
 
-/** Whatever else a rawlog holds, comments but the header included. */
+/** Any other observation; the header is none of them. */
 using OtherObservation = mrpt::obs::CObservation::Ptr;
 
 using RecordedEvent = std::variant<RecordedScan, RecordedImu, OtherObservation>;
 
 /**
- * Streams a rawlog in the file's order, but that a scan comes after all IMU samples of its period, as from the batcher:
- * rawlog-grabber sorts by stamp, and a scan's is its start. A damaged file is read up to the damage; damage() then says
- * what and where: ask it once next() has returned nothing.
+ * A rawlog event by event. In the file a scan comes before the IMU samples of its period, because rawlog-grabber sorts
+ * by stamp and a scan's stamp is its start. Here it comes after them, as from the batcher. A damaged file is read up to
+ * the damage, and damage() then says what and where.
  */
 class RawlogReader
 {
  public:
-  /** Throws std::runtime_error if the file can't be opened, std::invalid_argument if its header is ours but damaged. */
+  /** Throws std::runtime_error if the file cannot be opened, std::invalid_argument if its header is damaged. */
   explicit RawlogReader(const std::filesystem::path&);
 
   /** Known from the start; nothing if the rawlog's first object is not a header. */
@@ -37,7 +37,7 @@ class RawlogReader
 
   std::optional<RecordedEvent> next();
 
-  /** Empty if all is well so far. */
+  /** Empty if there is none so far. */
   const std::string& damage() const { return observations_.damage(); }
 
  private:
@@ -46,7 +46,7 @@ class RawlogReader
 
   ObservationReader observations_;
   std::optional<RecordingHeader> header_;
-  std::deque<RecordedScan> held_;  // their period may not be over yet
+  std::deque<RecordedScan> held_;  // until their period is over
   std::deque<RecordedEvent> released_;
   mrpt::obs::CObservation::Ptr first_;  // read ahead in search of the header
 };

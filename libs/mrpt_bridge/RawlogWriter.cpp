@@ -2,6 +2,9 @@
 
 #include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/GzipArchive.h"
+#include "mrpt_bridge/Observations.h"
+
+#include <utility>
 
 namespace scanloom
 {
@@ -15,16 +18,6 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& path, RecordingHeader he
 }
 
 RawlogWriter::~RawlogWriter() = default;
-
-void RawlogWriter::write(const Scan& scan, const std::string& label)
-{
-  write(*toObservation(scan, options_.cloud_class, label));
-}
-
-void RawlogWriter::write(const ImuSample& sample, const Rigid& body_T_imu, const std::string& label)
-{
-  write(*toObservation(sample, body_T_imu, label));
-}
 
 void RawlogWriter::write(const mrpt::obs::CObservation& observation)
 {

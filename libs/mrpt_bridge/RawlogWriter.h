@@ -1,7 +1,7 @@
 #pragma once
-#include "batching/Scan.h"
-#include "mrpt_bridge/Observations.h"
-#include "mrpt_bridge/RecordingHeader.h"
+#include "rig/RecordingHeader.h"
+
+#include <mrpt/obs/obs_frwds.h>
 
 #include <chrono>
 #include <filesystem>
@@ -16,18 +16,15 @@ class GzipArchive;
 struct RawlogOptions
 {
   int compression_level = 1;  // gzip: 0 live (6 to 13 ms a scan), 1 offline (a quarter of the size, 68 ms)
-  CloudClass cloud_class = CloudClass::CGenericPointsMap;
-  Duration safe_every{
-      0};  // of the host's time: what is older survives kill -9, see secure(); 0: nothing before close()
+  Duration safe_every{0};     // of the host's time: older objects survive kill -9, see secure(); 0: only after close()
 };
 
 /**
- * A rawlog in the observation format, header first. Objects go to `<path>.part`, which becomes `path` in close(): under
- * its own name a rawlog is always whole. Whether an older file may be replaced is for the caller to ask.
+ * A rawlog in the observation format, header first. Objects are written to `<path>.part`, which close() renames to
+ * `path`: a file of that name is always complete. An older file is replaced.
  *
- * Without close(), as when an exception passes, the `.part` stays: it is readable up to its last object, and an
- * abandoned recording is worth more than a clean folder. Throws std::runtime_error with the file's name if the disk
- * says no.
+ * Without close(), for example after an exception, `<path>.part` remains; it is readable up to its last object. Throws
+ * std::runtime_error with the file's name if it cannot be written.
  */
 class RawlogWriter
 {
@@ -35,11 +32,9 @@ class RawlogWriter
   RawlogWriter(const std::filesystem::path&, RecordingHeader, const RawlogOptions& = {});
   ~RawlogWriter();
 
-  void write(const Scan&, const std::string& label = kLidarLabel);
-  void write(const ImuSample&, const Rigid& body_T_imu, const std::string& label = kImuLabel);
   void write(const mrpt::obs::CObservation&);
 
-  /** For times without anything to write: hands what is older than `safe_every` to the operating system. */
+  /** Passes objects older than `safe_every` to the operating system. Call it also while there is nothing to write. */
   void secure();
 
   /** Also writes the header if nothing else was written. */

@@ -1,20 +1,23 @@
-/** A rig's events as the observations of its recording: for the plugin and for our own recorder alike. */
+/** A rig's events as MRPT observations, for the plugin and for our own recorder. */
 #pragma once
 #include "mrpt_bridge/Observations.h"
-#include "source/RigInput.h"
+#include "rig/RigOptions.h"
+#include "rig/SensorInput.h"
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace scanloom
 {
-RecordingHeader recordingHeader(const Rig&);
+struct Rig;
 
 /**
- * Scans bear the label `sensorLabel` of the options, the body's IMU `imu_label`, and a lidar's own IMU
- * `<imu_label>_<name of the lidar>`; each IMU with its pose in the body frame.
+ * The label of scans is the option `sensorLabel`, that of the body's IMU `imu_label`, and that of a lidar's IMU
+ * `<imu_label>_<name of the lidar>`. The sensorPose of an IMU is its pose in the body frame.
  */
-mrpt::obs::CObservation::Ptr toObservation(const SensorEvent&, const Rig&, const DriverOptions&);
+mrpt::obs::CObservation::Ptr toObservation(const SensorEvent&, const SensorSetup&, const DriverOptions&);
 
 /** A rig's captures or sockets as one stream of observations: the header, then one for each event. */
 class RigObservations
@@ -23,20 +26,19 @@ class RigObservations
   /** Opens the input; throws what openRig throws, and std::invalid_argument for an unknown cloud_class. */
   RigObservations(const Rig&, const DriverOptions&);
 
-  /** Waits for it; null at the end of input. */
+  /** Waits for the next one; null at the end of the input. */
   mrpt::obs::CObservation::Ptr next();
 
-  /** Live, the input ends when it is told to: what was received is still given out. From any thread. */
+  /** Ends the input; next() still gives what was received. May be called from any thread. */
   void stop() { input_->stop(); }
 
   RigAccount account() const { return input_->account(); }
   std::vector<std::string> takeWarnings() { return input_->takeWarnings(); }
 
  private:
-  Rig rig_;
   DriverOptions options_;
-  std::unique_ptr<RigInput> input_;
-  std::optional<SensorEvent> first_;  // read before the header, for its stamp
+  std::unique_ptr<SensorInput> input_;
+  std::optional<SensorEvent> first_;  // read before the header is given, which gets its stamp
   bool header_given_ = false;
 };
 }  // namespace scanloom

@@ -3,9 +3,9 @@
 namespace scanloom
 {
 /**
- * Tells MRPT's factories of our classes, and of the stock ones that our rawlogs hold. May be called any number of
- * times; the plugin does at load, and everything here that reads a rawlog. A static library needs the call: nothing
- * else refers to the classes, so the linker would leave them out.
+ * Registers our classes with MRPT's factories. May be called any number of times. The plugin calls it when it is
+ * loaded, and so does every reader of rawlogs. In a static library the call is needed: the linker leaves out classes
+ * that nothing refers to.
  */
 void registerClasses();
 }  // namespace scanloom

@@ -7,10 +7,11 @@ namespace scanloom
 namespace
 {
 /**
- * `configuration:12: [lidars] unknown ...` as `section 'lidars': unknown ...`: the place would be one in the text made
- * here, which nobody has, and what stands in brackets MRPT prints as the place of an exception, after its message.
+ * `configuration:12: [lidars] unknown ...` becomes `section 'lidars': unknown ...`. The line number would be one of the
+ * text that is made here. And MRPT takes text in brackets for the place of an exception and prints it after the
+ * message.
  */
-std::string asMrptPrintsItWell(const std::string& problem, const std::string& section)
+std::string forMrpt(const std::string& problem, const std::string& section)
 {
   const std::string bracketed = fmt::format("[{}] ", section);
   const auto start = problem.find(bracketed);
@@ -32,7 +33,7 @@ RigSettings rigSettingsFrom(const mrpt::config::CConfigFileBase& source, const s
   catch (const ConfigError& e)
   {
     std::vector<std::string> problems;
-    for (const std::string& problem : e.problems) problems.push_back(asMrptPrintsItWell(problem, section));
+    for (const std::string& problem : e.problems) problems.push_back(forMrpt(problem, section));
     throw ConfigError(problems);
   }
 }

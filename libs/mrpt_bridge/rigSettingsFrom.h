@@ -1,5 +1,5 @@
 #pragma once
-#include "source/RigOptions.h"
+#include "rig/RigOptions.h"
 
 #include <mrpt/config/CConfigFileBase.h>
 
@@ -8,8 +8,8 @@
 namespace scanloom
 {
 /**
- * The settings of a sensor section as an MRPT application holds it: variables expanded, comments gone, places of keys
- * forgotten. Throws ConfigError with all that is wrong, by section and key.
+ * The settings of a sensor section that an MRPT application has read: variables are expanded, and lines are not known
+ * any more. Throws ConfigError with all problems, by section and key.
  */
 RigSettings rigSettingsFrom(const mrpt::config::CConfigFileBase&, const std::string& section);
 }  // namespace scanloom

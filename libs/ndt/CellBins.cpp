@@ -13,8 +13,8 @@ namespace scanloom
 namespace
 {
 /**
- * The sums of Moments about the cell's centre, two at a time. Whole numbers without rounding: 65536 points at most,
- * each within 2^18.4 quanta of the centre, keep the sums of their products below 2^53.
+ * The sums of Moments about the cell's centre, two at a time, in double. They are whole numbers without rounding: at
+ * most 65536 points, each within 2^18.4 quanta of the centre, keep the sums of products below 2^53.
  */
 struct CentredSums
 {
@@ -55,9 +55,8 @@ std::vector<Bin> sortedBins(const KeyIndex& cells, MomentsOf&& moments_of)
   return bins;
 }
 
-CellBins countPart(const Coordinates& points, std::int64_t cell_quanta)
+std::vector<Bin> countPart(const Coordinates& points, std::int64_t cell_quanta)
 {
-  CellBins result;
   KeyIndex cells;
   std::vector<CentredSums> sums;
   PointCells located;
@@ -67,11 +66,7 @@ CellBins countPart(const Coordinates& points, std::int64_t cell_quanta)
     locate(batch, cell_quanta, located);
     for (std::size_t i = 0; i < batch.count; ++i)
     {
-      if (located.key[i] == PointCells::kNowhere)
-      {
-        ++result.left_out;
-        continue;
-      }
+      if (located.key[i] == PointCells::kNowhere) continue;
       const std::uint32_t cell = cells.placeOf(located.key[i]);
       if (cell == sums.size()) sums.emplace_back();
       sums[cell].add(located.x[i], located.y[i], located.z[i]);
@@ -79,25 +74,19 @@ CellBins countPart(const Coordinates& points, std::int64_t cell_quanta)
   }
   const Eigen::Matrix<std::int64_t, 3, 1> centre =
       Eigen::Matrix<std::int64_t, 3, 1>::Constant(PointCells::centreOf(cell_quanta));
-  result.bins = sortedBins(cells, [&](std::uint32_t i) { return sums[i].moments().about(centre); });
-  return result;
+  return sortedBins(cells, [&](std::uint32_t i) { return sums[i].moments().about(centre); });
 }
-
 }  // namespace
 
-CellBins countInto(const Coordinates& points, std::int64_t cell_quanta)
+std::vector<Bin> countInto(const Coordinates& points, std::int64_t cell_quanta)
 {
   constexpr std::size_t kPart = CentredSums::kMostPoints;
   const std::size_t parts = (points.count + kPart - 1) / kPart;
-  std::vector<CellBins> counted(parts);
+  std::vector<std::vector<Bin>> counted(parts);
   tbb::parallel_for(std::size_t{0}, parts,
                     [&](std::size_t i) { counted[i] = countPart(points.part(i * kPart, kPart), cell_quanta); });
-  CellBins all;
-  for (CellBins& part : counted)
-  {
-    all.bins = all.bins.empty() ? std::move(part.bins) : sumOf(all.bins, part.bins);
-    all.left_out += part.left_out;
-  }
+  std::vector<Bin> all;
+  for (std::vector<Bin>& part : counted) all = all.empty() ? std::move(part) : sumOf(all, part);
   return all;
 }
 
@@ -115,6 +104,7 @@ std::vector<Bin> sumOf(const std::vector<Bin>& a, const std::vector<Bin>& b)
   sum.insert(sum.end(), from_b, b.cend());
   return sum;
 }
+
 std::vector<Bin> coarserBins(const std::vector<Bin>& fine, std::int64_t cell_quanta, int factor)
 {
   const DividedBy parentOf(factor);
@@ -134,18 +124,19 @@ std::vector<Bin> coarserBins(const std::vector<Bin>& fine, std::int64_t cell_qua
 std::vector<Bin> thinned(const std::vector<Bin>& bins, int least_points, std::size_t most)
 {
   const auto counts = [&](const Bin& bin) { return bin.moments.n >= least_points; };
-  const auto isFew = [&](const Bin& bin) { return counts(bin) && bin.moments.n < GaussianCell::kTellsItsSpread; };
+  const auto hasFew = [&](const Bin& bin)
+  { return counts(bin) && bin.moments.n < GaussianCell::kMinPointsForCovariance; };
   const auto all = static_cast<std::size_t>(std::count_if(bins.begin(), bins.end(), counts));
-  const auto few = static_cast<std::size_t>(std::count_if(bins.begin(), bins.end(), isFew));
+  const auto few = static_cast<std::size_t>(std::count_if(bins.begin(), bins.end(), hasFew));
   if (all <= most) return bins;
 
   const std::size_t room = most - std::min(most, all - few);
   std::vector<Bin> kept;
-  std::size_t place = 0;  // among the few
+  std::size_t place = 0;  // among those with few points
   for (const Bin& bin : bins)
   {
-    const bool fits = !isFew(bin) || (place + 1) * room / few != place * room / few;
-    if (isFew(bin)) ++place;
+    const bool fits = !hasFew(bin) || (place + 1) * room / few != place * room / few;
+    if (hasFew(bin)) ++place;
     if (fits) kept.push_back(bin);
   }
   return kept;

@@ -8,26 +8,21 @@
 
 namespace scanloom
 {
+/** The points of one cell. */
 struct Bin
 {
   std::uint64_t key;
   Moments moments;
 };
 
-struct CellBins
-{
-  std::vector<Bin> bins;     // sorted by key
-  std::size_t left_out = 0;  // points that are not finite or too far for an index
-};
-
-/** Positions of points, wherever they lie: three arrays, or one of triples. */
+/** Positions of points in memory: three arrays, or one of triples. */
 struct Coordinates
 {
   const float *x, *y, *z;
   std::size_t stride;  // floats from one point to the next
   std::size_t count;
 
-  /** At most `most` of the points from `begin` on, which must not be behind the last. */
+  /** At most `most` points from `begin` on; begin <= count. */
   Coordinates part(std::size_t begin, std::size_t most) const
   {
     const std::size_t skip = begin * stride;
@@ -35,29 +30,32 @@ struct Coordinates
   }
 };
 
-/** Parts of the points are counted in parallel; sums of integers are the same for any parts. */
-CellBins countInto(const Coordinates&, std::int64_t cell_quanta);
+/**
+ * Bins sorted by key, as all are here. Points that are not finite or too far for an index are left out. Parts of the
+ * points are counted in parallel; the sums are of integers, so they do not depend on the parts.
+ */
+std::vector<Bin> countInto(const Coordinates&, std::int64_t cell_quanta);
 
-/** The points of both. */
 std::vector<Bin> sumOf(const std::vector<Bin>&, const std::vector<Bin>&);
 
-/** The same points in cells `factor` times as large: no point is looked at again. */
+/** The same points in cells `factor` times as large, from the sums. */
 std::vector<Bin> coarserBins(const std::vector<Bin>&, std::int64_t cell_quanta, int factor);
 
 /**
- * Without some of those with fewer than GaussianCell::kTellsItsSpread points, evenly, if more than `most` bins have
- * `least_points`. Cells of few points hold the angles where there are few cells; of many, a share does.
+ * If more than `most` bins have `least_points`, bins with fewer than GaussianCell::kMinPointsForCovariance points are
+ * removed evenly until `most` are left. Such cells determine the angles where cells are few; where they are many, a
+ * part of them is enough.
  */
 std::vector<Bin> thinned(const std::vector<Bin>&, int least_points, std::size_t most);
 
-/** A coordinate in Moments::kQuantum, without a branch or a library call: |coordinate| < 2^23 m. */
+/** A coordinate in units of Moments::kQuantum, without a branch or a library call; |coordinate| < 2^23 m. */
 inline std::int64_t quantaOf(double coordinate)
 {
   constexpr std::int64_t kBias = std::int64_t{1} << 40;
   return static_cast<std::int64_t>(coordinate * (1 / Moments::kQuantum) + 0.5 + static_cast<double>(kBias)) - kBias;
 }
 
-/** Division that rounds down, by a multiplication: |a| < 2^50. */
+/** Division that rounds down, by a multiplication; |a| < 2^50. */
 class DividedBy
 {
  public:

@@ -1,4 +1,4 @@
-/** Cells of a grid as 64 bit keys, four by four by four of them next to each other: a block. */
+/** Cells of a grid as 64 bit keys. Blocks of four by four by four cells have consecutive keys. */
 #pragma once
 #include <Eigen/Core>
 
@@ -7,14 +7,14 @@
 namespace scanloom
 {
 /**
- * Keys sort by block (z, y, x) and within it by cell (z, y, x). The 27 cells around one lie in at most eight blocks, in
- * three or four on average: so many look-ups, not 27.
+ * Keys sort by block (z, y, x) and within it by cell (z, y, x). The 27 cells around a cell lie in at most eight blocks,
+ * in three or four on average, so finding them takes that many look-ups instead of 27.
  */
 struct CellKey
 {
   static constexpr int kBitsPerAxis = 21;
   static constexpr std::int64_t kLimit = std::int64_t{1} << (kBitsPerAxis - 1);  // indices are in [-kLimit, kLimit)
-  static constexpr int kCellBits = 6;                                            // of a block's 64 cells
+  static constexpr int kCellBits = 6;                                            // for the 64 cells of a block
 
   static bool fits(std::int64_t index) { return index >= -kLimit && index < kLimit; }
 
@@ -25,7 +25,7 @@ struct CellKey
     return key;
   }
 
-  /** From biased indices, of one cell or of a vector of them. */
+  /** From biased indices of one cell, or of a vector of cells. */
   template <typename Bits>
   static void compose(const Bits& x, const Bits& y, const Bits& z, Bits& key)
   {
@@ -46,7 +46,7 @@ struct CellKey
     return {axis(block, key), axis(block >> kBlockBits, key >> 2), axis(block >> (2 * kBlockBits), key >> 4)};
   }
 
-  /** Never negative. */
+  /** An index from 0 on. */
   static std::uint64_t biased(std::int64_t index) { return static_cast<std::uint64_t>(index + kLimit); }
 
  private:

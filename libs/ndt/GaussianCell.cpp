@@ -17,7 +17,7 @@ void forEachSum(Moments& a, const Moments& b, Operation&& apply)
   apply(a.yy, b.yy), apply(a.yz, b.yz), apply(a.zz, b.zz);
 }
 
-Eigen::Matrix3d supposed(const Eigen::Matrix3d& covariance, std::int64_t points)
+Eigen::Matrix3d assumedCovariance(const Eigen::Matrix3d& covariance, std::int64_t points)
 {
   constexpr double kDeviation = 0.08;  // m
   const double n = static_cast<double>(points);
@@ -69,7 +69,7 @@ MeanAndCovariance meanAndCovariance(const Moments& m, const Eigen::Vector3d& cor
 GaussianCell gaussianOf(const Moments& m, const Eigen::Vector3d& corner, double edge, double min_deviation)
 {
   const auto [mean, seen] = meanAndCovariance(m, corner);
-  const Eigen::Matrix3d covariance = m.n < GaussianCell::kTellsItsSpread ? supposed(seen, m.n) : seen;
+  const Eigen::Matrix3d covariance = m.n < GaussianCell::kMinPointsForCovariance ? assumedCovariance(seen, m.n) : seen;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(covariance);
   const Eigen::Array3d variances = eigen.eigenvalues().array().max(min_deviation * min_deviation);

@@ -1,4 +1,4 @@
-/** One cell's points as sums, and the normal distribution that the sums describe. */
+/** The points of a cell as sums, and as a normal distribution. */
 #pragma once
 #include <Eigen/Core>
 
@@ -6,29 +6,30 @@
 
 namespace scanloom
 {
-/** A normal distribution of the points in one cell, in the frame of its map. */
+/** The normal distribution of the points in a cell, in the frame of the map. */
 struct GaussianCell
 {
   Eigen::Vector3d mean;        // m
-  Eigen::Matrix3d covariance;  // m^2, no eigenvalue below the floor of the map's options
+  Eigen::Matrix3d covariance;  // m^2, eigenvalues at least NdtOptions::min_deviation squared
   std::uint32_t points = 0;
 
-  /** Fewer points do not say how they are spread. */
-  static constexpr int kTellsItsSpread = 4;
+  /** With fewer points the covariance is assumed (see gaussianOf). */
+  static constexpr int kMinPointsForCovariance = 4;
 
   /**
-   * Takes away the directions in which the points fill the cell (variance near edge^2 / 12). There the mean tells where
-   * the grid lies, not where the world does: a wall's cells resist sliding along it although nothing in the wall does.
+   * Projector onto the thin directions of the points: near 0 where they fill the cell (variance near edge^2 / 12). In
+   * such a direction the mean depends on the grid, not on the world: cells of a wall resist a motion along the wall
+   * although nothing in the wall does.
    */
   Eigen::Matrix3d structure = Eigen::Matrix3d::Zero();
 };
 
 /**
- * Number, sum and sum of products of points, in units of kQuantum from the cell's own corner.
+ * Number, sum and sum of products of points, in units of kQuantum from the corner of the cell.
  *
- * Integers add without rounding: the sums are the same bits for any order of points, threads and merges, and what was
- * added can be taken out again without a trace. 15 um of resolution is far below any lidar's; 64 bits hold 20 million
- * points in a cell of 10 m, the largest that NdtOptions allows.
+ * Integers add without rounding: the sums have the same bits for any order of points, threads and merges, and points
+ * can be removed again exactly. The resolution of 15 um is far finer than a lidar's; 64 bits hold 20 million points in
+ * a cell of 10 m, the largest that NdtOptions allows.
  */
 struct Moments
 {
@@ -45,7 +46,7 @@ struct Moments
     xx += px * px, xy += px * py, xz += px * pz;
     yy += py * py, yz += py * pz, zz += pz * pz;
   }
-  /** The same points, counted from `corner` before the own one. */
+  /** The same sums for points that are shifted by `corner`. */
   Moments about(const Eigen::Matrix<std::int64_t, 3, 1>& corner) const;
 
   Moments& operator+=(const Moments&);
@@ -58,14 +59,14 @@ struct MeanAndCovariance
   Eigen::Matrix3d covariance;  // m^2
 };
 
-/** Of points whose sums are about `corner`; a single one has no covariance. */
+/** Of points whose sums are about `corner`. The covariance of a single point is zero. */
 MeanAndCovariance meanAndCovariance(const Moments&, const Eigen::Vector3d& corner);
 
 /**
  * The Gaussian of the points in a cell of `edge` m whose sums are about its `corner`. Eigenvalues below
- * min_deviation^2 are raised to it: walls and stems are thinner than the noise of their cells is known. Of fewer than
- * kTellsItsSpread points the covariance is that of one more with a deviation of 8 cm to all sides: what a beam meets
- * far away is some stem or branch, and where in it is open.
+ * min_deviation^2 are raised to it, because the noise of thin walls and stems is not known better. For fewer than
+ * kMinPointsForCovariance points the covariance is computed with one point more, of 8 cm standard deviation along each
+ * axis: far away a beam hits a stem or branch, but where on it is not known.
  */
 GaussianCell gaussianOf(const Moments&, const Eigen::Vector3d& corner, double edge, double min_deviation);
 }  // namespace scanloom

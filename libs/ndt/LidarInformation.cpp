@@ -1,13 +1,11 @@
 #include "ndt/LidarInformation.h"
 
+#include "core/Matrix6.h"
 #include "ndt/KeyIndex.h"
 #include "ndt/NormalEquations.h"
 #include "ndt/PairEvidence.h"
 
 #include <tbb/parallel_for.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -21,42 +19,42 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Points of one cell share beams, edges and the surface's own unevenness: past this number they teach nothing new.
+// Points of one cell share beams, edges and the roughness of the surface: more than this number add no information.
 constexpr double kMostIndependentPoints = 10;
 
-// Variance by what the model leaves out, so that the mean NEES over pairs of two stands is that of chi squared.
+// Factor on the variance for what the model leaves out: makes the mean NEES over pairs of two stands that of chi^2.
 constexpr double kUnmodelled = 1.25;
 
-// Of what no scan shows: how well range and beam angles are known on the average.
+// Deviations that no scan shows: the mean errors of ranges and beam angles.
 constexpr double kTranslationFloor = 0.0008;                  // m
-constexpr double kRotationFloor = 0.004 * M_PI / 180 * kArm;  // m, by the arm
-constexpr double kUnknownDeviation = 10;                      // m: "not measured" that still has an inverse
+constexpr double kRotationFloor = 0.004 * M_PI / 180 * kArm;  // m at kArm
+constexpr double kUnknownDeviation = 10;                      // m, in directions that were not measured
 
-// Below the first share of structure the resistance against a step is that of the grid, not of the world; below the
-// second it is, if a long step keeps so much of the score. Corridors keep 0.92, the densest stand 0.86 in cells of 8 m
-// and 0.79 in those of 2 m.
+// A direction is degenerate if the share of structure in the resistance against a step is below kBare, or below
+// kSuspicious while a long step keeps the share kUnchanged of the score. Corridors keep 0.92, the densest stand 0.86 in
+// cells of 8 m and 0.79 in those of 2 m.
 constexpr double kBare = 0.1, kSuspicious = 0.35;
-constexpr double kLongStep = 2;  // m, or a cell where that is longer
+constexpr double kLongStep = 2;  // m, or the size of a cell if that is more
 constexpr double kUnchanged = 0.9;
 
-/** Sums over all pairs; steps in the target's frame, in m and rad, about the source's origin. */
+/** Sums over all pairs, for steps in the target's frame, in m and rad, about the source's origin. */
 struct Evidence
 {
   std::vector<PairEvidence> cells;           // one per source cell
   Matrix6d resistance = Matrix6d::Zero();    // sum n J' wB J, n the source cell's points
-  Matrix6d structure = Matrix6d::Zero();     // the same of thin directions only
-  Matrix6d unsure_means = Matrix6d::Zero();  // covariance of the gradient by the noise of the cells' means
+  Matrix6d structure = Matrix6d::Zero();     // the same, thin directions only
+  Matrix6d unsure_means = Matrix6d::Zero();  // covariance of the gradient due to the noise of the cells' means
 };
 
-/** How the uncertain mean of a cell, and as uncertain a one of the target, shakes what it pulls at. */
-Symmetric3 shaking(const Symmetric3& pull, const TurnedCell& c, std::uint32_t points)
+/** Covariance of a cell's force due to the noise of its mean and, taken as equal, of the target's. */
+Symmetric3 forceNoise(const Symmetric3& pull, const TurnedCell& c, std::uint32_t points)
 {
-  Symmetric3 shaken;
-  sandwich(pull, {c.xx, c.xy, c.xz, c.yy, c.yz, c.zz}, shaken);
-  return scaled(shaken, 2 / std::min<double>(points, kMostIndependentPoints));
+  Symmetric3 noise;
+  sandwich(pull, {c.xx, c.xy, c.xz, c.yy, c.yz, c.zz}, noise);
+  return scaled(noise, 2 / std::min<double>(points, kMostIndependentPoints));
 }
 
-/** From the source's origin to the cell, as the target's axes have it. */
+/** From the source's origin to the cell, along the target's axes. */
 Vector3d armOf(const TurnedCell& c, const Rigid& target_T_source)
 {
   return Vector3d(c.x, c.y, c.z) - target_T_source.translation;
@@ -101,11 +99,11 @@ ChunkSums gather(const Neighbourhoods& all, std::size_t index, const Rigid& targ
     const Vector3d v = armOf(c, target_T_source);
     Symmetric3 structured;
     sandwich(turned(source.structure, rotation), cells[i].structured, structured);
-    // By points: far cells that one row of beams crosses look thin where nothing is.
+    // Weighted by points, because far cells that one row of beams crosses look thin in directions without structure.
     const double points = source.points;
     sums.resistance.add(scaled(cells[i].weight, points), v.x(), v.y(), v.z());
     sums.structure.add(scaled(structured, points), v.x(), v.y(), v.z());
-    sums.unsure_means.add(shaking(cells[i].pull, c, source.points), v.x(), v.y(), v.z());
+    sums.unsure_means.add(forceNoise(cells[i].pull, c, source.points), v.x(), v.y(), v.z());
   }
   return sums;
 }
@@ -127,7 +125,7 @@ Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, dou
   return evidence;
 }
 
-/** What draws and holds within a few metres: leaves seen from another side, a branch, ground cut by another grid. */
+/** Sums over the cells within a few metres, whose errors are alike: leaves seen from one side, ground cut by a grid. */
 struct Place
 {
   Vector6d force = Vector6d::Zero();
@@ -163,37 +161,37 @@ Matrix6d targetOfMetres(const Rigid& target_T_source)
   return targetOfStep(target_T_source) * stepOfMetres().asDiagonal();
 }
 
-/** Of the curvature, which far from a minimum need not be positive: what is not counts as little. */
+/** The curvature may be indefinite far from a minimum: eigenvalues below a millionth of the largest are raised to it.
+ */
 Matrix6d safeInverse(const Matrix6d& symmetric)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(symmetric);
-  const double least = std::max(1e-12, 1e-6 * eigen.eigenvalues()[5]);
-  return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *
-         eigen.eigenvectors().transpose();
+  const auto [values, vectors] = eigensystem(symmetric);
+  const double least = std::max(1e-12, 1e-6 * values[5]);
+  return vectors * values.cwiseMax(least).cwiseInverse().asDiagonal() * vectors.transpose();
 }
 
 /**
- * In metres (see stepOfMetres): by the noise of the means (sandwich), and by how far the pose moves when the world is
- * looked at without one place after the other (the jackknife by clusters: J. MacKinnon, M. Nielsen and M. Webb, Fast
- * and reliable jackknife and bootstrap methods for cluster-robust inference, Journal of Applied Econometrics 38, 2023).
+ * In metres (see stepOfMetres): the sandwich of the means' noise, plus how far the pose moves when one place after the
+ * other is left out (the jackknife by clusters: J. MacKinnon, M. Nielsen and M. Webb, Fast and reliable jackknife and
+ * bootstrap methods for cluster-robust inference, Journal of Applied Econometrics 38, 2023).
  */
 Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& unsure_means, const Matrix6d& target_of_step)
 {
-  const auto inSteps = [&](const Matrix6d& m) -> Matrix6d { return target_of_step.transpose() * m * target_of_step; };
   Matrix6d curvature = Matrix6d::Zero();
   for (const Place& place : places) curvature += place.curvature.matrix();
-  const Matrix6d inverse = safeInverse(inSteps(curvature));
-  const Matrix6d step_of_target = target_of_step.inverse();
+  const Matrix6d bend = safeInverse(congruent(curvature, target_of_step));
+  const Matrix6d step_of_target = inverse(target_of_step);
 
-  Matrix6d covariance = inverse * inSteps(unsure_means) * inverse;
+  Matrix6d covariance = bend * congruent(unsure_means, target_of_step) * bend;
   const double share = 1 - 1 / std::max<double>(1, static_cast<double>(places.size()));
   for (const Place& place : places)
   {
     const Matrix6d others = curvature - place.curvature.matrix();
-    const Eigen::LLT<Matrix6d> solver(others);
-    const Vector6d moved = solver.info() == Eigen::Success
-                               ? Vector6d(step_of_target * solver.solve(place.force))
-                               : Vector6d(safeInverse(inSteps(others)) * (target_of_step.transpose() * place.force));
+    const std::optional<Vector6d> target_moved = solvePositive(others, place.force);
+    const Vector6d moved =
+        target_moved
+            ? Vector6d(step_of_target * *target_moved)
+            : Vector6d(safeInverse(congruent(others, target_of_step)) * (target_of_step.transpose() * place.force));
     covariance += share * moved * moved.transpose();
   }
   return covariance;
@@ -201,14 +199,15 @@ Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& unsure_m
 
 std::vector<GaussianCell> sampleOf(const std::vector<GaussianCell>& cells)
 {
-  constexpr std::size_t kEnough = 1000;  // a share of the score is then known to 0.015
+  constexpr std::size_t kEnough = 1000;  // for a share of the score that is accurate to 0.015
   const std::size_t every = std::max<std::size_t>(1, cells.size() / kEnough);
   std::vector<GaussianCell> sample;
   for (std::size_t i = 0; i < cells.size(); i += every) sample.push_back(cells[i]);
   return sample;
 }
 
-/** What is left of the score after a long step: of a sample, since all neighbours are looked up anew for each. */
+/** The share of the score that is left after a long step; of a sample of cells, because each step looks up neighbours
+ * anew. */
 class LongSteps
 {
  public:
@@ -221,7 +220,7 @@ class LongSteps
   {
   }
 
-  /** By the better one of both ways along `direction`. */
+  /** Of the steps to both sides along `direction`, the one that keeps more. */
   double keptBy(const Vector6d& direction)
   {
     const Vector6d step = std::max(kLongStep, pairs_.sourceEdge()) * stepOfMetres().cwiseProduct(direction);
@@ -241,18 +240,18 @@ std::vector<Vector6d> directionsWithoutStructure(const Evidence& evidence, const
                                                  const Rigid& target_T_source, double d2)
 {
   const Matrix6d target_of_step = targetOfMetres(target_T_source);
-  const Matrix6d structure = target_of_step.transpose() * evidence.structure * target_of_step;
-  Matrix6d resistance = target_of_step.transpose() * evidence.resistance * target_of_step;
+  const Matrix6d structure = congruent(evidence.structure, target_of_step);
+  Matrix6d resistance = congruent(evidence.resistance, target_of_step);
   resistance += 1e-9 * (1 + resistance.trace()) * Matrix6d::Identity();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> shares(structure, resistance);
+  const Eigensystem6 shares = eigensystem(structure, resistance);
   std::optional<LongSteps> long_steps;
   std::vector<Vector6d> directions;
-  for (int i = 0; i < 6 && shares.eigenvalues()[i] < kSuspicious; ++i)
+  for (int i = 0; i < 6 && shares.values[i] < kSuspicious; ++i)
   {
-    Vector6d direction = shares.eigenvectors().col(i).normalized();
+    Vector6d direction = shares.vectors.col(i).normalized();
     for (const Vector6d& before : directions) direction -= before.dot(direction) * before;
     direction.normalize();
-    const bool bare = shares.eigenvalues()[i] < kBare;
+    const bool bare = shares.values[i] < kBare;
     if (!bare && !long_steps) long_steps.emplace(all, target_T_source, d2);
     if (bare || long_steps->keptBy(direction) > kUnchanged) directions.push_back(direction);
   }
@@ -271,7 +270,7 @@ double largestDeviation(const Matrix6d& covariance)
 {
   const Matrix6d metres =
       stepOfMetres().cwiseInverse().asDiagonal() * covariance * stepOfMetres().cwiseInverse().asDiagonal();
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Matrix6d>(metres).eigenvalues()[5]);
+  return std::sqrt(eigensystem(metres).values[5]);
 }
 
 double scorePerInformation(double d2) { return d2 / kMostIndependentPoints; }

@@ -1,4 +1,4 @@
-/** What the matched cells know about a pose, how surely, and what they cannot know. */
+/** Covariance of a registered pose by its matched cells, and the directions that they leave open. */
 #pragma once
 #include "ndt/Neighbourhoods.h"
 
@@ -6,30 +6,27 @@
 
 namespace scanloom
 {
-/** Rotations count as the way of a point at this distance, wherever they are compared with translations. */
+/** To compare rotations with translations, a rotation counts as the motion of a point at this distance. */
 constexpr double kArm = 5.0;  // m
 
-/** diag(1, 1, 1, 1/kArm, ...): takes a step in metres to the tangent of boxPlus. */
+/** (1, 1, 1, 1/kArm, ...): times a step in metres it is a step in the tangent of boxPlus. */
 Vector6d stepOfMetres();
 
 /** Square root of a covariance's largest eigenvalue, in metres (see stepOfMetres). */
 double largestDeviation(const Matrix6d& covariance);
 
-/**
- * What the score's curvature is to the information that it stands for, while each cell meets one that agrees: takes
- * other information to the score's units.
- */
+/** Factor from information to the units of the score's curvature, as it is while each cell matches one that agrees. */
 double scorePerInformation(double d2);
 
 struct LidarInformation
 {
-  Matrix6d covariance = Matrix6d::Zero();  // sandwich with floor; kUnknownDeviation along the degenerate directions
-  std::vector<Vector6d> degenerate;        // see degenerateDirections
+  Matrix6d covariance = Matrix6d::Zero();  // with floor; 10 m along the degenerate directions
+  std::vector<Vector6d> degenerate;        // as by degenerateDirections
 };
 
-/** The steps in metres that nothing resists, orthonormal. Neighbourhoods as for lidarInformation. */
+/** Orthonormal steps in metres that no structure resists. The neighbourhoods must have been moved to the pose. */
 std::vector<Vector6d> degenerateDirections(const Neighbourhoods&, const Rigid& target_T_source, double d2);
 
-/** Neighbourhoods must have been moved to the pose. */
+/** The neighbourhoods must have been moved to the pose. */
 LidarInformation lidarInformation(const Neighbourhoods&, const Rigid& target_T_source, double d2);
 }  // namespace scanloom

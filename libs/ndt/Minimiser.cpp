@@ -1,9 +1,9 @@
 #include "ndt/Minimiser.h"
 
+#include "core/Matrix6.h"
 #include "ndt/LidarInformation.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,10 @@ namespace scanloom
 {
 namespace
 {
-// Steps go down the score with B held, and its zero is not quite the minimum of the score with B turning (which
-// rewards a turn that merely widens B^-1, and locks in worse poses): near it the score may rise a little.
+// Steps follow the gradient with B held constant. Its zero is not quite the minimum of the score with B turning (which
+// rewards turns that only enlarge B^-1, and leads to worse poses), so near it the score may rise a little.
 constexpr double kSlack = 0.02;
 
-/** The pairs of maps that are aligned by one pose. */
 using Pairs = std::vector<Neighbourhoods*>;
 
 NormalEquations at(const Rigid& pose, const Pairs& pairs, const Expectation& expectation, double d2)
@@ -46,8 +45,9 @@ Vector6d dampedStep(const NormalEquations& equations, double damping, const Matr
 }
 
 /**
- * With the turning of B and the bend of the score left out, the curvature is taken too large, and each step is about
- * the same fraction of the last: two of them tell what all the others add up to. 0 where they do not line up.
+ * The ratio of one step to the last; 0 where they are not parallel. Without the turning of B and the score's second
+ * derivative the curvature is too large, so each step is about the same fraction of the one before it: the sum of all
+ * further steps follows from two.
  */
 double shrinkingOf(const Vector6d& step, const Vector6d& before)
 {
@@ -65,7 +65,7 @@ Minimum minimise(const Pairs& pairs, const Rigid& start, const Expectation& expe
 
   Minimum here{start, at(start, pairs, expectation, options.d2), 0, false};
   double damping = 0;
-  Vector6d before = Vector6d::Zero();  // the last step, if the next can be compared with it
+  Vector6d before = Vector6d::Zero();  // the last step; zero if the next is not comparable with it
   while (here.equations.met_points > 0 && here.iterations < options.max_iterations)
   {
     ++here.iterations;
@@ -75,7 +75,7 @@ Minimum minimise(const Pairs& pairs, const Rigid& start, const Expectation& expe
     before = shrinking == 0 ? plain : Vector6d::Zero();
 
     const Rigid candidate = boxPlus(here.target_T_source, stepOfMetres().cwiseProduct(step));
-    if (step.norm() < options.tolerance)  // nothing that is worth another look at every cell
+    if (step.norm() < options.tolerance)  // too small to evaluate all cells again
     {
       here.target_T_source = candidate;
       here.converged = true;
@@ -100,13 +100,13 @@ Minimum minimise(const Pairs& pairs, const Rigid& start, const Expectation& expe
 
 Expectation::Expectation(const PoseGuess& guess) : pose_(guess.target_T_source)
 {
-  if (guess.covariance) information_ = guess.covariance->inverse();
+  if (guess.covariance) information_ = inverse(*guess.covariance);
 }
 
 void Expectation::addTo(NormalEquations& equations, const Rigid& target_T_source, double d2) const
 {
   if (information_.isZero(0)) return;
-  // With the Jacobian of boxMinus taken as the identity: what it lacks is a twentieth at 6 degrees.
+  // The Jacobian of boxMinus is taken as the identity: an error of 5 % at 6 degrees.
   const Vector6d off = boxMinus(target_T_source, pose_);
   const Matrix6d weight = scorePerInformation(d2) * information_;
   equations.value += 0.5 * off.dot(weight * off);

@@ -1,4 +1,4 @@
-/** Damped Gauss-Newton on the distribution-to-distribution objective. */
+/** Damped Gauss-Newton minimisation of the distribution-to-distribution objective. */
 #pragma once
 #include "ndt/NormalEquations.h"
 #include "ndt/Registration.h"
@@ -10,12 +10,12 @@ namespace scanloom
 struct Minimum
 {
   Rigid target_T_source;
-  NormalEquations equations;  // there, or a step below the tolerance before
+  NormalEquations equations;  // there, or a step smaller than the tolerance before it
   int iterations = 0;
   bool converged = false;
 };
 
-/** A guess with a covariance as a part of the objective; nothing, for one without. */
+/** The part of the objective by a guess; zero for a guess without a covariance. */
 class Expectation
 {
  public:
@@ -29,10 +29,10 @@ class Expectation
   Matrix6d information_ = Matrix6d::Zero();
 };
 
-/** Never steps along the `locked` directions (orthonormal, in metres). Leaves the neighbourhoods at the minimum. */
+/** Never steps along the `locked` directions (orthonormal, in metres). Moves the neighbourhoods to the minimum. */
 Minimum minimise(Neighbourhoods&, const Rigid& start, const Expectation&, const RegistrationOptions&,
                  const std::vector<Vector6d>& locked);
 
-/** The same of several pairs of maps at once: one pose for all. */
+/** One pose for several pairs of maps. */
 Minimum minimise(std::vector<Neighbourhoods>&, const Rigid& start, const RegistrationOptions&);
 }  // namespace scanloom

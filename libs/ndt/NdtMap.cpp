@@ -44,7 +44,7 @@ Coordinates coordinatesOf(const PointCloud& cloud)
   return {cloud.x.data(), cloud.y.data(), cloud.z.data(), 1, cloud.size()};
 }
 
-/** What of one axis lies in one block: the cells from -1 to 1 around the centre, and the centre alone. */
+/** The part of one axis that lies in one block: the cells from -1 to 1 around the centre, and the centre alone. */
 struct AxisInBlock
 {
   std::uint64_t block = 0;   // index of the block along the axis
@@ -52,7 +52,7 @@ struct AxisInBlock
   std::uint64_t centre = 0;
 };
 
-/** `spread`: of the four indices of an axis to the 64 cells. */
+/** `spread`: from the four indices of an axis to bits of the 64 cells. */
 template <typename Spread>
 int splitAxis(std::int64_t index, Spread&& spread, std::array<AxisInBlock, 2>& parts)
 {
@@ -78,7 +78,7 @@ NdtMap::NdtMap(const NdtOptions& options)
 NdtMap::NdtMap(const NdtOptions& options, std::int64_t cell_quanta, const std::vector<Bin>& bins)
   : options_(options), cell_quanta_(cell_quanta)
 {
-  combine(bins, [](Moments& a, const Moments& b) { a += b; });
+  combine(bins, &Moments::operator+=);
 }
 
 NdtMap::NdtMap(const PointCloud& points, const NdtOptions& options) : NdtMap(options)
@@ -93,48 +93,33 @@ NdtMap::NdtMap(const std::vector<Eigen::Vector3f>& points, const NdtOptions& opt
 
 NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options) : NdtMap(options)
 {
-  CellBins all;
+  const int least_points = std::max(options_.min_points, GaussianCell::kMinPointsForCovariance);
+  std::vector<Bin> all;
   for (const View& view : views)
   {
-    CellBins counted = countInto(coordinatesOf(view.points), cell_quanta_);
-    all.left_out += counted.left_out;
-    const int least_points = std::max(options_.min_points, GaussianCell::kTellsItsSpread);
-    if (view.viewpoint) moveToAxes(counted.bins, cell_quanta_, *view.viewpoint, least_points);
-    all.bins = all.bins.empty() ? std::move(counted.bins) : sumOf(all.bins, counted.bins);
+    std::vector<Bin> counted = countInto(coordinatesOf(view.points), cell_quanta_);
+    if (view.viewpoint) moveToAxes(counted, cell_quanta_, *view.viewpoint, least_points);
+    all = all.empty() ? std::move(counted) : sumOf(all, counted);
   }
   begin(all);
 }
 
-void NdtMap::begin(const CellBins& counted)
+void NdtMap::begin(const std::vector<Bin>& counted)
 {
-  points_left_out_ = counted.left_out;
-  const auto fill = [this](const std::vector<Bin>& bins)
-  { combine(bins, [](Moments& a, const Moments& b) { a += b; }); };
-  if (options_.max_cells == 0) return fill(counted.bins);
-  fill(thinned(counted.bins, options_.min_points, static_cast<std::size_t>(options_.max_cells)));
-}
-
-void NdtMap::add(const PointCloud& cloud) { add(coordinatesOf(cloud)); }
-
-void NdtMap::add(const std::vector<Eigen::Vector3f>& points) { add(coordinatesOf(points)); }
-
-void NdtMap::add(const Coordinates& points)
-{
-  const CellBins counted = countInto(points, cell_quanta_);
-  points_left_out_ += counted.left_out;
-  combine(counted.bins, [](Moments& a, const Moments& b) { a += b; });
+  if (options_.max_cells == 0) return combine(counted, &Moments::operator+=);
+  combine(thinned(counted, options_.min_points, static_cast<std::size_t>(options_.max_cells)), &Moments::operator+=);
 }
 
 void NdtMap::add(const NdtMap& other)
 {
   requireSameCells(other);
-  combine(other.bins_, [](Moments& a, const Moments& b) { a += b; });
+  combine(other.bins_, &Moments::operator+=);
 }
 
 void NdtMap::remove(const NdtMap& other)
 {
   requireSameCells(other);
-  combine(other.bins_, [](Moments& a, const Moments& b) { a -= b; });
+  combine(other.bins_, &Moments::operator-=);
 }
 
 NdtMap NdtMap::coarser(int factor) const
@@ -145,8 +130,7 @@ NdtMap NdtMap::coarser(int factor) const
   return {options, cell_quanta_ * factor, coarserBins(bins_, cell_quanta_, factor)};
 }
 
-template <typename Combine>
-void NdtMap::combine(const std::vector<Bin>& others, Combine&& apply)
+void NdtMap::combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(const Moments&))
 {
   std::vector<Bin> bins;
   std::vector<GaussianCell> cells;
@@ -174,7 +158,7 @@ void NdtMap::combine(const std::vector<Bin>& others, Combine&& apply)
       sum = *mine++;
     }
     const std::int64_t before = sum.moments.n;
-    apply(sum.moments, other.moments);
+    (sum.moments.*apply)(other.moments);
     if (sum.moments.n < 0) throw std::invalid_argument("NdtMap::remove: these points were never added");
     points_ = static_cast<std::size_t>(static_cast<std::int64_t>(points_) + sum.moments.n - before);
     if (sum.moments.n == 0) continue;
@@ -184,7 +168,7 @@ void NdtMap::combine(const std::vector<Bin>& others, Combine&& apply)
     cells.emplace_back();
   }
   while (mine != bins_.cend()) keep(*mine++);
-  constexpr std::size_t kGrain = 128;  // Gaussians: some 20 us
+  constexpr std::size_t kGrain = 128;  // Gaussians, about 20 us
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, changed.size(), kGrain),
                     [&](const auto& range)
                     {
@@ -235,15 +219,9 @@ void NdtMap::indexBlocks()
   finish();
 }
 
-const GaussianCell* NdtMap::cellAt(const Eigen::Vector3i& index) const
-{
-  std::uint32_t found;
-  return findAround(index, 1, &found) == 0 ? nullptr : &cells_[found];
-}
-
 std::size_t NdtMap::findAround(const Eigen::Vector3i& index, int neighbours, std::uint32_t* found) const
 {
-  // A cell at the very border has neighbours without an index; nothing that far is worth the code.
+  // Neighbours of a cell at the border have no index; such cells are too far away to matter.
   if (!CellKey::fits(index.minCoeff() - std::int64_t{1}) || !CellKey::fits(index.maxCoeff() + std::int64_t{1}))
     return 0;
   std::array<AxisInBlock, 2> along_x, along_y, along_z;
@@ -284,7 +262,7 @@ Eigen::Vector3i NdtMap::indexOf(const Eigen::Vector3d& point) const
   const DividedBy cellOf(cell_quanta_);
   const auto index = [&](double coordinate)
   {
-    if (!(std::abs(coordinate) < reach)) return static_cast<int>(CellKey::kLimit);  // a cell that no map has
+    if (!(std::abs(coordinate) < reach)) return static_cast<int>(CellKey::kLimit);  // the index of no cell
     return static_cast<int>(cellOf(quantaOf(coordinate)));
   };
   return {index(point.x()), index(point.y()), index(point.z())};

@@ -1,4 +1,5 @@
-/** Space cut into cubes with a normal distribution of the points in each: what scans and local maps are aligned by. */
+/** Space divided into cubes with a normal distribution of the points in each: scans and local maps are aligned by them.
+ */
 #pragma once
 #include "core/Field.h"
 #include "core/PointCloud.h"
@@ -24,19 +25,21 @@ struct NdtOptions
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.cell_size, Field{"cell_size", "m", "edge of a cell", between(0.05, 10)});
-    visit(o.min_points, Field{"min_points", "", "points that a cell needs to count", atLeast(1)});
-    visit(o.min_deviation, Field{"min_deviation", "m", "floor of a cell's standard deviations", above(0)});
+    visit(o.min_points, Field{"min_points", "", "cells with fewer points are not used", atLeast(1)});
+    visit(o.min_deviation,
+          Field{"min_deviation", "m", "standard deviations of a cell below this are raised to it", above(0)});
     visit(o.max_cells,
-          Field{"max_cells", "", "a cloud with more loses, evenly, cells of fewer than 4 points; 0: none", atLeast(0)});
+          Field{"max_cells", "",
+                "above this number of cells, those with fewer than 4 points are thinned evenly; 0: never", atLeast(0)});
   }
 };
 
 /**
- * Sums of points per cell, and the Gaussians of the cells that have enough of them.
+ * Sums of points per cell, and the Gaussians of the cells that have enough points.
  *
  * The same points give the same bits in any order, whether added at once or map by map, on any number of threads (see
- * Moments). Cells are listed in the order of their CellKey: no hash decides it. The edge of a cell is rounded to a
- * multiple of 1/65536 m.
+ * Moments). Cells are in the order of their CellKey, not of a hash table. The edge of a cell is rounded to a multiple
+ * of 1/65536 m. Points that are not finite or too far for an index are left out.
  */
 class NdtMap
 {
@@ -45,43 +48,35 @@ class NdtMap
   explicit NdtMap(const NdtOptions&);
   NdtMap(const PointCloud&, const NdtOptions&);
   NdtMap(const std::vector<Eigen::Vector3f>&, const NdtOptions&);
-  /** Points of stems and poles stand on their axes (see moveToAxes), as far as viewpoints are known. */
+  /** Points of stems and poles are moved onto their axes (see moveToAxes), for views with a viewpoint. */
   NdtMap(const std::vector<View>&, const NdtOptions&);
 
-  /** Adds points given in the map's frame. Those that are not finite or too far for an index are left out and counted.
-   */
-  void add(const PointCloud& points_in_map);
-  void add(const std::vector<Eigen::Vector3f>& points_in_map);
-
   /**
-   * Adds or takes out the points of a map in the same frame: only the cells of `other` are computed anew. Throws
-   * std::invalid_argument if the cell sizes differ.
+   * Adds or removes the points of a map in the same frame; only the cells of `other` are computed anew. Throws
+   * std::invalid_argument if the cell sizes differ, or if the points were never added.
    */
   void add(const NdtMap& other);
   void remove(const NdtMap& other);
 
-  /** The same points in cells of `factor` times the edge, from sums: no point is binned again. `factor` from 2. */
+  /** The same points in cells of `factor` (2 or more) times the edge, from the sums. */
   NdtMap coarser(int factor) const;
 
   /** Cells with enough points, in the order of their keys. */
   const std::vector<GaussianCell>& cells() const { return cells_; }
 
-  /** The Gaussian of a cell; nullptr where there is none. Valid until the map is changed. */
-  const GaussianCell* cellAt(const Eigen::Vector3i& index) const;
   Eigen::Vector3i indexOf(const Eigen::Vector3d& point) const;
 
   /**
-   * Writes the places in cells() of the Gaussians among the 1, 7 or 27 cells around `index`, itself included, and
-   * returns how many. Another number throws nothing and finds nothing.
+   * Writes to `found` the indices into cells() of the Gaussians among the 1, 7 or 27 cells around `index`, that cell
+   * included, and returns how many.
    */
   std::size_t findAround(const Eigen::Vector3i& index, int neighbours, std::uint32_t* found) const;
 
   std::size_t points() const { return points_; }
-  std::size_t pointsLeftOut() const { return points_left_out_; }
   const NdtOptions& options() const { return options_; }
 
  private:
-  /** Of 4 x 4 x 4 cells, those that have a Gaussian: a bit each, and where in cells_ they begin. */
+  /** 4 x 4 x 4 cells: a bit for each that has a Gaussian, and the index in cells_ of the first of them. */
   struct Block
   {
     std::uint64_t cells = 0;
@@ -90,10 +85,8 @@ class NdtMap
 
   NdtMap(const NdtOptions&, std::int64_t cell_quanta, const std::vector<Bin>&);
 
-  void add(const Coordinates&);
-  void begin(const CellBins&);
-  template <typename Combine>
-  void combine(const std::vector<Bin>& others, Combine&&);
+  void begin(const std::vector<Bin>&);
+  void combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(const Moments&));
   void requireSameCells(const NdtMap& other) const;
   bool hasGaussian(const Bin& bin) const { return bin.moments.n >= options_.min_points; }
   GaussianCell gaussianOfBin(const Bin&) const;
@@ -105,13 +98,12 @@ class NdtMap
   std::vector<GaussianCell> cells_;
   tsl::robin_map<std::uint64_t, Block, KeyHash> blocks_;  // only looked up, never iterated
   std::size_t points_ = 0;
-  std::size_t points_left_out_ = 0;
 };
 
 /**
- * The points in cells of each size, in the order given; their size in `options` does not count. Points are binned once
- * into the smallest cells and once more for each size that is no multiple of it. Throws std::invalid_argument for no
- * size and as NdtMap does.
+ * A map for each size of cells, in this order; options.cell_size is ignored. Points are binned once into the smallest
+ * cells and once more for each size that is not a multiple of it. Throws std::invalid_argument without a size, and as
+ * NdtMap does.
  */
 std::vector<NdtMap> ndtLevels(const std::vector<Eigen::Vector3f>&, const std::vector<double>& cell_sizes, NdtOptions);
 std::vector<NdtMap> ndtLevels(const std::vector<View>&, const std::vector<double>& cell_sizes, NdtOptions);

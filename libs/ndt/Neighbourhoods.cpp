@@ -48,7 +48,7 @@ Neighbourhoods::Neighbourhoods(const NdtMap& target, const std::vector<GaussianC
     chunk.first = first;
     chunk.cells.resize(count);
     chunk.ranges.assign(count, {0, 0});
-    chunk.blocks.reserve(2 * count);  // what a scan of a forest needs
+    chunk.blocks.reserve(2 * count);  // enough for a scan of a forest
     chunk.found.resize(count * static_cast<std::size_t>(neighbours));
     chunk.counts.assign(count, 0);
     chunk.centres.assign(count, Eigen::Vector3i::Constant(std::numeric_limits<int>::min()));
@@ -74,7 +74,7 @@ void Neighbourhoods::moveTo(const Rigid& target_T_source, std::size_t index)
   }
 }
 
-/** Blocks that have become too few are left behind: in a registration that happens to few cells, and not often. */
+/** Blocks that are too few for the new neighbours stay behind unused; that is rare within a registration. */
 void Neighbourhoods::lookUp(Chunk& chunk, std::size_t i, const Eigen::Vector3i& centre)
 {
   std::uint32_t* found = chunk.found.data() + i * static_cast<std::size_t>(neighbours_);

@@ -1,4 +1,4 @@
-/** Which target cells each source cell is compared with. */
+/** The target cells that each source cell is compared with. */
 #pragma once
 #include "core/Rigid.h"
 #include "ndt/NdtMap.h"
@@ -10,12 +10,11 @@
 namespace scanloom
 {
 /**
- * For each source cell the Gaussians among the 1, 7 or 27 target cells at its mean. With 27 the mean lies one to two
- * target edges inside the block, so that a source cell of up to 2.5 target edges meets what its own points can touch;
- * larger ratios still work, but see less and less of their own extent.
+ * For each source cell the Gaussians among the 1, 7 or 27 target cells around its mean. 27 cells reach one to two
+ * target edges beyond the mean: enough for source cells of up to 2.5 target edges; of larger ones they cover a part.
  *
- * Source cells come in chunks of a fixed size, so that sums over them do not depend on the number of threads; different
- * chunks may be used by different threads at a time. Keeps references to target and source.
+ * Source cells come in chunks of a fixed size, so that sums over them do not depend on the number of threads. Different
+ * threads may use different chunks at a time. Keeps references to target and source.
  */
 class Neighbourhoods
 {
@@ -31,22 +30,22 @@ class Neighbourhoods
 
   std::size_t chunks() const { return chunks_.size(); }
 
-  /** Of all chunks, in parallel. */
+  /** All chunks, in parallel. */
   void moveTo(const Rigid& target_T_source);
 
-  /** Looks the neighbours up again where a mean of the chunk has changed its cell. */
+  /** Looks neighbours up again only for means that have moved to another target cell. */
   void moveTo(const Rigid& target_T_source, std::size_t chunk);
 
   /** A chunk's source cells in the target's frame, and the target cells of each. */
   struct Chunk
   {
-    std::size_t first = 0;           // source cell
-    std::vector<TurnedCell> cells;   // where moveTo left them
+    std::size_t first = 0;           // index of its first source cell
+    std::vector<TurnedCell> cells;   // as moved by moveTo()
     std::vector<BlockRange> ranges;  // of each, into `blocks`
     std::vector<TargetBlock> blocks;
-    std::vector<std::uint32_t> found;  // as many places per source cell as it may have neighbours
+    std::vector<std::uint32_t> found;  // room for all neighbours of each source cell
     std::vector<std::uint32_t> counts;
-    std::vector<Eigen::Vector3i> centres;  // where the neighbours were last looked up
+    std::vector<Eigen::Vector3i> centres;  // target cells whose neighbours were last looked up
 
     PairBatch pairs() const { return {cells.data(), ranges.data(), cells.size(), blocks.data()}; }
   };

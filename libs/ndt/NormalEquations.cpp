@@ -1,5 +1,6 @@
 #include "ndt/NormalEquations.h"
 
+#include "core/Matrix6.h"
 #include "ndt/Symmetric3.h"
 
 #include <tbb/parallel_for.h>
@@ -76,7 +77,7 @@ NormalEquations normalEquations(Neighbourhoods& all, const Rigid& target_T_sourc
   // boxPlus steps in the source's frame.
   const Matrix6d target_of_step = targetOfStep(target_T_source);
   equations.gradient = target_of_step.transpose() * gradient;
-  equations.curvature = target_of_step.transpose() * curvature * target_of_step;
+  equations.curvature = congruent(curvature, target_of_step);
   return equations;
 }
 }  // namespace scanloom

@@ -1,11 +1,11 @@
-/** What pairs of cells tell about a pose, eight at a time: the covariance's counterpart of PairSums. */
+/** The sums over pairs of cells from which a pose's covariance is computed, eight pairs at a time. */
 #pragma once
 #include "ndt/PairSums.h"
 #include "ndt/Symmetric3.h"
 
 namespace scanloom
 {
-/** Of a TargetBlock's cells, GaussianCell::structure; zero in a place without a cell. */
+/** GaussianCell::structure of the cells of a TargetBlock; zero where there is no cell. */
 struct alignas(64) StructureBlock
 {
   double xx[TargetBlock::kLanes], xy[TargetBlock::kLanes], xz[TargetBlock::kLanes];
@@ -18,10 +18,11 @@ struct PairEvidence
   double fx, fy, fz;      // sum w u
   Symmetric3 weight;      // sum w B
   Symmetric3 structured;  // sum w T B T
-  Symmetric3 pull;        // sum w (B - d2 u u'): how the force grows with the distance
+  Symmetric3 pull;        // sum w (B - d2 u u'): derivative of the force by the distance
 };
 
-/** One per cell of the batch; `structures` of its blocks. Equal to the bit for every kernel. */
+/** Writes one PairEvidence per source cell; `structures` belong to the blocks. The bits are the same for every kernel.
+ */
 void gatherEvidence(const PairBatch&, const StructureBlock* structures, double d2, PairEvidence* evidence,
                     Kernel = widestKernel());
 }  // namespace scanloom

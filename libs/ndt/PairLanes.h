@@ -1,4 +1,4 @@
-/** One source cell against eight target cells: what every kernel over pairs of cells begins with. */
+/** One source cell against eight target cells: the common part of all kernels over pairs of cells. */
 #pragma once
 #include "ndt/PairSums.h"
 #include "ndt/Symmetric3.h"
@@ -10,7 +10,7 @@
 
 namespace scanloom
 {
-// Vectors of the compiler's: the same operations in the same order whatever registers a machine has for them.
+// Vectors of the compiler: the same operations in the same order, whatever registers the machine has.
 using Lanes = double __attribute__((vector_size(8 * TargetBlock::kLanes)));
 
 SCANLOOM_INLINE void load(const double* from, Lanes& lanes) { std::memcpy(&lanes, from, sizeof lanes); }
@@ -18,8 +18,8 @@ SCANLOOM_INLINE void load(const double* from, Lanes& lanes) { std::memcpy(&lanes
 using SymmetricLanes = SymmetricOf<Lanes>;
 
 /**
- * The smaller one of numbers that are not negative, whose bits are in their order. Not by a comparison: GCC takes those
- * of vectors apart before it knows the registers of a function's target.
+ * The smaller of two numbers that are not negative, whose bits have the order of the numbers. Not by a comparison: GCC
+ * splits comparisons of vectors before it knows the registers of a function's target.
  */
 SCANLOOM_INLINE void keepBelow(double most, Lanes& v)
 {
@@ -37,7 +37,7 @@ SCANLOOM_INLINE void keepBelow(double most, Lanes& v)
 SCANLOOM_INLINE void expOfMinus(const Lanes& h, Lanes& result)
 {
   using Whole = std::int64_t __attribute__((vector_size(8 * TargetBlock::kLanes)));
-  constexpr double kRound = 0x1.8p52;  // added and taken away again, it leaves a whole number
+  constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
   constexpr double kLog2E = 1.4426950408889634, kLn2High = 0x1.62e42fefa3800p-1, kLn2Low = 0x1.ef35793c76730p-45;
   constexpr double kOver[] = {1,         1,         1.0 / 2,    1.0 / 6,     1.0 / 24,
                               1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880};  // the factorials

@@ -1,4 +1,4 @@
-/** The innermost sums of a registration: one source cell against its target cells, eight at a time. */
+/** The innermost sums of a registration: a source cell against its target cells, eight at a time. */
 #pragma once
 #include "core/Kernel.h"
 
@@ -7,7 +7,7 @@
 
 namespace scanloom
 {
-/** Eight target cells side by side. A place without a cell holds one so far away that it never counts. */
+/** Eight target cells. Places without a cell hold one that is too far away to contribute. */
 struct alignas(64) TargetBlock
 {
   static constexpr std::size_t kLanes = 8;
@@ -16,7 +16,7 @@ struct alignas(64) TargetBlock
   double xx[kLanes], xy[kLanes], xz[kLanes], yy[kLanes], yz[kLanes], zz[kLanes];  // m^2, covariances
 };
 
-/** A source cell, turned and moved into the target's frame. */
+/** A source cell in the target's frame. */
 struct TurnedCell
 {
   double x, y, z;
@@ -46,6 +46,6 @@ struct PairBatch
   const TargetBlock* blocks;
 };
 
-/** One per cell. Equal to the bit for every kernel. */
+/** Writes one PairSums per source cell. The bits are the same for every kernel. */
 void sumPairs(const PairBatch&, double d2, PairSums* sums, Kernel = widestKernel());
 }  // namespace scanloom

@@ -10,11 +10,11 @@ namespace scanloom
 namespace
 {
 constexpr std::size_t kLanes = 8;
-// No comparisons: GCC takes those of vectors apart before it knows the registers of a function's target.
+// No comparisons: GCC splits those of vectors before it knows the registers of a function's target.
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
 using Bits = std::uint64_t __attribute__((vector_size(8 * kLanes)));
 
-constexpr double kRound = 0x1.8p52;  // added and taken away again, it leaves the nearest whole number
+constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
 constexpr std::uint64_t kBitsOfRound = 0x4338000000000000;
 
 struct Axis
@@ -35,14 +35,14 @@ INLINE void along(double* place, const Cells& cells, Axis& axis)
   std::memcpy(&v, place, sizeof v);
   const Lanes quanta = (v * (1 / Moments::kQuantum) + kRound) - kRound;
 
-  // Half a quantum in, no quotient is nearer to a whole number than its rounding error: 2^-31 beside 2^-21.
+  // Half a quantum off a boundary, a quotient is farther from a whole number (2^-21) than its rounding error (2^-31).
   const Lanes shifted = ((quanta + 0.5) * cells.inverse_edge - 0.5) + kRound;
   const Lanes from_centre = quanta - (shifted - kRound) * cells.edge - cells.centre;
   std::memcpy(place, &from_centre, sizeof from_centre);
   std::memcpy(&axis.biased, &shifted, sizeof shifted);
   axis.biased += static_cast<std::uint64_t>(CellKey::kLimit) - kBitsOfRound;
 
-  // Bits of positive numbers are in the numbers' order, those of what is not finite above them.
+  // Bits of positive numbers have the order of the numbers; those of infinity and NaN are above them.
   Bits magnitude;
   std::memcpy(&magnitude, &v, sizeof v);
   axis.fits = (magnitude << 1 >> 1) - cells.bits_of_reach;
@@ -63,7 +63,7 @@ INLINE void locateAll(std::size_t count, const Cells& cells, PointCells& located
   }
 }
 
-/** Apart from the arithmetic: what has just been stored by halves can't be loaded whole without a wait. */
+/** Separate from the arithmetic: a load that spans several recent stores has to wait for them. */
 void widen(const Coordinates& points, PointCells& located)
 {
   std::size_t i = 0;

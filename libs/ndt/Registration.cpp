@@ -1,12 +1,10 @@
 #include "ndt/Registration.h"
 
+#include "core/Matrix6.h"
+#include "core/Statistics.h"
 #include "ndt/LidarInformation.h"
 #include "ndt/Minimiser.h"
 #include "ndt/Rivals.h"
-
-#include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +14,9 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kLoose = 30;  // times the tolerance, where more exact steps follow
+constexpr double kLoose = 30;  // factor on the tolerance where a more accurate search follows
 
-// Times a level's cells: from further away the level before it is needed.
+// Share of a level's cell size: a guess that is farther off needs the coarser level before it.
 constexpr double kReachOfCells = 0.3;
 
 struct Aligned
@@ -27,7 +25,7 @@ struct Aligned
   LidarInformation lidar;
 };
 
-/** By the wide score first, if the guess may be far off; `locked`: see minimise. */
+/** `widely`: with the wide score first, because the start may be far off; `locked` as in minimise(). */
 Minimum search(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, const Expectation& expectation,
                const RegistrationOptions& options, const std::vector<Vector6d>& locked)
 {
@@ -41,7 +39,7 @@ Minimum search(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, 
   return minimum;
 }
 
-/** What slid along a direction that nothing measures was noise: from the start again, without it. */
+/** Motion along a degenerate direction was noise: the search is repeated from the start without it. */
 Minimum searchAgain(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, const Expectation& expectation,
                     const RegistrationOptions& options, const std::vector<Vector6d>& degenerate, const Minimum& first)
 {
@@ -60,7 +58,7 @@ Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool wide
   return {searchAgain(neighbourhoods, start, widely, expectation, options, lidar.degenerate, minimum), lidar};
 }
 
-/** For the next level to start from. `may_slide`: where a coarser level left a direction open. */
+/** The start of the next level. `may_slide`: a coarser level left a direction open. */
 Minimum approach(const RegistrationLevel& level, const Rigid& start, bool widely, const Expectation& expectation,
                  const RegistrationOptions& options, bool& may_slide)
 {
@@ -99,11 +97,11 @@ RegistrationResult resultOf(const Aligned& aligned, const NdtMap& source, const 
   result.outcome = outcomeOf(minimum, result.overlap, !lidar.degenerate.empty(), options);
   if (minimum.equations.met_points == 0) return result;
   result.covariance = lidar.covariance;
-  result.information = lidar.covariance.inverse();
+  result.information = inverse(lidar.covariance);
   return result;
 }
 
-/** Moves to the pose that surprises the guess least, and says what speaks for the others. */
+/** Takes the pose that is nearest to the guess, and adds the distances to the others to the covariance. */
 void weighRivals(const RegistrationLevel& level, const PoseGuess& guess, const RegistrationOptions& options,
                  RegistrationResult& result)
 {
@@ -115,17 +113,17 @@ void weighRivals(const RegistrationLevel& level, const PoseGuess& guess, const R
   result.outcome = Outcome::Degenerate;
   for (const Rigid& rival : result.rivals)
   {
-    const Vector6d way = boxMinus(rival, result.target_T_source);
-    result.covariance += way * way.transpose();
-    Vector6d direction = stepOfMetres().cwiseInverse().cwiseProduct(way).normalized();
+    const Vector6d apart = boxMinus(rival, result.target_T_source);
+    result.covariance += apart * apart.transpose();
+    Vector6d direction = stepOfMetres().cwiseInverse().cwiseProduct(apart).normalized();
     for (const Vector6d& before : result.degenerate_directions) direction -= before.dot(direction) * before;
     constexpr double kNew = 0.3;
     if (direction.norm() > kNew) result.degenerate_directions.push_back(direction.normalized());
   }
-  result.information = result.covariance.inverse();
+  result.information = inverse(result.covariance);
 }
 
-/** The finest level of those whose cells are not smaller than what the guess may be off by asks for. */
+/** The finest level with cells that are large enough for the deviations of the guess. */
 std::size_t firstLevel(const std::vector<RegistrationLevel>& levels, const PoseGuess& guess)
 {
   if (!guess.covariance) return 0;
@@ -135,7 +133,7 @@ std::size_t firstLevel(const std::vector<RegistrationLevel>& levels, const PoseG
   return level;
 }
 
-/** The level whose score tells a turn best: stems still stand out of their cells, and a turn moves few of them away. */
+/** The level whose score depends on the heading most clearly: stems differ from their cells, and few leave them. */
 std::size_t levelForTurns(const std::vector<RegistrationLevel>& levels, std::size_t first)
 {
   constexpr double kCells = 4;  // m
@@ -145,14 +143,14 @@ std::size_t levelForTurns(const std::vector<RegistrationLevel>& levels, std::siz
 }
 
 /**
- * The best of turns about the source's z axis. Ground holds the tilt from anywhere, but it has no heading, and stems
- * that are turned further than their neighbourhood draw nowhere.
+ * The pose with the best of several headings. Alignment finds the tilt from anywhere by the ground, but not the
+ * heading: stems that are turned out of their neighbourhoods do not contribute.
  */
 Rigid turned(const RegistrationLevel& level, const Rigid& pose, const PoseGuess& guess)
 {
   constexpr double kStep = 5 * M_PI / 180, kMost = 5;
   constexpr double kBroad = 0.05;      // d2
-  constexpr double kStandsOut = 1.04;  // times the median score: bare ground's best has 1.03, a dense stand's 1.06
+  constexpr double kStandsOut = 1.04;  // best over median score: 1.03 on bare ground, 1.06 in a dense stand
   constexpr int kNeighbours = 7;
   const double reach = guess.covariance ? 3 * std::sqrt((*guess.covariance)(5, 5)) / kStep : kMost;
   const int most = static_cast<int>(std::min(reach, kMost));
@@ -166,8 +164,7 @@ Rigid turned(const RegistrationLevel& level, const Rigid& pose, const PoseGuess&
     scores.push_back(-normalEquations(neighbourhoods, there, kBroad).value);
     if (scores.back() > highest) highest = scores.back(), best = there;
   }
-  std::nth_element(scores.begin(), scores.begin() + most, scores.end());
-  return highest > kStandsOut * scores[static_cast<std::size_t>(most)] ? best : pose;
+  return highest > kStandsOut * upperMedian(std::move(scores)) ? best : pose;
 }
 }  // namespace
 
@@ -195,7 +192,7 @@ RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& level
   coarse.tolerance = kLoose * options.tolerance;
   Rigid pose = guess.target_T_source;
   int iterations = 0;
-  bool may_slide = true;  // what is open in coarse cells may be held by finer ones, not the other way round
+  bool may_slide = true;  // finer cells may determine what coarse ones leave open, not the reverse
   const std::size_t first = firstLevel(levels, guess), last = levels.size() - 1;
   const std::size_t turns = levelForTurns(levels, first);
   for (std::size_t i = first; i < last; ++i)
@@ -215,7 +212,7 @@ RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& level
 PoseGuess::PoseGuess(const Rigid& pose, const Matrix6d& its_covariance)
   : target_T_source(pose), covariance(its_covariance)
 {
-  if (its_covariance.allFinite() && its_covariance.llt().info() == Eigen::Success) return;
+  if (isPositiveDefinite(its_covariance)) return;
   throw std::invalid_argument("PoseGuess: the covariance is not positive definite");
 }
 
@@ -233,19 +230,5 @@ std::string toString(Outcome outcome)
       return "degenerate";
   }
   return "unknown";
-}
-
-std::string RegistrationResult::brief() const
-{
-  const Eigen::Vector3d& t = target_T_source.translation;
-  const Eigen::Vector3d degrees = target_T_source.yawPitchRoll() * 180 / M_PI;
-  const auto deviation = [this](int first) { return std::sqrt(covariance.block<3, 3>(first, first).trace()); };
-  return fmt::format(
-      "{}{}: ({:.3f} {:.3f} {:.3f}) m, yaw pitch roll ({:.3f} {:.3f} {:.3f}) deg, +- {:.3f} m {:.3f} deg, "
-      "overlap {:.0f} %, score {:.2f}, {} iterations",
-      toString(outcome),
-      degenerate_directions.empty() ? std::string() : fmt::format(" in {} directions", degenerate_directions.size()),
-      t.x(), t.y(), t.z(), degrees[0], degrees[1], degrees[2], deviation(0), deviation(3) * 180 / M_PI, 100 * overlap,
-      score, iterations);
 }
 }  // namespace scanloom

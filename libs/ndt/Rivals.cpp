@@ -1,8 +1,8 @@
 #include "ndt/Rivals.h"
 
+#include "core/Matrix6.h"
 #include "ndt/Minimiser.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -13,9 +13,9 @@ namespace scanloom
 namespace
 {
 constexpr double kDeviations = 3;
-constexpr double kFarthest = 5;      // m: a guess may know nothing at all
-constexpr double kBroad = 0.05;      // d2: hills as wide as the grid's steps
-constexpr double kWorthALook = 0.5;  // share of the best score on the grid
+constexpr double kFarthest = 5;          // m, for guesses with a huge covariance
+constexpr double kBroad = 0.05;          // d2: maxima as wide as the steps of the grid
+constexpr double kCandidateShare = 0.5;  // smallest share of the best score on the grid
 
 /** Shifts in the source's frame, m: whole steps within an ellipse of three deviations. */
 struct Shifts
@@ -31,7 +31,7 @@ struct Shifts
   }
 };
 
-/** As far as the guess allows, along the two directions that the clouds know least: not into the ground. */
+/** As far as the guess allows, along the two directions that the clouds determine least: not into the ground. */
 Shifts shiftsOf(const Eigen::Matrix3d& guess, const Eigen::Matrix3d& clouds, double step)
 {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(clouds);
@@ -44,7 +44,7 @@ Shifts shiftsOf(const Eigen::Matrix3d& guess, const Eigen::Matrix3d& clouds, dou
   return {most(first), most(second), step * first, step * second};
 }
 
-/** Of every shift of a rectangle; 0 outside the ellipse. */
+/** The score at every shift of a rectangle; 0 outside the ellipse. */
 class Scores
 {
  public:
@@ -68,7 +68,7 @@ class Scores
     return values_[static_cast<std::size_t>((i + shifts_.most_along_first) * row + j + shifts_.most_along_second)];
   }
 
-  bool isHill(int i, int j) const
+  bool isMaximum(int i, int j) const
   {
     for (int k = -1; k <= 1; ++k)
       for (int l = -1; l <= 1; ++l)
@@ -85,7 +85,7 @@ class Scores
 double surprise(const PoseGuess& guess, const Rigid& pose)
 {
   const Vector6d off = boxMinus(pose, guess.target_T_source);
-  return off.dot(guess.covariance->llt().solve(off));
+  return off.dot(*solvePositive(*guess.covariance, off));
 }
 
 std::vector<Rigid> rivalsOf(const RegistrationLevel& level, const RegistrationResult& result, const PoseGuess& guess,
@@ -98,7 +98,7 @@ std::vector<Rigid> rivalsOf(const RegistrationLevel& level, const RegistrationRe
   if (std::max(shifts.most_along_first, shifts.most_along_second) < 2) return {};
 
   const Rigid& best = result.target_T_source;
-  // Turned as the best one: rows of stems are parallel.
+  // With the rotation of the best pose, because rows of stems are parallel.
   const Rigid centre{best.rotation, guess.target_T_source.translation};
   Neighbourhoods neighbourhoods(level.target, level.source, options.neighbours);
   const double broad = -normalEquations(neighbourhoods, best, kBroad).value;
@@ -110,7 +110,7 @@ std::vector<Rigid> rivalsOf(const RegistrationLevel& level, const RegistrationRe
   for (int i = -shifts.most_along_first; i <= shifts.most_along_first; ++i)
     for (int j = -shifts.most_along_second; j <= shifts.most_along_second; ++j)
     {
-      if (scores.at(i, j) < kWorthALook * broad || !scores.isHill(i, j)) continue;
+      if (scores.at(i, j) < kCandidateShare * broad || !scores.isMaximum(i, j)) continue;
       const Minimum near = minimise(neighbourhoods, Scores::moved(centre, shifts.at(i, j)), {}, wide, {});
       const Minimum there = minimise(neighbourhoods, near.target_T_source, {}, options, {});
       const double apart = boxMinus(there.target_T_source, best).head<3>().norm();

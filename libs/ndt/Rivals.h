@@ -1,4 +1,4 @@
-/** Other places where two clouds agree as well: stems planted in rows look the same from the next one. */
+/** Other poses at which two clouds agree as well: stems planted in rows look the same one row further. */
 #pragma once
 #include "ndt/Registration.h"
 
@@ -8,8 +8,8 @@ namespace scanloom
 {
 /**
  * Poses within three deviations and 5 m of the guess, more than a cell from the result, whose score is at least
- * rival_share of the result's: the hills of the score on a grid of shifts, aligned. None for a guess without a
- * covariance, or with one within two cells.
+ * rival_share of the result's. They are aligned from the local maxima of the score on a grid of shifts. None for a
+ * guess without a covariance, or with one of less than two cells.
  */
 std::vector<Rigid> rivalsOf(const RegistrationLevel&, const RegistrationResult&, const PoseGuess&,
                             const RegistrationOptions&);

@@ -1,4 +1,4 @@
-/** Symmetric 3x3 matrices as their six numbers, and the sums of 6x6 ones that they make: half of Eigen's work. */
+/** Symmetric 3x3 matrices as six numbers, and sums of 6x6 matrices made of them, with half of Eigen's operations. */
 #pragma once
 #include "core/Rigid.h"
 
@@ -6,7 +6,7 @@
 
 namespace scanloom
 {
-/** Of numbers, or of vectors of them. */
+/** T: a number, or a vector of numbers. */
 template <typename T>
 struct SymmetricOf
 {
@@ -45,7 +45,7 @@ inline Symmetric3 scaled(const Symmetric3& m, double by)
   return {by * m.xx, by * m.xy, by * m.xz, by * m.yy, by * m.yz, by * m.zz};
 }
 
-/** Sum of J' A J, J = [I, -skew(v)]: what resists, pulls or shakes at v, as seen by steps of a pose. */
+/** Sum of J' A J with J = [I, -skew(v)], the derivative of a point at v by a step of the pose. */
 class PoseSum
 {
  public:

@@ -10,12 +10,12 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kMeanBeforeAxis = M_PI / 4;  // radii
+constexpr double kMeanBeforeAxis = M_PI / 4;  // radii, from the mean to the axis
 constexpr double kSlimness = 2;               // length over width, as standard deviations
 constexpr double kMostRadius = 0.3;           // m
 constexpr double kLeastAcross = 0.3;          // of the line of sight's unit vector, across the axis
 
-/** A cheap one that lets all thin ones pass, and few others. */
+/** A cheap test that all thin bodies pass, and few others. */
 bool mayBeThin(const Eigen::Matrix3d& c)
 {
   constexpr double kSlim = kSlimness * kSlimness;
@@ -25,8 +25,8 @@ bool mayBeThin(const Eigen::Matrix3d& c)
   return minors * (kSlim + 2) * (kSlim + 2) <= sum * sum * (2 * kSlim + 1);  // equal where both widths are the largest
 }
 
-/** From the mean of the points to the axis, in m; zero where there is no thin body. */
-Eigen::Vector3d wayToAxis(const MeanAndCovariance& seen, const Eigen::Vector3d& viewpoint)
+/** From the mean of the points to the axis, in m; zero if there is no thin body. */
+Eigen::Vector3d vectorToAxis(const MeanAndCovariance& seen, const Eigen::Vector3d& viewpoint)
 {
   if (!mayBeThin(seen.covariance)) return Eigen::Vector3d::Zero();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
@@ -51,8 +51,8 @@ void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::V
   {
     if (bin.moments.n < least_points) return;
     const Eigen::Vector3d corner = edge * CellKey::indexOf(bin.key).cast<double>();
-    const Eigen::Vector3d way = wayToAxis(meanAndCovariance(bin.moments, corner), viewpoint);
-    bin.moments = bin.moments.about({quantaOf(way.x()), quantaOf(way.y()), quantaOf(way.z())});
+    const Eigen::Vector3d shift = vectorToAxis(meanAndCovariance(bin.moments, corner), viewpoint);
+    bin.moments = bin.moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
   };
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bins.size(), kGrain),
                     [&](const auto& range)

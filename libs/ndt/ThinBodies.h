@@ -1,4 +1,4 @@
-/** Stems, poles and posts: where they stand, not where a lidar touches them. */
+/** Corrects points of stems, poles and posts from the side that a lidar sees to their axes. */
 #pragma once
 #include "ndt/CellBins.h"
 
@@ -12,13 +12,13 @@ namespace scanloom
 /**
  * Moves the points of every cell that holds a thin body onto the body's axis.
  *
- * A lidar sees the near side of a stem of radius r only: the mean of what it sees lies (pi/4) r before the axis, and
- * comes along as the lidar passes by. Registered against a map of near sides, the way past stems of 20 cm comes out
- * 0.4 % short. Rays spread evenly over a width of 2 r have a variance of r^2 / 3 sideways, where the noise of ranges
- * does not reach: that gives r, and by r the axis.
+ * A lidar sees only the near side of a stem of radius r: the mean of the points lies (pi/4) r in front of the axis, and
+ * moves along as the lidar passes. Registered against a map of near sides, a drive past stems of 20 cm is measured 0.4
+ * % too short. Rays that are spread evenly over a width of 2 r have a sideways variance of r^2 / 3, which the noise of
+ * ranges does not change: it gives r, and with r the axis.
  *
- * A cell holds a thin body if it has `least_points`, is at least twice as long as wide, and r is 0.3 m at most. Cells
- * seen along their axis stay. A wall that the grid cuts to a strip is moved with them: alike in map and scan.
+ * A cell holds a thin body if it has `least_points`, is at least twice as long as wide, and r is at most 0.3 m. Cells
+ * that are seen along their axis stay. A strip of a wall that the grid cuts off is moved, too, in map and scan alike.
  */
 void moveToAxes(std::vector<Bin>&, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points);
 }  // namespace scanloom

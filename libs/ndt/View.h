@@ -1,4 +1,4 @@
-/** Points together with where they were seen from. */
+/** Points together with the position from which they were seen. */
 #pragma once
 #include "core/PointCloud.h"
 #include "core/Rigid.h"
@@ -10,11 +10,11 @@
 
 namespace scanloom
 {
-/** What one lidar saw, in one frame. */
+/** The points of one lidar, in one frame. */
 struct View
 {
   std::vector<Eigen::Vector3f> points;
-  std::optional<Eigen::Vector3d> viewpoint;  // none: unknown, and nothing is derived from it
+  std::optional<Eigen::Vector3d> viewpoint;  // none: unknown
 };
 
 /** By sensor_id. Lidars without a viewpoint share the last view. */

@@ -7,37 +7,18 @@ namespace scanloom
 {
 namespace
 {
-/** Boxes by lidar, as the inner loop asks for them. */
-class Fates
+/** What removes the point, or `kept`. */
+std::uint64_t CropCounts::*fateOf(const PointCloud& points, std::size_t i, const Crop& crop)
 {
- public:
-  Fates(const CropOptions& options, const std::vector<LidarBox>& lidar_boxes)
-    : machine_(Eigen::Vector3d(options.min_x, options.min_y, options.min_z),
-               Eigen::Vector3d(options.max_x, options.max_y, options.max_z)),
-      lidar_boxes_(lidar_boxes),
-      min_range_(options.min_range),
-      max_range_(options.max_range)
-  {
-  }
-
-  std::uint64_t CropCounts::*of(const PointCloud& points, std::size_t i) const
-  {
-    const Eigen::Vector3d p(points.x[i], points.y[i], points.z[i]);
-    if (!p.allFinite()) return &CropCounts::not_finite;
-    if (machine_.contains(p)) return &CropCounts::machine;
-    for (const LidarBox& own : lidar_boxes_)
-      if (own.sensor_id == points.sensor_id[i] && own.box.contains(own.sensor_T_body * p))
-        return &CropCounts::lidar_box;
-    const double range = 1e-3 * points.range[i];
-    if (range != 0 && range < min_range_) return &CropCounts::too_near;
-    return range > max_range_ ? &CropCounts::too_far : &CropCounts::kept;
-  }
-
- private:
-  Eigen::AlignedBox3d machine_;
-  const std::vector<LidarBox>& lidar_boxes_;
-  double min_range_, max_range_;
-};
+  const Eigen::Vector3d p(points.x[i], points.y[i], points.z[i]);
+  if (!p.allFinite()) return &CropCounts::not_finite;
+  if (crop.machine.contains(p)) return &CropCounts::machine;
+  for (const LidarBox& own : crop.lidar_boxes)
+    if (own.sensor_id == points.sensor_id[i] && own.box.contains(own.sensor_T_body * p)) return &CropCounts::lidar_box;
+  const double range = 1e-3 * points.range[i];
+  if (range != 0 && range < crop.min_range) return &CropCounts::too_near;
+  return range > crop.max_range ? &CropCounts::too_far : &CropCounts::kept;
+}
 }  // namespace
 
 std::uint64_t CropCounts::all() const
@@ -53,9 +34,16 @@ CropCounts& CropCounts::operator+=(const CropCounts& other)
   return *this;
 }
 
-CroppedScan cropOut(Scan scan, const CropOptions& options, const std::vector<LidarBox>& lidar_boxes)
+Crop cropOf(const CropOptions& o, const std::vector<MountedLidar>& lidars)
 {
-  const Fates fates(options, lidar_boxes);
+  return {{Eigen::Vector3d(o.min_x, o.min_y, o.min_z), Eigen::Vector3d(o.max_x, o.max_y, o.max_z)},
+          lidarBoxes(o.lidar_boxes, lidars),
+          o.min_range,
+          o.max_range};
+}
+
+CroppedScan cropOut(Scan scan, const Crop& crop)
+{
   CroppedScan cropped;
   std::vector<std::uint8_t> keep(scan.points.size());
   std::uint32_t kept = 0;
@@ -66,7 +54,7 @@ CroppedScan cropOut(Scan scan, const CropOptions& options, const std::vector<Lid
     const std::uint32_t first = kept;
     for (std::size_t i = column.first_point; i < std::size_t{column.first_point} + column.count; ++i)
     {
-      const auto fate = fates.of(scan.points, i);
+      const auto fate = fateOf(scan.points, i, crop);
       ++(counts.*fate);
       kept += keep[i] = fate == &CropCounts::kept;
     }

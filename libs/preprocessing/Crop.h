@@ -11,12 +11,12 @@
 namespace scanloom
 {
 /**
- * An axis-aligned box in the body frame whose inside is removed (paper, section 2.2), boxes of single lidars in their
- * own frames, and limits of the measured range.
+ * An axis-aligned box in the body frame whose inside is removed (paper, section 2.2), boxes in the frames of single
+ * lidars, and limits of the measured range.
  */
 struct CropOptions
 {
-  // A harvester with its boom, generously: better to lose some trees than to keep a part of the machine.
+  // Larger than a harvester with its boom: losing some trees is better than keeping a part of the machine.
   double min_x = -4.0, max_x = 10.0;
   double min_y = -3.0, max_y = 3.0;
   double min_z = -0.5, max_z = 6.0;
@@ -35,19 +35,20 @@ struct CropOptions
     visit(o.max_z, Field{"max_z", "m", "top of the box"});
     visit(o.min_range, Field{"min_range", "m", "nearer readings are removed", atLeast(0)});
     visit(o.max_range, Field{"max_range", "m", "farther readings are removed", above(0)});
-    visit(o.lidar_boxes,
-          Field{"lidar_boxes", "",
-                "what a lidar sees of its own mount, in its own frame, is removed: NAME x0 y0 z0 x1 y1 z1 in m, "
-                "several separated by commas"});
+    visit(
+        o.lidar_boxes,
+        Field{"lidar_boxes", "",
+              "boxes in the frame of one lidar whose inside is removed, for what it sees of its own mount: NAME x0 y0 "
+              "z0 x1 y1 z1 in m, several separated by commas"});
   }
 };
 
-/** What became of the points of a lidar. Each is counted once, by the first that applies. */
+/** Points of a lidar by what removed them. Each is counted once, by the first reason that applies. */
 struct CropCounts
 {
   std::uint64_t not_finite = 0;
-  std::uint64_t machine = 0;    // in the body's box
-  std::uint64_t lidar_box = 0;  // in its own
+  std::uint64_t machine = 0;    // in the machine's box
+  std::uint64_t lidar_box = 0;  // in a box of this lidar
   std::uint64_t too_near = 0;
   std::uint64_t too_far = 0;
   std::uint64_t kept = 0;
@@ -74,7 +75,18 @@ struct CroppedScan
   std::vector<CropCounts> counts;  // by sensor id, up to the largest that has a column
 };
 
-/** The scan without those points; columns keep their stamps even when they become empty. Ranges count from the sensor,
- * where known. */
-CroppedScan cropOut(Scan scan_in_body, const CropOptions&, const std::vector<LidarBox>& = {});
+/** What is removed from scans: the options, applied to the lidars that there are. */
+struct Crop
+{
+  Eigen::AlignedBox3d machine;  // in the body frame
+  std::vector<LidarBox> lidar_boxes;
+  double min_range = 0, max_range = 0;  // m
+};
+
+/** Throws ConfigError if lidar_boxes is not well formed, or names a lidar that is not among `lidars` (by sensor id). */
+Crop cropOf(const CropOptions&, const std::vector<MountedLidar>& lidars = {});
+
+/** The scan without those points. Columns keep their stamps even when they become empty. Ranges are measured from the
+ * sensor; a point with range 0 is not tested for them. */
+CroppedScan cropOut(Scan scan_in_body, const Crop&);
 }  // namespace scanloom

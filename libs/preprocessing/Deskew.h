@@ -1,4 +1,4 @@
-/** Removes the motion distortion of a scan: one motion per column. */
+/** Removes the motion distortion of a scan, column by column. */
 #pragma once
 #include "batching/Scan.h"
 #include "core/Rigid.h"

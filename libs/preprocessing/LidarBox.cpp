@@ -1,8 +1,8 @@
 #include "preprocessing/LidarBox.h"
 
-#include "config/ConfigError.h"
 #include "config/Names.h"
 #include "config/Values.h"
+#include "core/ConfigError.h"
 
 #include <fmt/format.h>
 

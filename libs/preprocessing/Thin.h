@@ -1,4 +1,4 @@
-/** Fewer points, evenly spread. */
+/** Fewer points, evenly distributed. */
 #pragma once
 #include "core/PointCloud.h"
 

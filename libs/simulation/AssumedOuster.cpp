@@ -11,15 +11,15 @@ namespace scanloom
 {
 namespace
 {
-// Ranges: data sheets of OS0, OS1 and OS2, rev. 7. Angles: round figures of the maker's own example tables. Lengths:
-// nominal values of the hardware manual's drawings.
+// Ranges: data sheets of OS0, OS1 and OS2, rev. 7. Angles: rounded from the maker's example metadata. Lengths: nominal
+// values in the drawings of the hardware manual.
 constexpr std::array<OusterFamily, 3> kFamilies{{
     {"OS0", 0.3, 35, 43.9, 1.6, 2.8, 8.4, 0.31, 27.67, 36.18},
     {"OS1", 0.5, 90, 21.6, 0, 1.42, 4.25, 0, 15.806, 36.18},
     {"OS2", 1.0, 200, 11.0, 0, 0.69, 2.07, 0, 13.762, 78.296},
 }};
 
-/** Numbers that stand on both sides of a sign. */
+/** The numbers before and after a separator. */
 struct Pair
 {
   int first = 0, second = 0;
@@ -36,7 +36,7 @@ std::optional<Pair> parsePair(const std::string& text, char sign)
   return pair;
 }
 
-/** "OS-0-128" and "OS0-128" are the same: 0-128. */
+/** "OS-0-128" and "OS0-128" both give "0-128". */
 std::string withoutOs(const std::string& model)
 {
   const std::size_t begin = model.rfind("OS-", 0) == 0 ? 3 : model.rfind("OS", 0) == 0 ? 2 : model.size();
@@ -79,8 +79,8 @@ void setProfile(OusterMetadata& metadata, const std::string& name)
 {
   if (!findOusterProfile(name))
     throw std::invalid_argument(
-        fmt::format("profile = '{}': must be a UDP profile of Ouster's, RNG15_RFL8_NIR8 or "
-                    "RNG19_RFL8_SIG16_NIR16 for instance",
+        fmt::format("profile = '{}': must be a UDP profile of Ouster, for example RNG15_RFL8_NIR8 or "
+                    "RNG19_RFL8_SIG16_NIR16",
                     name));
   metadata.lidar_profile = name;
   const bool is_fusa = name.rfind("FUSA_", 0) == 0;

@@ -48,12 +48,4 @@ Eigen::Vector3d Cone::normal(const Eigen::Vector3d& p) const
   const Eigen::Vector3d outwards = (from_base - from_base.dot(axis) * axis).normalized();
   return (outwards - taper() * axis).normalized();
 }
-
-double Cone::distanceToMantle(const Eigen::Vector3d& p) const
-{
-  const Eigen::Vector3d from_base = p - base;
-  const double height = from_base.dot(axis);
-  const double beside = (from_base - height * axis).norm() - (base_radius + taper() * height);
-  return beside / std::sqrt(1 + taper() * taper());
-}
 }  // namespace scanloom

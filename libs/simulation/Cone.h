@@ -5,7 +5,7 @@
 
 namespace scanloom
 {
-/** A tapering piece of round wood, cut off squarely at both ends: a stem, a stump or a branch. */
+/** A truncated cone with flat ends: a stem, a stump or a branch. */
 struct Cone
 {
   Eigen::Vector3d base;
@@ -16,21 +16,18 @@ struct Cone
 
   Eigen::Vector3d tip() const { return base + length * axis; }
 
-  /** What a ray needs to know of the place where it enters. */
+  /** Where a ray enters. */
   struct Entry
   {
     double range;            // m
     Eigen::Vector3d normal;  // unit, outwards
   };
 
-  /** Where the ray enters; nothing from inside. */
+  /** Nothing if the ray misses the cone or starts inside it. */
   std::optional<Entry> intersect(const Ray&) const;
 
-  /** Outward unit normal of the mantle next to a point. */
+  /** Outward unit normal of the mantle at the point next to this one. */
   Eigen::Vector3d normal(const Eigen::Vector3d&) const;
-
-  /** Of a point to the mantle, along its normal: negative inside. */
-  double distanceToMantle(const Eigen::Vector3d&) const;
 
  private:
   double taper() const { return (tip_radius - base_radius) / length; }

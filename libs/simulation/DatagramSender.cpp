@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "source/SocketAddress.h"
+#include "packets/SocketAddress.h"
 
 namespace scanloom
 {

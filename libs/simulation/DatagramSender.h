@@ -1,17 +1,17 @@
 #pragma once
-#include "source/Datagram.h"
-#include "source/FileDescriptor.h"
+#include "packets/Datagram.h"
+#include "packets/FileDescriptor.h"
 
 namespace scanloom
 {
-/** A UDP socket of one sensor: datagrams leave from its address. */
+/** A UDP socket that sends from a given address. */
 class DatagramSender
 {
  public:
   /** Throws std::runtime_error if the socket can't be opened or bound to `source`. */
   explicit DatagramSender(const IpAddress& source);
 
-  /** To the port that the datagram names; false if the operating system refused it: too large, no buffer. */
+  /** Sends to the datagram's destination_port. False if the operating system refused: too large, no buffer. */
   bool send(const Datagram&, const IpAddress& destination) const;
 
  private:

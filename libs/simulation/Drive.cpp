@@ -7,9 +7,9 @@ namespace scanloom
 namespace
 {
 constexpr double kRadians = M_PI / 180;
-constexpr double kBehindStart = 15.0;  // m: there the total station may stand
+constexpr double kBehindStart = 15.0;  // m, where the total station may stand
 
-/** The angle's rate as a quantity of its own; its second derivative is not known and must not be used. */
+/** The angle's rate with its derivative. Its second derivative is unknown: NaN, so that a use would show. */
 Taylor rateOf(const Taylor& angle) { return {angle.rate, angle.acceleration, std::nan("")}; }
 
 Taylor oscillation(double t, double rate, double phase = 0) { return sin(2 * M_PI * rate * Taylor{t, 1, 0} + phase); }
@@ -28,7 +28,7 @@ Turn turnOf(const Taylor& yaw, const Taylor& pitch, const Taylor& roll)
   return {{x.value, y.value, z.value}, {x.rate, y.rate, z.rate}};
 }
 
-/** What the ground under four wheels makes of a body whose origin is at (x, y). */
+/** Pose of a body whose origin is at (x, y) and whose four wheels are on the ground. */
 struct Stance
 {
   Taylor height, pitch, roll;
@@ -81,7 +81,7 @@ Motion Drive::at(double t) const
 
 std::vector<Eigen::Vector2d> Drive::path() const
 {
-  // By length, not by time: an hour at the same place adds nothing. The curve's slope stretches the steps.
+  // Steps of equal length, not of equal time: a machine at rest adds no points. The path is longer than its x.
   const double step = 0.25 / std::hypot(1, curve_ * curve_rate_);
   std::vector<Eigen::Vector2d> path;
   for (double x = -kBehindStart; x < 0; x += step) path.emplace_back(x, 0);

@@ -1,4 +1,4 @@
-/** The machine's motion by formula: position, velocity, acceleration and turn rates without differentiating poses. */
+/** The machine's motion in closed form: poses with their exact derivatives. */
 #pragma once
 #include "core/Field.h"
 #include "core/Rigid.h"
@@ -10,7 +10,7 @@
 
 namespace scanloom
 {
-/** How the body moves on top of its way. All assumed: plausible for a machine of 10 to 20 t. */
+/** How the body sways and shakes on its way. All assumed: plausible for a machine of 10 to 20 t. */
 struct BodyMotionOptions
 {
   double sway_deg = 1.2;
@@ -26,21 +26,29 @@ struct BodyMotionOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.sway_deg,
-          Field{"sway_deg", "deg", "roll and, two thirds of it, pitch while driving (assumed)", between(0, 10)});
+    visit(o.sway_deg, Field{"sway_deg", "deg",
+                            "amplitude of the roll while driving; that of the pitch is two thirds of it (assumed)",
+                            between(0, 10)});
     visit(o.sway_rate,
-          Field{"sway_rate", "Hz", "of the roll; the pitch is 1.3 times as fast (assumed)", between(0, 5)});
-    visit(o.work_sway, Field{"work_sway", "", "share of the sway while the boom works (assumed)", between(0, 1)});
-    visit(o.vibration,
-          Field{"vibration", "m", "of height, at each of the two rates, unless at rest (assumed)", between(0, 0.02)});
-    visit(o.vibration_deg, Field{"vibration_deg", "deg",
-                                 "of roll at the slow rate and of pitch at the fast one (assumed)", between(0, 1)});
+          Field{"sway_rate", "Hz", "frequency of the roll; the pitch is 1.3 times as fast (assumed)", between(0, 5)});
+    visit(o.work_sway, Field{"work_sway", "", "sway while the boom works, as a share of that while driving (assumed)",
+                             between(0, 1)});
+    visit(o.vibration, Field{"vibration", "m",
+                             "amplitude of the height at each of the two vibration frequencies; 0 at rest (assumed)",
+                             between(0, 0.02)});
+    visit(o.vibration_deg,
+          Field{"vibration_deg", "deg",
+                "amplitude of the roll at the slow and of the pitch at the fast frequency (assumed)", between(0, 1)});
     visit(o.vibration_slow,
-          Field{"vibration_slow", "Hz", "of the engine and the hydraulics (assumed)", between(0, 100)});
-    visit(o.vibration_fast, Field{"vibration_fast", "Hz", "likewise (assumed)", between(0, 100)});
-    visit(o.wheelbase, Field{"wheelbase", "m",
-                             "between the axles: pitch and height follow the ground under them (assumed)", above(0.1)});
-    visit(o.track, Field{"track", "m", "between the wheels of an axle: the roll follows them (assumed)", above(0.1)});
+          Field{"vibration_slow", "Hz", "slow frequency of engine and hydraulics (assumed)", between(0, 100)});
+    visit(o.vibration_fast,
+          Field{"vibration_fast", "Hz", "fast frequency of engine and hydraulics (assumed)", between(0, 100)});
+    visit(o.wheelbase,
+          Field{"wheelbase", "m", "distance of the axles: pitch and height follow the ground under them (assumed)",
+                above(0.1)});
+    visit(o.track,
+          Field{"track", "m", "distance of the wheels of an axle: the roll follows the ground under them (assumed)",
+                above(0.1)});
   }
 };
 
@@ -54,21 +62,19 @@ struct Motion
   Eigen::Vector3d angular_acceleration;  // rad/s2, in the body
 };
 
-/** Four wheels on the ground along a winding path, with sway and vibration that grow and fade as it drives and works.
- */
+/** Four wheels on the ground along a winding path. Sway and vibration fade in and out with driving and working. */
 class Drive
 {
  public:
   Drive(const Route&, const DriveOptions&, const BodyMotionOptions&, const Ground&);
 
-  /** `t` s after the start of the recording; before, the machine rests. */
+  /** `t` s after the start of the recording. The machine rests where t < 0. */
   Motion at(double t) const;
 
-  /** The height of the ground, for what moves about the machine. */
   const Ground& ground() const { return ground_; }
   const Route& route() const { return route_; }
 
-  /** Points of the ground that the machine covers, from 15 m behind the start on, at most 0.25 m apart. */
+  /** Where the machine drives: points (x, y) at most 0.25 m apart, from 15 m behind the start on. */
   std::vector<Eigen::Vector2d> path() const;
 
  private:

@@ -8,16 +8,16 @@ namespace scanloom
 {
 namespace
 {
-/** x, y, z and something that never comes first: one instruction for three axes on every processor of 64 bits. */
+/** x, y, z and an unused lane: one instruction for three axes on every 64-bit processor. */
 using Axes = float __attribute__((vector_size(16)));
 using AxesInt = int __attribute__((vector_size(16)));
 
 Axes same(float value) { return Axes{value, value, value, value}; }
 
-/** To the next whole number, but for those that lie halfway: either may do. */
+/** To the nearest whole number; halves go to either side. */
 Axes rounded(Axes value)
 {
-  constexpr float kWhole = 0x1.8p23F;  // added and taken away again, it leaves no room for a fraction
+  constexpr float kWhole = 0x1.8p23F;  // adding and subtracting it leaves no bits for a fraction
   return (value + kWhole) - kWhole;
 }
 
@@ -28,9 +28,10 @@ Axes clamped(Axes value, Axes least, Axes most)
 }
 
 /**
- * A ray on its way, voxel by voxel, in voxels from the one that it starts in: floats are exact to 10 um at 100 m.
- * After J. Amanatides and A. Woo: A Fast Voxel Traversal Algorithm for Ray Tracing, Eurographics 1987; but through open
- * space in cubes as large as it is empty, and without branches that no processor foresees.
+ * A ray that goes from voxel to voxel. Coordinates count voxels from the one that it starts in, so that floats are
+ * exact to 10 um at 100 m. After J. Amanatides and A. Woo: A Fast Voxel Traversal Algorithm for Ray Tracing,
+ * Eurographics 1987; but empty space is crossed in cubes as large as it is empty, and without branches that are hard to
+ * predict.
  */
 class Walk
 {
@@ -41,7 +42,7 @@ class Walk
     const Ray& ray = query.ray;
     const double size = voxels.voxelSize();
     const Eigen::Array3i start = voxels.voxelAt(ray.origin);
-    constexpr double kStill = 1e-12;  // a ray across an axis never comes to a border
+    constexpr double kStill = 1e-12;  // a ray at a right angle to an axis never crosses a border of it
     for (int i = 0; i < 3; ++i)
     {
       const double speed = std::abs(ray.direction[i]) < kStill ? kStill : ray.direction[i];
@@ -109,7 +110,7 @@ std::vector<std::optional<Leaf>> Foliage::intersect(const std::vector<FoliageQue
     Walk walk;
     std::size_t query = 0;
   };
-  // Some at a time, a step of each in turn: every step waits for its memory and its sums, but not for other rays'.
+  // Several rays take their steps in turn: the steps of one depend on each other, those of several overlap.
   constexpr std::size_t kAtOnce = 4;
   std::array<Slot, kAtOnce> slots;
   std::size_t active = 0, next = 0;

@@ -1,6 +1,6 @@
 /**
- * Twigs, needles, leaves and grass: a turbid medium in voxels. Light that passes a voxel of extinction k over a length
- * s gets through with the chance exp(-k s) (Beer and Lambert).
+ * Twigs, needles, leaves and grass as a turbid medium in voxels: a ray passes a length s of extinction k with the
+ * probability exp(-k s) (Beer and Lambert).
  */
 #pragma once
 #include "simulation/FoliageVoxels.h"
@@ -22,7 +22,7 @@ struct FoliageQuery
 {
   Ray ray;
   double max_range;      // m
-  double optical_depth;  // of the foliage that the ray gets through
+  double optical_depth;  // the ray is stopped where the integral of the extinction reaches this
 };
 
 class Foliage
@@ -31,8 +31,8 @@ class Foliage
   explicit Foliage(FoliageVoxels voxels) : voxels_(std::move(voxels)) { voxels_.measureOpenSpace(); }
 
   /**
-   * Where each ray has passed so much foliage that the integral of its extinction reaches `optical_depth`. An
-   * exponentially distributed depth gives every voxel the chance of a return that its extinction asks for.
+   * The leaf that stops each ray; nothing if the ray passes. With exponentially distributed optical depths each voxel
+   * returns rays with the probability of Beer and Lambert.
    */
   std::vector<std::optional<Leaf>> intersect(const std::vector<FoliageQuery>&) const;
   std::optional<Leaf> intersect(const FoliageQuery& query) const

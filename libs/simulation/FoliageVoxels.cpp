@@ -1,5 +1,7 @@
 #include "simulation/FoliageVoxels.h"
 
+#include "core/VoxelKey.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,11 +15,7 @@ FoliageVoxel FoliageVoxel::plant(Surface surface, double extinction)
   return FoliageVoxel(steps - 1 + (surface == Surface::Crown ? kFirstCrown : kFirstUndergrowth));
 }
 
-std::uint64_t keyOf(const Eigen::Array3i& voxel)
-{
-  constexpr std::uint64_t kBits = 0x1fffff;  // 21 of each axis
-  return (voxel.z() & kBits) << 42 | (voxel.y() & kBits) << 21 | (voxel.x() & kBits);
-}
+std::uint64_t keyOf(const Eigen::Array3i& voxel) { return voxelKey(voxel.z(), voxel.y(), voxel.x()); }
 
 FoliageVoxels::FoliageVoxels(double voxel_size, std::vector<GridCell> tiles, double lowest, double highest)
   : voxel_size_(voxel_size),
@@ -49,7 +47,7 @@ void FoliageVoxels::add(const Eigen::Array3i& voxel, Surface surface, double ext
   if (index != kOutside && plant.extinction() > voxels_[index].extinction()) voxels_[index] = plant;
 }
 
-/** A bit for each voxel, a row of a tile in a word: with all bits set that have a neighbour in `rows`. */
+/** `rows` has a bit per voxel, a tile's row of voxels per word. Sets the bits of all neighbours of set ones, too. */
 std::vector<std::uint32_t> FoliageVoxels::grown(const std::vector<std::uint32_t>& rows) const
 {
   const auto rowsPerTile = static_cast<std::size_t>(layers_ * kTile);

@@ -9,15 +9,15 @@
 
 namespace scanloom
 {
-/** What a byte says of a voxel. */
+/** A voxel in one byte: how empty its surroundings are, or what grows in it and how densely. */
 class FoliageVoxel
 {
  public:
-  /** Empty, and so is every voxel that differs by at most `around` in each coordinate: up to kFarthest. */
+  /** Empty, as is every voxel that differs by at most `around` in each coordinate. `around` is at most kFarthest. */
   static constexpr int kFarthest = 15;
   static FoliageVoxel empty(int around) { return FoliageVoxel(around); }
 
-  /** `extinction` in 1/m is rounded to 0.02 and at most 2.4; less than 0.01 is empty. */
+  /** `extinction` in 1/m is rounded to steps of 0.02 and limited to 2.4; below 0.01 the voxel is empty. */
   static FoliageVoxel plant(Surface, double extinction);
 
   FoliageVoxel() = default;
@@ -41,34 +41,33 @@ class FoliageVoxel
   std::uint8_t byte_ = 0;
 };
 
-/** The voxels of a world, in tiles of which each reaches as low and as high as all the others. */
+/** The voxels of a world in square tiles, all from the same lowest to the same highest layer. */
 class FoliageVoxels
 {
  public:
   static constexpr int kTile = 32;  // voxels along a horizontal edge
 
-  /** Nothing grows yet. `tiles` are cells of kTile voxels; `lowest` and `highest` in m. */
+  /** All voxels are empty. `tiles` are grid cells with an edge of kTile voxels; `lowest` and `highest` are in m. */
   FoliageVoxels(double voxel_size, std::vector<GridCell> tiles, double lowest, double highest);
 
   double voxelSize() const { return voxel_size_; }
   int lowest() const { return lowest_; }           // in voxels
-  int above() const { return lowest_ + layers_; }  // in voxels: the first that are higher than the highest
-  std::size_t bytes() const { return voxels_.size(); }
+  int above() const { return lowest_ + layers_; }  // in voxels: the layer above the highest one
 
   Eigen::Vector3d centreOf(const Eigen::Array3i& voxel) const { return voxel_size_ * (voxel.cast<double>() + 0.5); }
   Eigen::Array3i voxelAt(const Eigen::Vector3d& p) const { return (p.array() / voxel_size_).floor().cast<int>(); }
 
-  /** Empty outside of the tiles. */
+  /** Empty outside the tiles. */
   FoliageVoxel at(int x, int y, int z) const
   {
     const std::size_t index = indexOf(x, y, z);
     return index == kOutside ? FoliageVoxel() : voxels_[index];
   }
 
-  /** Where two plants grow into each other the denser one counts; what grows outside of the tiles is forgotten. */
+  /** Of two plants in one voxel the denser one counts. Voxels outside the tiles are ignored. */
   void add(const Eigen::Array3i& voxel, Surface, double extinction);
 
-  /** Tells every empty voxel how empty its surroundings are; until then, none claims more than itself. */
+  /** Computes around() of every empty voxel; until then it is 0. */
   void measureOpenSpace();
 
  private:
@@ -97,11 +96,11 @@ class FoliageVoxels
   double voxel_size_;  // m
   std::vector<GridCell> tiles_;
   Eigen::Array2i first_tile_{0, 0}, tiles_per_side_{0, 0};
-  std::vector<std::int32_t> tile_at_;  // row by row: into tiles_, -1 where there is none
+  std::vector<std::int32_t> tile_at_;  // row by row: index into tiles_, -1 where there is none
   int lowest_, layers_;                // in voxels
   std::vector<FoliageVoxel> voxels_;   // tile by tile, layer by layer, row by row
 };
 
-/** Of a voxel, for random numbers. */
+/** A key for the random numbers of a voxel. */
 std::uint64_t keyOf(const Eigen::Array3i& voxel);
 }  // namespace scanloom

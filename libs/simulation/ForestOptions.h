@@ -1,4 +1,4 @@
-/** All that can be chosen about the forest. */
+/** Options of the forest. */
 #pragma once
 #include "config/Schema.h"
 #include "simulation/GrowFoliage.h"

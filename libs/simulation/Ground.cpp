@@ -12,10 +12,10 @@ struct SineCosine
   Eigen::Array2d sine, cosine;
 };
 
-/** Two at once to 1e-12, without the branches of the library's: a ray asks for about ten of them. */
+/** Of two angles at once, to 1e-12 and without the branches of std::sin: each ray needs about ten. */
 SineCosine sineCosine(const Eigen::Array2d& angle)
 {
-  constexpr double kRound = 0x1.8p52;  // added and taken away again, it leaves a whole number
+  constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
   const Eigen::Array2d half_turns = (angle * M_1_PI + kRound) - kRound;
   const Eigen::Array2d r = angle - half_turns * M_PI, q = r * r;  // |r| <= pi / 2
   const Eigen::Array2d sign = 1 - 2 * (half_turns - 2 * ((0.5 * half_turns + kRound) - kRound)).abs();
@@ -34,7 +34,7 @@ struct Gap
   double slope;  // of the size along the ray
 };
 
-/** As far as a gap cannot close that closes by `fastest` per metre at most and bends by `bend` per metre at most. */
+/** A step within which the gap cannot close if its slope is at most `fastest` and its curvature at most `bend`. */
 double safeStep(const Gap& gap, double fastest, double bend)
 {
   constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -45,7 +45,7 @@ double safeStep(const Gap& gap, double fastest, double bend)
 }
 }  // namespace
 
-/** Two waves as they pass under a ray. */
+/** The heights of two waves under a ray, as functions of the range. */
 class Ground::WavesAlongRay
 {
  public:
@@ -95,14 +95,14 @@ Eigen::Vector3d Ground::normal(double x, double y) const
 std::optional<double> Ground::intersect(const Ray& ray, double max_range) const
 {
   constexpr double kExact = 1e-6;      // m
-  constexpr double kNearCrest = 1e-3;  // m: nearer, the short waves themselves are asked
+  constexpr double kNearCrest = 1e-3;  // m: from here on the short waves are evaluated, too
   const double descent = -ray.direction.z();
   const double above_highest = ray.origin.z() - highest_;
   if (above_highest > 0 && descent <= 0) return std::nullopt;
   double range = above_highest > 0 ? above_highest / descent : 0.0;
 
-  // First down to the crests of the short waves over the long ones alone, then down to the ground; every step is as
-  // long as the waves' slope and curvature allow, so none can jump over a crest.
+  // First down to the long waves raised by the crests of the short ones, then down to the ground. Slope and curvature
+  // of the waves limit each step, so that none can jump over a crest.
   const WavesAlongRay long_waves(long_waves_, ray), short_waves(short_waves_, ray);
   const double fastest_of_long = descent + long_waves.steepest(), bend_of_long = long_waves.bend();
   const double fastest = fastest_of_long + short_waves.steepest(), bend = bend_of_long + short_waves.bend();

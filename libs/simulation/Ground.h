@@ -18,18 +18,20 @@ struct GroundOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.relief, Field{"relief", "m", "of the ground's long waves, from hollow to crest", between(0, 4)});
-    visit(o.roughness, Field{"roughness", "m", "of the ground's short waves, from hollow to crest", between(0, 0.2)});
+    visit(o.relief,
+          Field{"relief", "m", "height difference of the ground's long waves, from hollow to crest", between(0, 4)});
+    visit(o.roughness, Field{"roughness", "m", "height difference of the ground's short waves, from hollow to crest",
+                             between(0, 0.2)});
   }
 };
 
-/** A smooth ground by formula: four waves of different length and direction. */
+/** Smooth ground: the sum of four sine waves of different length and direction. */
 class Ground
 {
  public:
   explicit Ground(const GroundOptions&);
 
-  /** For double, and for Taylor to drive on it. */
+  /** Height at (x, y), m. `Scalar` is double, or Taylor for its derivatives along a path. */
   template <typename Scalar>
   Scalar height(const Scalar& x, const Scalar& y) const
   {
@@ -40,13 +42,13 @@ class Ground
     return z;
   }
 
-  /** No place is higher, none lower than the negative of it. */
+  /** Upper bound of the height, m; its negative is a lower bound. */
   double highest() const { return highest_; }
 
   /** Upward unit normal. */
   Eigen::Vector3d normal(double x, double y) const;
 
-  /** Where the ray first meets the ground within `max_range`, to 1 um. */
+  /** Range at which the ray first meets the ground, to 1 um; nothing if that is beyond `max_range`. */
   std::optional<double> intersect(const Ray&, double max_range) const;
 
  private:

@@ -8,7 +8,7 @@ namespace scanloom
 {
 namespace
 {
-/** Extinction of the voxels of one kind of plant: some are empty, the others differ, the mean is as asked for. */
+/** Random extinction per voxel: a share `gaps` is empty, and the mean over all voxels is mean_extinction. */
 class Density
 {
  public:
@@ -28,7 +28,7 @@ class Density
   std::uint64_t seed_;
 };
 
-/** Visits the columns of voxels whose centres lie in a circle. */
+/** Calls visit(x, y, place, distance) for each column of voxels whose centre lies in a circle. */
 template <typename Visit>
 void forEachColumn(const FoliageVoxels& voxels, const Eigen::Vector2d& centre, double radius, Visit&& visit)
 {
@@ -49,7 +49,7 @@ void addCrown(const Stem& stem, const TreeOptions& trees, const Density& density
   const int last = voxels.voxelAt(stem.foot + stem.length * stem.axis).z();
   for (int z = first; z <= last; ++z)
   {
-    // Stems lean so little that a cut across the crown is a circle.
+    // Stems lean so little that a horizontal cut through the crown is a circle.
     const double along = (voxels.centreOf({0, 0, z}).z() - stem.foot.z()) / stem.axis.z();
     const double radius = stem.length * crownRadius(trees, stem.species, along / stem.length);
     forEachColumn(voxels, (stem.foot + along * stem.axis).head<2>(), radius,
@@ -59,7 +59,7 @@ void addCrown(const Stem& stem, const TreeOptions& trees, const Density& density
   }
 }
 
-/** Patches are discs at random places, domes in height: together they cover as much as was asked for. */
+/** Dome-shaped patches at random places. Together they cover undergrowth_cover of the ground. */
 class Undergrowth
 {
  public:
@@ -74,7 +74,7 @@ class Undergrowth
 
   void addTile(const GridCell& tile, double tile_size, FoliageVoxels& voxels) const
   {
-    // Discs of area A that are n to the square metre leave exp(-n A) of the ground free.
+    // n discs of area A per square metre leave exp(-n A) of the ground free.
     const double area = M_PI_4 * options_.undergrowth_patch * options_.undergrowth_patch;
     const double patches = -std::log1p(-options_.undergrowth_cover) / area * tile_size * tile_size;
     Random random(seed_, RandomStream::Undergrowth, tile.key());

@@ -1,4 +1,4 @@
-/** Where leaves are: in the crowns of a stand and in the undergrowth between the stems. */
+/** Foliage in the crowns of a stand and in the undergrowth between its stems. */
 #pragma once
 #include "core/Field.h"
 #include "simulation/FoliageVoxels.h"
@@ -26,28 +26,31 @@ struct FoliageOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.voxel,
-          Field{"voxel", "m", "edge of a cube in which foliage is even; memory grows with its third power (assumed)",
-                between(0.05, 2)});
-    visit(o.leaf_area_density, Field{"leaf_area_density", "m2/m3", "of a crown, on average (assumed)", between(0, 4)});
+    visit(o.voxel, Field{"voxel", "m",
+                         "edge of the cubes that foliage is made of; halving it takes eight times the memory (assumed)",
+                         between(0.05, 2)});
+    visit(o.leaf_area_density,
+          Field{"leaf_area_density", "m2/m3", "mean leaf area density of a crown (assumed)", between(0, 4)});
     visit(o.projection, Field{"projection", "",
-                              "share of its area that a leaf shows to a ray; 0.5 for leaves that face "
-                              "all directions alike (Ross 1981)",
+                              "share of its area that a leaf shows to a ray; 0.5 for leaves in all "
+                              "directions alike (Ross 1981)",
                               between(0.05, 1)});
     visit(o.gaps, Field{"gaps", "", "share of a crown's cubes that are empty (assumed)", between(0, 0.95)});
-    visit(o.undergrowth_cover,
-          Field{"undergrowth_cover", "", "share of the ground under shrubs and grass (assumed)", between(0, 0.95)});
-    visit(o.undergrowth_patch, Field{"undergrowth_patch", "m", "diameter of a patch (assumed)", between(0.3, 20)});
+    visit(o.undergrowth_cover, Field{"undergrowth_cover", "",
+                                     "share of the ground that shrubs and grass cover (assumed)", between(0, 0.95)});
+    visit(o.undergrowth_patch,
+          Field{"undergrowth_patch", "m", "diameter of a patch of undergrowth (assumed)", between(0.3, 20)});
     visit(o.undergrowth_height,
-          Field{"undergrowth_height", "m", "in the middle of a patch, on average (assumed)", between(0, 5)});
-    visit(o.undergrowth_leaf_area_density,
-          Field{"undergrowth_leaf_area_density", "m2/m3", "of the patches, on average (assumed)", between(0, 4)});
+          Field{"undergrowth_height", "m", "mean height in the middle of a patch (assumed)", between(0, 5)});
+    visit(o.undergrowth_leaf_area_density, Field{"undergrowth_leaf_area_density", "m2/m3",
+                                                 "mean leaf area density of the patches (assumed)", between(0, 4)});
     visit(o.undergrowth_lane,
-          Field{"undergrowth_lane", "m", "no undergrowth nearer to the machine's path (assumed)", between(0, 20)});
+          Field{"undergrowth_lane", "m", "no undergrowth within this distance of the machine's path (assumed)",
+                between(0, 20)});
   }
 };
 
-/** Each plant depends on the seed and its place alone. `reach`: how far from the lane undergrowth is grown, m. */
+/** Each plant depends on the seed and its place alone. Undergrowth is grown as far as `reach` m from the lane. */
 FoliageVoxels growFoliage(const FoliageOptions&, const TreeOptions&, const std::vector<Stem>&, const Ground&,
                           const Lane&, double reach, std::uint64_t seed);
 }  // namespace scanloom

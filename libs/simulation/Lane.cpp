@@ -10,7 +10,7 @@ namespace scanloom
 namespace
 {
 constexpr double kCellSize = 4.0;       // m
-constexpr double kLeastAdvance = 0.05;  // m: a machine that stands still adds no points
+constexpr double kLeastAdvance = 0.05;  // m: a machine at rest adds no points
 }  // namespace
 
 GridCell GridCell::of(const Eigen::Vector2d& p, double size)

@@ -1,4 +1,4 @@
-/** Where the machine drives, as the stand sees it: kept free, and the world built around it. */
+/** The machine's path: the stand is grown around it and keeps it free. */
 #pragma once
 #include <tsl/robin_map.h>
 #include <Eigen/Core>
@@ -8,7 +8,7 @@
 
 namespace scanloom
 {
-/** A place in a square grid; a key of random numbers and of hashed cells. */
+/** A cell of a square grid. */
 struct GridCell
 {
   std::int32_t x, y;
@@ -25,13 +25,13 @@ struct GridCell
 class Lane
 {
  public:
-  /** Points in the world, m, that follow each other closely. */
+  /** `path`: points (x, y) in the world, m, close to each other. */
   explicit Lane(const std::vector<Eigen::Vector2d>& path);
 
-  /** Whether any point of the path is nearer than `distance`. */
+  /** Whether `place` is nearer than `distance` to a point of the path. */
   bool passes(const Eigen::Vector2d& place, double distance) const;
 
-  /** Cells of a grid, row by row, that come as near as `reach` to the path. */
+  /** Cells with a part within `reach` of the path, row by row. */
   std::vector<GridCell> cellsWithin(double reach, double cell_size) const;
 
  private:

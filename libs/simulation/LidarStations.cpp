@@ -1,7 +1,8 @@
 #include "simulation/LidarStations.h"
 
+#include "lidar/OusterDecoder.h"
+#include "rig/Extrinsics.h"
 #include "simulation/AssumedOuster.h"
-#include "source/Extrinsics.h"
 
 #include <fmt/format.h>
 
@@ -15,9 +16,9 @@ namespace scanloom
 namespace
 {
 constexpr Timestamp kForever = Timestamp::max();
-constexpr Duration kImuLead = 7ms;  // the IMU is ready a little before the rotor
+constexpr Duration kImuLead = 7ms;  // the IMU starts this long before the first column
 
-/** Calls `make` and says of whose option it complains. */
+/** Returns make(). Its std::invalid_argument is thrown again with the name of the option before the message. */
 template <typename Make>
 auto ofLidar(std::size_t place, const char* key, Make&& make) -> decltype(make())
 {
@@ -74,7 +75,7 @@ OusterMetadata metadataOf(const SimulatedLidarOptions& options, const SimulatedL
   if (!options.window.empty()) ofLidar(place, "window", [&] { setWindow(metadata, options.window); });
   if (options.metadata.empty() || options.port > 0 || metadata.lidar_port == 0)
   {
-    metadata.lidar_port = static_cast<std::uint16_t>(options.port > 0 ? options.port : 7502 + 2 * place);
+    metadata.lidar_port = static_cast<std::uint16_t>(options.port > 0 ? options.port : kOusterLidarPort + 2 * place);
     metadata.imu_port = static_cast<std::uint16_t>(metadata.lidar_port + 1);
   }
   return metadata;
@@ -99,7 +100,7 @@ LidarTiming timingOf(const SimulatedLidarOptions& options, const OusterMetadata&
   return timing;
 }
 
-/** What a sensor that starts anew counts from: its clock, frames and columns from zero. */
+/** After a restart at this time clock, frame ids and columns count from zero. */
 LidarTiming afterRestart(LidarTiming timing, Duration at)
 {
   timing.first_column = at;
@@ -108,13 +109,6 @@ LidarTiming afterRestart(LidarTiming timing, Duration at)
   timing.clock = {};
   timing.clock.offset = -(timing.start + at).time_since_epoch();
   return timing;
-}
-
-Rigid bodyTImu(const OusterMetadata& metadata, const Rigid& body_T_sensor)
-{
-  Eigen::Matrix4d sensor_T_imu = metadata.imu_to_sensor_mm;
-  sensor_T_imu.topRightCorner<3, 1>() *= 1e-3;
-  return body_T_sensor * Rigid::fromMatrix(sensor_T_imu);
 }
 
 void refuseSharedPorts(const std::vector<LidarStation>& stations)
@@ -126,12 +120,13 @@ void refuseSharedPorts(const std::vector<LidarStation>& stations)
     const OusterMetadata& metadata = station.metadata();
     if (!ports.insert(metadata.lidar_port).second || !ports.insert(metadata.imu_port).second)
       throw std::invalid_argument(
-          fmt::format("[simulated_lidars] lidar{0}_port: {1} or {2} is another lidar's port, too: "
-                      "give lidar{0}_port = {3}",
-                      station.place + 1, metadata.lidar_port, metadata.imu_port, 7502 + 2 * station.place));
+          fmt::format("[simulated_lidars] lidar{0}_port: another lidar has port {1} or {2} as well: "
+                      "set lidar{0}_port = {3}",
+                      station.place + 1, metadata.lidar_port, metadata.imu_port, kOusterLidarPort + 2 * station.place));
     if (station.name.empty() || !names.insert(station.name).second)
-      throw std::invalid_argument(fmt::format("[simulated_lidars] lidar{}_name = '{}': must be a name of its own",
-                                              station.place + 1, station.name));
+      throw std::invalid_argument(
+          fmt::format("[simulated_lidars] lidar{}_name = '{}': must be given, and different for each lidar",
+                      station.place + 1, station.name));
   }
 }
 }  // namespace
@@ -166,7 +161,7 @@ std::vector<LidarStation> makeLidarStations(const SimulationSettings& settings, 
     const auto run = [&](const LidarTiming& timing, Timestamp until, std::uint64_t number)
     {
       const std::uint64_t own = place + (number << 16);  // random numbers of its own
-      const ImuSetup imu{bodyTImu(metadata, body_T_sensor),
+      const ImuSetup imu{body_T_sensor * rigidFromMillimetres(metadata.imu_to_sensor_mm),
                          span.start + timing.first_column - (number == 0 ? kImuLead : 0ms),
                          settings.lidar_imu,
                          timing.clock,

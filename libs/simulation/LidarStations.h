@@ -3,7 +3,6 @@
 
 namespace scanloom
 {
-/** The lidars of the settings: units, clocks and faults. Throws std::invalid_argument naming the option that cannot be.
- */
+/** The lidars of the settings. Throws std::invalid_argument that names a wrong option. */
 std::vector<LidarStation> makeLidarStations(const SimulationSettings&, const RecordingSpan&, std::uint64_t seed);
 }  // namespace scanloom

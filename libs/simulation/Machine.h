@@ -1,4 +1,4 @@
-/** The machine that carries the lidars, as they see it: its body's boxes and its boom. */
+/** The machine that carries the lidars: boxes of its body, and its boom. */
 #pragma once
 #include "core/Field.h"
 #include "simulation/Boom.h"
@@ -9,7 +9,7 @@
 
 namespace scanloom
 {
-/** Boxes in the body frame, "xmin ymin zmin xmax ymax zmax". Assumed: a mid-size harvester in four blocks. */
+/** Boxes in the body frame. Assumed: a mid-size harvester in four boxes. */
 struct MachineOptions
 {
   std::string engine = "-4 -1.25 0.7 -1 1.25 2.7";
@@ -20,20 +20,20 @@ struct MachineOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.engine, Field{"engine", "m", "xmin ymin zmin xmax ymax zmax in the body frame (assumed); empty: none"});
-    visit(o.cabin, Field{"cabin", "m", "likewise (assumed)"});
-    visit(o.front, Field{"front", "m", "of the front frame that carries the boom, likewise (assumed)"});
-    visit(o.wheels, Field{"wheels", "m", "of the front axle, likewise (assumed)"});
+    visit(o.engine, Field{"engine", "m", "box xmin ymin zmin xmax ymax zmax in the body frame (assumed); empty: none"});
+    visit(o.cabin, Field{"cabin", "m", "box of the cabin, like 'engine' (assumed)"});
+    visit(o.front, Field{"front", "m", "box of the front frame that carries the boom, like 'engine' (assumed)"});
+    visit(o.wheels, Field{"wheels", "m", "box of the front axle, like 'engine' (assumed)"});
   }
 };
 
 class Machine
 {
  public:
-  /** Throws std::invalid_argument naming a box that is none. */
+  /** Throws std::invalid_argument that names an option which is no box. */
   Machine(const MachineOptions&, const Boom&);
 
-  /** In the body frame: they never move. */
+  /** In the body frame. */
   const std::vector<Eigen::AlignedBox3d>& body() const { return body_; }
   const Boom& boom() const { return boom_; }
 

@@ -13,11 +13,11 @@ namespace
 constexpr double kShortestStop = 8;  // s: no tree falls at a shorter one
 constexpr double kLying = M_PI / 2;  // rad
 
-/** Of their kind, so that no two share an id. */
+/** Ids of the kinds alternate, so that no two objects have the same. */
 constexpr std::uint64_t kKinds = 3;
 std::uint64_t idOf(ObjectKind kind, std::uint64_t number) { return kKinds * number + static_cast<std::uint64_t>(kind); }
 
-/** A tree gathers speed as it falls. */
+/** Angle of the fall as a share of the whole, `u` the share of its time: it falls faster and faster. */
 double fallenShare(double u)
 {
   const double v = std::clamp(u, 0.0, 1.0);
@@ -57,7 +57,7 @@ std::vector<OrientedBox> boxesOf(const std::vector<MovingObject>& objects)
 MovingObjects::MovingObjects(const ObjectOptions& options, const Drive& drive, std::uint64_t seed)
   : options_(options), drive_(drive), seed_(seed)
 {
-  if (options_.felled_trees) planTrees();
+  if (options_.trees.felled_trees) planTrees();
 }
 
 void MovingObjects::planTrees()
@@ -75,7 +75,7 @@ void MovingObjects::planTrees()
       const double side = random.uniform() < 0.5 ? -1 : 1;
       const double bearing = heading + side * random.uniform(0.4, 1.0);  // rad: ahead, and beside the lane
       const Eigen::Vector2d foot = world_T_body.translation.head<2>() +
-                                   options_.tree_distance * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+                                   options_.trees.tree_distance * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
       tree.foot << foot, drive_.ground().height(foot.x(), foot.y());
       tree.yaw = bearing + random.uniform(-0.5, 0.5);
       tree.falls = stop->begin + 0.3 * (stop->end - stop->begin);
@@ -131,7 +131,7 @@ void MovingObjects::addPassers(std::vector<MovingObject>& objects, ObjectKind ki
   }
 }
 
-/** The tree of this stop or of the one that the machine drives to, and the next one. */
+/** The tree of this stop, or of the one that the machine drives to, and that of the next stop. */
 void MovingObjects::addTrees(std::vector<MovingObject>& objects, double t) const
 {
   const std::uint64_t current = drive_.route().legNumberAt(t);
@@ -144,10 +144,10 @@ void MovingObjects::addTrees(std::vector<MovingObject>& objects, double t) const
     object.kind = ObjectKind::Tree;
     object.ground_point = tree.foot;
     object.yaw = tree.yaw;
-    object.size << options_.tree_diameter, options_.tree_diameter, options_.tree_length;
-    object.taper = options_.tree_taper;
-    object.tilt = kLying * fallenShare((t - tree.falls) / options_.fall_time);
-    object.moves = t >= tree.falls && t <= tree.falls + options_.fall_time;
+    object.size << options_.trees.tree_diameter, options_.trees.tree_diameter, options_.trees.tree_length;
+    object.taper = options_.trees.tree_taper;
+    object.tilt = kLying * fallenShare((t - tree.falls) / options_.trees.fall_time);
+    object.moves = t >= tree.falls && t <= tree.falls + options_.trees.fall_time;
     objects.push_back(object);
   }
 }

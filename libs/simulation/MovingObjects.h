@@ -1,4 +1,4 @@
-/** What moves about the machine: a person, a vehicle, and the trees that it fells. All as functions of time. */
+/** What moves around the machine, as functions of time: persons, vehicles, and the trees that it fells. */
 #pragma once
 #include "simulation/Drive.h"
 #include "simulation/Solids.h"
@@ -8,6 +8,31 @@
 
 namespace scanloom
 {
+/** The tree that falls at each stop for work. */
+struct FelledTreeOptions
+{
+  bool felled_trees = true;
+  double tree_length = 16;
+  double tree_diameter = 0.24;
+  double tree_taper = 0.2;
+  double tree_distance = 6.5;
+  double fall_time = 3;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.felled_trees, Field{"felled_trees", "", "whether a tree falls at every stop for work"});
+    visit(o.tree_length, Field{"tree_length", "m", "length of that tree (assumed)", between(1, 60)});
+    visit(o.tree_diameter,
+          Field{"tree_diameter", "m", "diameter of that tree at its foot (assumed)", between(0.02, 2)});
+    visit(o.tree_taper,
+          Field{"tree_taper", "", "diameter at its top as a share of that at its foot (assumed)", between(0, 1)});
+    visit(o.tree_distance,
+          Field{"tree_distance", "m", "distance of its foot from the machine's origin (assumed)", between(3, 30)});
+    visit(o.fall_time, Field{"fall_time", "s", "time of its fall, from upright to lying (assumed)", between(0.5, 20)});
+  }
+};
+
 struct ObjectOptions
 {
   double person_every = 60;
@@ -21,38 +46,30 @@ struct ObjectOptions
   double vehicle_height = 1.7;
   double pass_distance = 9;
   double pass_length = 60;
-  bool felled_trees = true;
-  double tree_length = 16;
-  double tree_diameter = 0.24;
-  double tree_taper = 0.2;
-  double tree_distance = 6.5;
-  double fall_time = 3;
+  FelledTreeOptions trees;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.person_every, Field{"person_every", "s", "a person runs past so often; 0: never (assumed)", atLeast(0)});
-    visit(o.person_speed, Field{"person_speed", "m/s", "10 km/h", above(0)});
-    visit(o.person_height, Field{"person_height", "m", "a cylinder (assumed)", between(0.1, 3)});
-    visit(o.person_width, Field{"person_width", "m", "its diameter (assumed)", between(0.1, 3)});
+    visit(o.person_every,
+          Field{"person_every", "s", "mean time between two persons who run past; 0: none (assumed)", atLeast(0)});
+    visit(o.person_speed, Field{"person_speed", "m/s", "speed of a person; 2.78 m/s are 10 km/h", above(0)});
+    visit(o.person_height,
+          Field{"person_height", "m", "height of the cylinder that a person is (assumed)", between(0.1, 3)});
+    visit(o.person_width, Field{"person_width", "m", "diameter of that cylinder (assumed)", between(0.1, 3)});
     visit(o.vehicle_every,
-          Field{"vehicle_every", "s", "a vehicle drives past so often; 0: never (assumed)", atLeast(0)});
-    visit(o.vehicle_speed, Field{"vehicle_speed", "m/s", "of the vehicle (assumed)", above(0)});
-    visit(o.vehicle_length, Field{"vehicle_length", "m", "a box (assumed)", between(0.1, 30)});
-    visit(o.vehicle_width, Field{"vehicle_width", "m", "of the box (assumed)", between(0.1, 10)});
-    visit(o.vehicle_height, Field{"vehicle_height", "m", "of the box (assumed)", between(0.1, 10)});
+          Field{"vehicle_every", "s", "mean time between two vehicles that drive past; 0: none (assumed)", atLeast(0)});
+    visit(o.vehicle_speed, Field{"vehicle_speed", "m/s", "speed of a vehicle (assumed)", above(0)});
+    visit(o.vehicle_length,
+          Field{"vehicle_length", "m", "length of the box that a vehicle is (assumed)", between(0.1, 30)});
+    visit(o.vehicle_width, Field{"vehicle_width", "m", "width of that box (assumed)", between(0.1, 10)});
+    visit(o.vehicle_height, Field{"vehicle_height", "m", "height of that box (assumed)", between(0.1, 10)});
     visit(o.pass_distance,
-          Field{"pass_distance", "m", "from the machine, 0.6 to 1.4 times as far (assumed)", between(2, 100)});
-    visit(o.pass_length,
-          Field{"pass_length", "m", "of their straight ways, on which they appear and vanish (assumed)", above(1)});
-    visit(o.felled_trees, Field{"felled_trees", "", "true: at every stop for work a tree falls"});
-    visit(o.tree_length, Field{"tree_length", "m", "of that tree (assumed)", between(1, 60)});
-    visit(o.tree_diameter, Field{"tree_diameter", "m", "at its foot (assumed)", between(0.02, 2)});
-    visit(o.tree_taper,
-          Field{"tree_taper", "", "diameter at its top, share of that at its foot (assumed)", between(0, 1)});
-    visit(o.tree_distance,
-          Field{"tree_distance", "m", "of its foot from the machine's origin (assumed)", between(3, 30)});
-    visit(o.fall_time, Field{"fall_time", "s", "from upright to lying (assumed)", between(0.5, 20)});
+          Field{"pass_distance", "m", "mean distance at which they pass the machine; 0.6 to 1.4 times this (assumed)",
+                between(2, 100)});
+    visit(o.pass_length, Field{"pass_length", "m",
+                               "length of the straight path at whose ends they appear and vanish (assumed)", above(1)});
+    FelledTreeOptions::fields(o.trees, visit);
   }
 };
 
@@ -63,21 +80,21 @@ enum class ObjectKind
   Tree,
 };
 
-/** One of them at one instant. */
+/** One object at one instant. */
 struct MovingObject
 {
   std::uint64_t id = 0;
   ObjectKind kind = ObjectKind::Person;
-  Eigen::Vector3d ground_point = Eigen::Vector3d::Zero();  // under its centre; of a tree: its foot
-  double yaw = 0;                                          // rad, of its way; of a tree: where it falls
+  Eigen::Vector3d ground_point = Eigen::Vector3d::Zero();  // under its centre; for a tree its foot
+  double yaw = 0;                                          // rad, direction of motion; for a tree that of its fall
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();      // m/s
   Eigen::Vector3d size = Eigen::Vector3d::Zero();          // m: length, width, height (upright)
-  double taper = 1;                                        // of a tree: diameter at its top, share of that at its foot
-  double tilt = 0;                                         // rad, of a tree, from upright
-  bool moves = true;                                       // a tree only while it falls
+  double taper = 1;   // of a tree: diameter at its top as a share of that at its foot
+  double tilt = 0;    // rad, of a tree, from upright
+  bool moves = true;  // a tree moves only while it falls
 };
 
-/** Persons are cylinders, vehicles boxes, trees cones. */
+/** Shapes in the world: persons are cylinders, vehicles boxes, trees cones. */
 std::vector<Cone> conesOf(const std::vector<MovingObject>&);
 std::vector<OrientedBox> boxesOf(const std::vector<MovingObject>&);
 
@@ -86,7 +103,7 @@ class MovingObjects
  public:
   MovingObjects(const ObjectOptions&, const Drive&, std::uint64_t seed);
 
-  /** Those that are there, `t` s after the start, in the order of their ids. */
+  /** Those present `t` s after the start, by id. */
   std::vector<MovingObject> at(double t) const;
 
  private:
@@ -94,7 +111,7 @@ class MovingObjects
   {
     Eigen::Vector3d foot;
     double yaw;          // of its fall
-    double appears;      // s; stands from then on
+    double appears;      // s
     double falls, gone;  // s
   };
 

@@ -1,42 +1,35 @@
 #pragma once
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
-#include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 namespace scanloom
 {
-/** What the web interface of an Ouster sensor answers, without the web. */
+/** What the web interface of an Ouster sensor answers to each request, without a server. */
 class OusterEndpoints
 {
  public:
-  /** `sections` as sensorSections() gives them; `old` as firmware 2.1: metadata in sections only, configuration by
-   * commands. After a restart the status is INITIALIZING for as long as `initialising`. */
-  OusterEndpoints(nlohmann::json sections, bool old, std::chrono::nanoseconds initialising);
+  /** `sections`: the metadata in the nested layout, with one section per endpoint. */
+  explicit OusterEndpoints(const nlohmann::json& sections);
+  explicit OusterEndpoints(const std::string& sections_text);
+  ~OusterEndpoints();
 
-  /** Nothing where there is no such endpoint. */
-  std::optional<nlohmann::json> get(const std::string& path, const std::string& arguments);
-  std::optional<nlohmann::json> postConfig(const std::string& body, bool reinitialise);
+  /** JSON text; nothing if there is no such endpoint. */
+  std::optional<std::string> get(const std::string& path) const;
 
+  /** Takes over a new configuration, with a restart if it is to `reinitialise`. */
+  std::optional<std::string> post(const std::string& path, const std::string& body, bool reinitialise);
+
+  /** The sensor has started again, with this init id. */
   void restart(std::uint32_t init_id);
-  void replace(nlohmann::json sections) { sections_ = std::move(sections); }
-  void setStatus(const std::string& status) { sections_["sensor_info"]["status"] = status; }
 
-  const nlohmann::json& sections() const { return sections_; }
+  nlohmann::json& sections() { return *sections_; }
+  const nlohmann::json& sections() const { return *sections_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  nlohmann::json sensorInfo() const;
-  std::optional<nlohmann::json> section(const std::string& name) const;
-  std::optional<nlohmann::json> command(const std::string& name, const std::string& arguments);
-  void reinitialise();
-
-  nlohmann::json sections_, staged_ = nlohmann::json::object();
-  bool old_;
-  std::chrono::nanoseconds initialising_;
-  Clock::time_point running_from_ = Clock::time_point::min();
+  std::unique_ptr<nlohmann::json> sections_;
 };
 }  // namespace scanloom

@@ -11,7 +11,7 @@ namespace
 {
 constexpr Duration kBetweenTwins = 30us;
 
-constexpr std::uint64_t kImuIndexOffset = 1ULL << 40;  // keeps the IMU's random numbers apart from the packets'
+constexpr std::uint64_t kImuIndexOffset = 1ULL << 40;  // the IMU's packets have other random numbers than the lidar's
 }  // namespace
 
 PacketStream::PacketStream(const Scene& scene, const LidarStation& station) : scene_(scene), station_(station)
@@ -66,7 +66,7 @@ Timestamp PacketStream::finished(std::uint64_t packet) const
   return run().lidar.instantOf(columns * (packet + 1) - 1).truth;
 }
 
-/** A sensor with an azimuth window sends no packet that lies outside of it as a whole. */
+/** A sensor sends no packet whose columns all lie outside its azimuth window. */
 bool PacketStream::isSent(std::uint64_t packet) const
 {
   const auto columns = static_cast<std::uint64_t>(station_.metadata().columns_per_packet);
@@ -82,7 +82,7 @@ bool PacketStream::isLost(Timestamp sent, double luck) const
   if (luck < faults.loss || (t >= faults.silent_from && t < faults.silent_to)) return true;
   if (faults.burst_every <= 0) return false;
 
-  // One burst within each such time, at a place of its own; it may reach into the next.
+  // One burst begins in each interval of burst_every, at a random time; it may reach into the next interval.
   const auto slot = static_cast<std::int64_t>(std::floor(t / faults.burst_every));
   for (const std::int64_t i : {slot - 1, slot})
   {
@@ -169,7 +169,7 @@ Datagram PacketStream::imuDatagram(const std::vector<ImuStream::Sample>& samples
 Duration PacketStream::delay(Random& random, double packet_time) const
 {
   const NetworkOptions& network = scene_.network;
-  const double rare = std::min(network.rare_jitter, 0.8 * packet_time);  // packets do not overtake each other
+  const double rare = std::min(network.rare_jitter, 0.8 * packet_time);  // so that packets do not overtake each other
   const double jitter = random.uniform() < network.rare_share ? rare : network.jitter;
   return fromSeconds(network.delay + jitter * random.uniform());
 }

@@ -1,7 +1,7 @@
-/** The datagrams of one lidar, packets and built-in IMU, as a recording computer gets them. */
+/** The datagrams of one lidar and its built-in IMU, as a recording computer receives them. */
 #pragma once
+#include "packets/Datagram.h"
 #include "simulation/Scene.h"
-#include "source/Datagram.h"
 
 #include <cstddef>
 #include <optional>
@@ -12,7 +12,7 @@ namespace scanloom
 /** What became of the packets of one lidar. */
 struct PacketCounts
 {
-  std::uint64_t lidar = 0, imu = 0;  // that arrived, each once
+  std::uint64_t lidar = 0, imu = 0;  // arrived; duplicates count once
   std::uint64_t lost = 0, reordered = 0, duplicated = 0;
   ReturnCounts returns;  // of the packets that arrived
 };
@@ -24,15 +24,15 @@ class PacketStream
   PacketStream(const Scene&, const LidarStation&);
 
   /**
-   * All datagrams that the sensor finished before `until` and that were not asked for yet, each receipt stamp after
-   * the packet's last measurement. Columns are cast in parallel; the bytes do not depend on the number of threads.
+   * All datagrams whose last measurement is before `until` and that no earlier call returned. Columns are simulated in
+   * parallel; the bytes do not depend on the number of threads.
    */
   std::vector<Datagram> finishedBefore(Timestamp until);
 
   const PacketCounts& counts() const { return counts_; }
 
  private:
-  /** One packet on its way: which one, and what the cable does to it. */
+  /** A packet that arrives, once or twice. */
   struct Transport
   {
     std::uint64_t packet;
@@ -56,7 +56,7 @@ class PacketStream
   std::size_t run_ = 0;
   std::vector<OusterEncoder> encoders_;           // by run
   std::vector<ImuStream> imus_;                   // by run
-  std::vector<ImuStream::Sample> imu_waiting_;    // for their packet to be full
+  std::vector<ImuStream::Sample> imu_waiting_;    // until their packet is full
   std::uint64_t next_packet_ = 0, next_imu_ = 0;  // of this run
   PacketCounts counts_;
 };

@@ -1,11 +1,11 @@
-/** Random numbers that depend on their place alone, so that no thread and no order can change them. */
+/** Random numbers that depend on their key alone, so that neither threads nor order change them. */
 #pragma once
 #include <cmath>
 #include <cstdint>
 
 namespace scanloom
 {
-/** What random numbers are drawn for. */
+/** What random numbers are drawn for. Never reorder: the values are part of the key. */
 enum class RandomStream : std::uint64_t
 {
   Stand,
@@ -31,17 +31,17 @@ enum class RandomStream : std::uint64_t
   Beside,
 };
 
-/** SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), one per place. */
+/** SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), seeded by a key. */
 class Random
 {
  public:
-  /** `index`: the column, the sample or the stem that is drawn for. */
+  /** `index`: number of the column, sample or stem. */
   Random(std::uint64_t seed, RandomStream stream, std::uint64_t index)
     : state_(mix(mix(mix(seed) + static_cast<std::uint64_t>(stream)) + index))
   {
   }
 
-  /** `who`: which of several lidars, stops or passers-by. */
+  /** `who`: number of the lidar, stop or passer-by. */
   Random(std::uint64_t seed, RandomStream stream, std::uint64_t who, std::uint64_t index)
     : state_(mix(mix(mix(mix(seed) + static_cast<std::uint64_t>(stream)) + who) + index))
   {
@@ -53,7 +53,7 @@ class Random
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
   double uniform(double lowest, double highest) { return lowest + (highest - lowest) * uniform(); }
 
-  /** How many of many rare events happen when `mean` are expected. */
+  /** Poisson distributed. */
   int poisson(double mean)
   {
     int events = 0;
@@ -61,10 +61,10 @@ class Random
     return events;
   }
 
-  /** Mean 1. */
+  /** Exponentially distributed, mean 1. */
   double exponential() { return -std::log(1 - uniform()); }
 
-  /** Mean 0, deviation 1. Box and Muller's, because std::normal_distribution differs between standard libraries. */
+  /** Standard normal, by Box and Muller: std::normal_distribution differs between standard libraries. */
   double normal()
   {
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));

@@ -1,4 +1,4 @@
-/** What the lidars send out and what it meets. */
+/** Rays, and what they meet. */
 #pragma once
 #include <Eigen/Core>
 
@@ -15,24 +15,24 @@ struct Ray
   Eigen::Vector3d at(double range) const { return origin + range * direction; }
 };
 
-/** What a ray is asked: the nearest surface within `max_range`. */
+/** Asks for the nearest surface within `max_range`. */
 struct RayQuery
 {
   Ray ray;
   double max_range;    // m
-  std::uint64_t draw;  // decides what is left to chance: of a ray through foliage, which leaf it meets
+  std::uint64_t draw;  // key of the random numbers: which leaf a ray through foliage meets
 };
 
 enum class Surface
 {
   Ground,
   Stem,         // bark, stumps included
-  Branch,       // dead or alive, as far as it is wood
+  Branch,       // its wood, dead or alive
   Crown,        // twigs and needles
   Undergrowth,  // shrubs and grass
-  Machine,      // that carries the lidars
+  Machine,      // the one that carries the lidars
   Boom,         // of that machine
-  Object,       // that moves by itself
+  Object,       // persons, vehicles, falling trees
 };
 
 constexpr std::size_t kSurfaces = 8;
@@ -42,7 +42,6 @@ struct Hit
   double range = 0;             // m from the ray's origin
   double cosine_incidence = 0;  // 1 when the ray meets the surface at a right angle
   Surface surface = Surface::Ground;
-  std::uint32_t id =
-      0;  // of the stem that was hit or that the branch belongs to; 0 elsewhere, for stumps and foliage, too
+  std::uint32_t id = 0;  // number of the stem that was hit, or whose branch; 0 for everything else
 };
 }  // namespace scanloom

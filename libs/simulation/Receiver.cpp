@@ -11,7 +11,7 @@ namespace
 {
 constexpr double kMillimetre = 1e-3;
 
-/** A unit without a product line is taken for an OS1, as the metadata's parser does. */
+/** A unit without a product line counts as an OS1, as in parseOusterMetadata. */
 RangingOptions ofDataSheet(RangingOptions ranging, const std::string& product_line)
 {
   const OusterFamily& family = ousterFamily(product_line.empty() ? "OS1" : product_line);
@@ -22,7 +22,7 @@ RangingOptions ofDataSheet(RangingOptions ranging, const std::string& product_li
 
 std::uint16_t photons(double count) { return static_cast<std::uint16_t>(std::clamp(count, 1.0, 65535.0)); }
 
-double reflectivityOfSurface(const RangingOptions& options, Surface surface)
+double reflectivityOfSurface(const ReflectivityOptions& options, Surface surface)
 {
   switch (surface)
   {
@@ -123,6 +123,7 @@ std::uint16_t Receiver::nearIrOf(const Echo& echo) const
 double Receiver::reflectivityOf(const Hit& hit, const Luck& luck) const
 {
   constexpr double kDarkest = 0.01;
-  return std::max(kDarkest, reflectivityOfSurface(options_, hit.surface) * (1 + options_.shade * luck.shade));
+  return std::max(kDarkest,
+                  reflectivityOfSurface(options_.reflectivity, hit.surface) * (1 + options_.shade * luck.shade));
 }
 }  // namespace scanloom

@@ -1,4 +1,4 @@
-/** What a lidar makes of the light that comes back: whether, how strongly, and how exactly it measures. */
+/** From the light that comes back to a reading: whether there is a return, its strength and its error. */
 #pragma once
 #include "lidar/OusterEncoder.h"
 #include "simulation/Random.h"
@@ -10,26 +10,26 @@
 
 namespace scanloom
 {
-/** 1 where half of the returns are lost: falls with the square of the range. */
+/** Signal strength; 1 where half of the returns are lost. It falls with the square of the range. */
 double signalStrength(double reflectivity, double cosine_incidence, double range, double range_at_ten_percent);
 
-/** Certain to 0.7 of the range where half of the returns are lost, gone at 1.3 of it. */
+/** Probability of a return: 1 up to 0.7 of the range at which half of the returns are lost, 0 from 1.3 of it on. */
 double chanceOfReturn(double strength);
 
-/** Standard deviation, m. */
+/** Standard deviation of a range, m. */
 double rangeNoise(const RangingOptions&, double strength);
 
-/** What chance does to a return. */
+/** The random numbers of a return. */
 struct Luck
 {
   explicit Luck(Random&);
 
   double noise;      // standard normal
-  double detection;  // uniform: the return is lost if its chance is not above
-  double shade;      // standard normal: of the surface's reflectivity
+  double detection;  // uniform: the return is lost if this is at least its probability
+  double shade;      // standard normal: variation of the surface's reflectivity
 };
 
-/** What one ray of a beam met, and the luck of its return. */
+/** What one ray of a beam met. */
 struct Echo
 {
   std::optional<Hit> hit;
@@ -45,14 +45,14 @@ struct Reception
 class Receiver
 {
  public:
-  /** Ranges of 0 are taken from the data sheet of the product line. `origin_to_axis`, m: ranges count from there. */
+  /** Options of 0 m are taken from the product line's data sheet. `origin_to_axis` (m) is added to every range. */
   Receiver(RangingOptions, const std::string& product_line, double origin_to_axis);
 
   const RangingOptions& options() const { return options_; }
 
   Reception receive(const Echo&) const;
 
-  /** Of a beam that is wide enough to meet two surfaces: if they are far enough apart, each gets half of its light. */
+  /** A beam that may meet two surfaces: if they are at least least_separation apart, each gets half of its light. */
   Reception receive(const Echo& on_axis, const Echo& beside) const;
 
  private:

@@ -1,12 +1,12 @@
 #include "simulation/RecordingFolder.h"
 
-#include "output/OutputFile.h"
-#include "output/SecondsText.h"
-#include "output/Trajectory.h"
+#include "core/OutputFile.h"
+#include "formats/EurocImu.h"
+#include "formats/SecondsText.h"
+#include "formats/Trajectory.h"
+#include "packets/CaptureWriter.h"
+#include "rig/Extrinsics.h"
 #include "simulation/ScenePackets.h"
-#include "source/CaptureWriter.h"
-#include "source/EurocImu.h"
-#include "source/Extrinsics.h"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -127,7 +127,7 @@ void writeText(const std::filesystem::path& path, const std::string& text)
   writeAtomically(path, [&](std::ostream& file) { file << text << '\n'; });
 }
 
-/** "none", or by surface; all lidars together. */
+/** Returns of all lidars by surface, and rays without return as "none". */
 nlohmann::json returnsJson(const std::vector<PacketCounts>& counts)
 {
   constexpr std::array<const char*, kSurfaces> kNames{"ground",      "stem",    "branch", "crown",

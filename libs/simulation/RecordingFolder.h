@@ -12,19 +12,19 @@
 
 namespace scanloom
 {
-/** What writeRecording() writes. */
+/** The files that writeRecording() writes. */
 std::vector<std::string> recordingFileNames(const SimulationSettings&);
 
 /**
- * The same scene gives the same bytes, on any number of threads. Everything is written as it is simulated: memory does
- * not grow with the recording. `progress` is called with the share done and may throw to stop. Throws
- * std::runtime_error if a file cannot be written; the folder must exist.
+ * The same scene gives the same bytes on any number of threads. Memory does not grow with the length of the recording.
+ * `progress` is called with the share done, 0 to 1, and may throw to stop. The folder must exist. Throws
+ * std::runtime_error if a file cannot be written.
  */
 void writeRecording(const Scene&, const std::filesystem::path& folder, const std::function<void(double)>& progress);
 
-/** What writeTruth() writes. */
+/** The files that writeTruth() writes. */
 std::vector<std::string> truthFileNames();
 
-/** What a trajectory is evaluated by, without the packets: groundtruth.tum, total_station.csv and extrinsics.txt. */
+/** Writes only what a trajectory is evaluated by: groundtruth.tum, total_station.csv and extrinsics.txt. */
 void writeTruth(const Scene&, const std::filesystem::path& folder);
 }  // namespace scanloom

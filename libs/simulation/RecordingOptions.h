@@ -1,4 +1,4 @@
-/** All that can be chosen about a simulated recording. */
+/** Options of a simulated recording. */
 #pragma once
 #include "config/Schema.h"
 #include "simulation/Drive.h"
@@ -24,14 +24,15 @@ struct SimulatedRigOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.imu_pose, Field{"imu_pose", "m deg", "of the body's IMU: x y z yaw pitch roll"});
-    visit(o.prism_pose, Field{"prism_pose", "m deg", "of the total station's prism"});
+    visit(o.imu_pose, Field{"imu_pose", "m deg", "pose of the body's IMU: x y z yaw pitch roll"});
+    visit(o.prism_pose, Field{"prism_pose", "m deg", "pose of the total station's prism: x y z yaw pitch roll"});
   }
 };
 
 /** Two OS0 beside the boom, tilted outwards. */
 std::vector<SimulatedLidarOptions> dualOs0();
 
+/** One member per section of the configuration, hence more than a dozen. */
 struct SimulationSettings
 {
   DriveOptions drive;
@@ -54,20 +55,20 @@ struct SimulationSettings
   static void sections(Self& s, Visitor&& visit)
   {
     visit(s.drive, Section{"simulated_drive", "how the machine moves"});
-    visit(s.work, Section{"simulated_work", "what it does on route = work"});
-    visit(s.body, Section{"simulated_body", "how its body sways and shakes"});
-    visit(s.machine, Section{"simulated_machine", "what the lidars see of it"});
-    visit(s.boom, Section{"simulated_boom", "its crane"});
-    visit(s.objects, Section{"simulated_objects", "who passes by, and trees that fall"});
-    visit(s.ground, Section{"simulated_ground", "what it drives on"});
+    visit(s.work, Section{"simulated_work", "the work cycle of route = work"});
+    visit(s.body, Section{"simulated_body", "how the machine's body sways and shakes"});
+    visit(s.machine, Section{"simulated_machine", "the machine's body as the lidars see it"});
+    visit(s.boom, Section{"simulated_boom", "the machine's crane"});
+    visit(s.objects, Section{"simulated_objects", "persons and vehicles that pass by, and trees that fall"});
+    visit(s.ground, Section{"simulated_ground", "the ground"});
     ForestOptions::sections(s.forest, visit);
-    visit(s.rig, Section{"simulated_rig", "where the other sensors sit"});
+    visit(s.rig, Section{"simulated_rig", "poses of the other sensors"});
     visit(s.lidars, Section{"simulated_lidars", "any number of lidars: lidar1_, lidar2_, ...", "lidar"});
-    visit(s.ranging, Section{"simulated_ranging", "what comes back to all lidars"});
-    visit(s.network, Section{"simulated_network", "what lies between the lidars and the computer"});
+    visit(s.ranging, Section{"simulated_ranging", "ranging of all lidars: returns, noise, reflectivities"});
+    visit(s.network, Section{"simulated_network", "delays between the lidars and the recording computer"});
     visit(s.imu, Section{"simulated_imu", "the body's IMU"});
     visit(s.lidar_imu, Section{"simulated_lidar_imu", "the IMUs inside the lidars"});
-    visit(s.station, Section{"simulated_total_station", "what tracks the prism"});
+    visit(s.station, Section{"simulated_total_station", "the total station that tracks the prism"});
   }
 };
 }  // namespace scanloom

@@ -1,4 +1,4 @@
-/** How far along its way the machine is: one winding drive, or a work cycle of short drives and stops. */
+/** The machine's progress along its path: one winding drive, or a work cycle of short drives and stops. */
 #pragma once
 #include "core/Field.h"
 #include "simulation/Taylor.h"
@@ -27,16 +27,15 @@ struct DriveOptions
     visit(o.route, Field{"route", "",
                          "winding: rests, drives at 'speed', rests again; work: repeats the cycle of [simulated_work] "
                          "until the recording ends"});
-    visit(o.standstill,
-          Field{"standstill", "s", "at rest before the drive (after it, too, on a winding one)", atLeast(0)});
-    visit(o.speed, Field{"speed", "m/s", "cruising speed of a winding drive, along its axis", between(0, 10)});
-    visit(o.speed_up, Field{"speed_up", "s", "to reach the cruising speed, and to stop", above(0)});
+    visit(o.standstill, Field{"standstill", "s", "time at rest before the drive, and after a winding one", atLeast(0)});
+    visit(o.speed, Field{"speed", "m/s", "cruising speed of a winding drive along its axis", between(0, 10)});
+    visit(o.speed_up, Field{"speed_up", "s", "time to reach the cruising speed, and to stop", above(0)});
     visit(o.curve, Field{"curve", "m", "amplitude of the winding path", between(0, 20)});
-    visit(o.curve_length, Field{"curve_length", "m", "after which the path winds again", above(1)});
+    visit(o.curve_length, Field{"curve_length", "m", "length of one period of the winding path", above(1)});
   }
 };
 
-/** A harvester's day, assumed: no published record of one was at hand. */
+/** The work cycle of a harvester. Assumed: no published record was found. */
 struct WorkCycleOptions
 {
   double step_min = 1.0;
@@ -57,40 +56,43 @@ struct WorkCycleOptions
     visit(o.speed_max, Field{"speed_max", "m/s", "fastest of these drives (assumed)", between(0, 10)});
     visit(o.work_min, Field{"work_min", "s", "shortest stop for work (assumed)", atLeast(0)});
     visit(o.work_max, Field{"work_max", "s", "longest stop for work (assumed)", atLeast(0)});
-    visit(o.turn_after, Field{"turn_after", "m",
-                              "then it reverses to the start, rests and begins anew; 0: never, one way", atLeast(0)});
-    visit(o.return_speed, Field{"return_speed", "m/s", "of the way back (assumed)", between(0.1, 10)});
+    visit(
+        o.turn_after,
+        Field{"turn_after", "m",
+              "distance from the start after which the machine reverses to the start, rests and begins again; 0: never",
+              atLeast(0)});
+    visit(o.return_speed, Field{"return_speed", "m/s", "speed of the way back (assumed)", between(0.1, 10)});
   }
 };
 
 /** A stop at which the machine works with its boom. */
 struct WorkStop
 {
-  std::uint64_t number = 0;   // of the drive that led there
+  std::uint64_t number = 0;   // of the drive that leads there
   double begin = 0, end = 0;  // s
 };
 
-/** Drawn once for the whole recording; a query is a binary search among its legs. */
+/** All drives and stops of a recording, drawn at construction. */
 class Route
 {
  public:
-  /** Throws std::invalid_argument naming the options that cannot be together. */
+  /** Throws std::invalid_argument that names options which contradict each other. */
   Route(const DriveOptions&, const WorkCycleOptions&, std::uint64_t seed);
 
   /** m along the axis of the path, `t` s after the start of the recording. */
   Taylor progress(double t) const;
 
-  /** Of the cruising speed: 0 at rest, 1 while cruising. */
+  /** Speed as a share of the cruising speed: 0 at rest, 1 while cruising. */
   Taylor driving(double t) const;
 
-  /** 1 while the machine works, growing and fading within a second. */
+  /** 1 while the machine works, 0 otherwise, with transitions of a second. */
   Taylor working(double t) const;
 
-  /** The stop at that time, if it is one for work; by number, the stop after that drive. */
+  /** The stop for work at that time, or after the drive of that number; nothing if there is none. */
   std::optional<WorkStop> workStopAt(double t) const;
   std::optional<WorkStop> workStop(std::uint64_t number) const;
 
-  /** Of the drive that began last; 0 before the first. */
+  /** Number of the drive that began last; 0 before the first. */
   std::uint64_t legNumberAt(double t) const;
   std::uint64_t legs() const { return legs_.size(); }
 
@@ -108,7 +110,7 @@ class Route
   };
   void addWinding(const DriveOptions&);
   void addWorkCycles(const DriveOptions&, const WorkCycleOptions&, std::uint64_t seed);
-  const Leg* legAt(double t) const;  // that began last
+  const Leg* legAt(double t) const;  // the one that began last
   double endOf(const Leg& leg) const { return leg.begin + leg.moving + speed_up_; }
 
   double duration_, speed_up_, farthest_ = 0;

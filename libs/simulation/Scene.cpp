@@ -1,7 +1,7 @@
 #include "simulation/Scene.h"
 
+#include "rig/Extrinsics.h"
 #include "simulation/LidarStations.h"
-#include "source/Extrinsics.h"
 
 #include <fmt/format.h>
 

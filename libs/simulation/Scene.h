@@ -1,4 +1,4 @@
-/** A world, a drive through it and the sensors that go along: everything that a recording is made of. */
+/** Everything that a recording is made of: a world, a drive through it, and the sensors. */
 #pragma once
 #include "simulation/RecordingOptions.h"
 #include "simulation/Scenery.h"
@@ -12,11 +12,11 @@
 
 namespace scanloom
 {
-/** A lidar from one start to the next, or to the end. */
+/** A lidar from one start to its next restart, or to the end of the recording. */
 struct LidarRun
 {
   SimulatedLidar lidar;
-  Timestamp until;  // true time; what it measures later is never sent
+  Timestamp until;  // true time; later measurements are never sent
   ImuSetup imu;     // its built-in one
 };
 
@@ -24,9 +24,9 @@ struct LidarStation
 {
   std::string name;
   std::uint64_t place = 0;     // in the list of lidars
-  std::vector<LidarRun> runs;  // at least one; another one after a restart
+  std::vector<LidarRun> runs;  // one, and a second one after a restart
   LidarFaultOptions faults;
-  Rigid written_body_T_sensor;  // what the extrinsics say
+  Rigid written_body_T_sensor;  // as extrinsics.txt has it: with [simulated_lidars] pose_error
 
   const OusterMetadata& metadata() const { return runs.front().lidar.metadata(); }
 };
@@ -43,6 +43,6 @@ struct Scene
   Rigid body_T_prism;
 };
 
-/** Throws std::invalid_argument naming the option that cannot be. */
+/** Throws std::invalid_argument that names a wrong option. */
 Scene makeScene(const SimulationSettings&, std::uint64_t seed);
 }  // namespace scanloom

@@ -1,8 +1,8 @@
 #include "simulation/SceneInput.h"
 
+#include "rig/Extrinsics.h"
+#include "rig/RigStream.h"
 #include "simulation/ScenePackets.h"
-#include "source/Extrinsics.h"
-#include "source/RigStream.h"
 
 #include <fmt/format.h>
 
@@ -17,18 +17,19 @@ namespace
 /** So far ahead of the packets the body's IMU is: nothing that a packet completes may lack a sample. */
 constexpr Duration kImuAhead = 1s;
 
-class SceneRigInput : public RigInput
+class SceneInput : public SensorInput
 {
  public:
-  SceneRigInput(std::shared_ptr<const Scene> scene, const Rig& rig)
-    : scene_(std::move(scene)),
+  SceneInput(std::shared_ptr<const Scene> scene, const Rig& rig)
+    : setup_(setupOf(rig)),
+      scene_(std::move(scene)),
       packets_(*scene_),
       imu_(scene_->scenery.drive(), scene_->span, scene_->body_imu, scene_->seed),
       stream_(rig, RigStream::ReceiveTimes::OfCapture)
   {
   }
 
-  using RigInput::next;
+  using SensorInput::next;
   std::optional<SensorEvent> next(Duration) override
   {
     std::optional<SensorEvent> event = stream_.next();
@@ -50,6 +51,7 @@ class SceneRigInput : public RigInput
 
   bool ended() const override { return ended_; }
   void stop() override { stop_ = true; }
+  SensorSetup setup() const override { return setup_; }
   double progress() const override { return packets_.share(); }
   std::vector<std::string> takeWarnings() override { return stream_.takeWarnings(); }
 
@@ -75,6 +77,7 @@ class SceneRigInput : public RigInput
     stream_.takeBodyImu(samples);
   }
 
+  SensorSetup setup_;
   std::shared_ptr<const Scene> scene_;
   ScenePackets packets_;
   ImuStream imu_;
@@ -114,13 +117,8 @@ Rig rigOf(const Scene& scene, const BatcherOptions& batcher, const std::vector<s
   return rig;
 }
 
-std::unique_ptr<RigInput> makeSceneRigInput(std::shared_ptr<const Scene> scene, const Rig& rig)
-{
-  return std::make_unique<SceneRigInput>(std::move(scene), rig);
-}
-
 std::unique_ptr<SensorInput> makeSceneInput(std::shared_ptr<const Scene> scene, const Rig& rig)
 {
-  return makeRigSensorInput(rig, makeSceneRigInput(std::move(scene), rig), true);
+  return std::make_unique<SceneInput>(std::move(scene), rig);
 }
 }  // namespace scanloom

@@ -1,6 +1,7 @@
 /** A scene as if its recording were read, without any file: for drives too long to store. */
 #pragma once
-#include "mrpt_bridge/SensorInput.h"
+#include "rig/Rig.h"
+#include "rig/SensorInput.h"
 #include "simulation/Scene.h"
 
 #include <memory>
@@ -16,8 +17,5 @@ namespace scanloom
 Rig rigOf(const Scene&, const BatcherOptions&, const std::vector<std::string>& only = {});
 
 /** The scans and IMU samples of the scene's recording, to the bit; memory does not grow with its length. */
-std::unique_ptr<RigInput> makeSceneRigInput(std::shared_ptr<const Scene>, const Rig&);
-
-/** The same for localisation. */
 std::unique_ptr<SensorInput> makeSceneInput(std::shared_ptr<const Scene>, const Rig&);
 }  // namespace scanloom

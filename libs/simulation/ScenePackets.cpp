@@ -16,7 +16,7 @@ ScenePackets::ScenePackets(const Scene& scene) : scene_(scene), simulated_(scene
 
 bool ScenePackets::next(Datagram& datagram)
 {
-  // What the next slice brings was measured after this one: nothing can still come before its end.
+  // Packets of the next slice are received after the end of this one, so none of them can come first.
   const auto isReady = [&]
   { return next_ < waiting_.size() && (simulated_ == scene_.span.end() || waiting_[next_].received < simulated_); };
   while (!isReady() && simulated_ < scene_.span.end()) simulateSlice();

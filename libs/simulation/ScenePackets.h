@@ -1,4 +1,4 @@
-/** The datagrams of all lidars of a scene in the order of their receipt, made as they are asked for. */
+/** The datagrams of all lidars of a scene in the order of receipt, simulated when they are asked for. */
 #pragma once
 #include "simulation/PacketStream.h"
 
@@ -14,10 +14,10 @@ class ScenePackets
   /** The scene must outlive it. */
   explicit ScenePackets(const Scene&);
 
-  /** False at the end of the recording. Holds a quarter of a second of packets, however long that is. */
+  /** False at the end of the recording. Memory: a quarter of a second of packets. */
   bool next(Datagram&);
 
-  /** How far the simulation is: no datagram to come is received before it. */
+  /** Later datagrams are not received before this time. */
   Timestamp time() const { return settled_; }
   double share() const;  // of the recording, 0 to 1
 

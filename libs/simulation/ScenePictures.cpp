@@ -1,6 +1,6 @@
 #include "simulation/ScenePictures.h"
 
-#include "output/Canvas.h"
+#include "formats/Canvas.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -41,7 +41,7 @@ Color colorOf(Surface surface)
   return kInk;
 }
 
-/** Viridis in five colours. */
+/** The colour map viridis, by five of its colours. */
 Color colorOfShare(double share)
 {
   const std::array<Color, 5> kColors{Color{0.99F, 0.91F, 0.14F}, Color{0.37F, 0.79F, 0.38F}, Color{0.13F, 0.57F, 0.55F},
@@ -84,7 +84,7 @@ void drawTurn(const SimulatedLidar& lidar, const Scenery& scenery, std::uint64_t
   tbb::parallel_for(std::size_t{0}, turn.size(),
                     [&](std::size_t i) { turn[i] = lidar.measure(scenery, first + i).column; });
   const auto pixel = [&](int column) { return column * kWidth / columns; };
-  // A beam looks aside of the column's own direction: the picture is that of directions.
+  // A beam looks aside of its column's direction; the picture shows directions.
   const auto placeOf = [&](int column, std::size_t beam)
   {
     const double aside = lidar.metadata().beam_azimuth_deg[beam] / 360 * columns;
@@ -96,7 +96,7 @@ void drawTurn(const SimulatedLidar& lidar, const Scenery& scenery, std::uint64_t
       const double range = 1e-3 * column.readings[beam].first.range_mm;
       const int place = placeOf(column.measurement_id, beam);
       const int left = pixel(place), width = pixel(place + 1) - left;
-      // Ranges differ by their ratio: near by, decimetres matter.
+      // Logarithmic, so that decimetres show near by.
       const Color color = range > 0 ? colorOfShare(std::log(range) / std::log(farthest)) : kNothing;
       canvas.fillRectangle(left, top + static_cast<int>(beam) * height, std::max(1, width), height, color);
     }

@@ -1,4 +1,4 @@
-/** What a simulated scene looks like, for people who want to see what they simulate. */
+/** Pictures of a simulated scene. */
 #pragma once
 #include "simulation/Scene.h"
 
@@ -6,10 +6,10 @@
 
 namespace scanloom
 {
-/** As from a pole behind the machine, `t` s after the start: colours by surface. Throws what Canvas::savePng throws. */
+/** The stand seen from above and behind the machine, `t` s after the start; a colour per kind of surface. Throws as
+ * Canvas::savePng. */
 void drawStand(const Scene&, double t, const std::filesystem::path& png);
 
-/** One turn of every lidar from `t` s on, as it is measured: a strip each, columns by rows of beams, ranges as colours.
- */
+/** The first turn of every lidar from `t` s on as a range image: columns by beams, ranges as colours. */
 void drawScans(const Scene&, double t, const std::filesystem::path& png);
 }  // namespace scanloom

@@ -1,7 +1,7 @@
 #include "simulation/SceneSensors.h"
 
+#include "rig/Extrinsics.h"
 #include "simulation/ScenePackets.h"
-#include "source/Extrinsics.h"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-constexpr Duration kAhead = 250ms;   // of packets that wait for their time
+constexpr Duration kAhead = 250ms;   // simulated in advance
 constexpr Duration kReport = 100ms;  // between two calls of goOn
 
 std::string hostOf(std::size_t lidar) { return fmt::format("127.0.0.{}", lidar + 2); }
@@ -37,7 +37,7 @@ SceneSensors::SceneSensors(const Scene& scene) : scene_(scene), runs_(scene.lida
 {
   for (std::size_t i = 0; i < scene.lidars.size(); ++i)
   {
-    pages_.push_back(std::make_unique<FakeSensor>(toJson(scene.lidars[i].metadata()), FakeSensorOptions{hostOf(i)}));
+    pages_.push_back(std::make_unique<SensorPage>(toJson(scene.lidars[i].metadata()), hostOf(i)));
     senders_.emplace_back(IpAddress::parse(hostOf(i)));
   }
 }

@@ -33,7 +33,7 @@ std::vector<std::optional<Hit>> Moment::cast(const std::vector<RayQuery>& querie
     const auto& [ray, max_range, draw] = queries[i];
     const Ray in_body{body_R_world_ * (ray.origin - world_T_body_.translation), body_R_world_ * ray.direction};
     nearest[i] = castMachine(in_body);
-    if (nearest[i] && nearest[i]->range <= max_range) continue;  // nothing else is so near to the machine
+    if (nearest[i] && nearest[i]->range <= max_range) continue;  // nothing can lie between a lidar and its own machine
 
     nearest[i] = castMoving(ray, in_body);
     if (nearest[i] && nearest[i]->range > max_range) nearest[i].reset();

@@ -1,4 +1,4 @@
-/** All that rays meet: the world that stands still, the machine, and what moves about it. */
+/** All that rays meet: the static world, the machine, and what moves around it. */
 #pragma once
 #include "simulation/Drive.h"
 #include "simulation/Machine.h"
@@ -19,7 +19,7 @@ class Moment
 
   const Rigid& worldTBody() const { return world_T_body_; }
 
-  /** What each ray, in the world, meets; pure, as World::cast is. */
+  /** What each ray, given in the world frame, meets. Pure, as World::cast. */
   std::vector<std::optional<Hit>> cast(const std::vector<RayQuery>&) const;
   std::optional<Hit> cast(const RayQuery& query) const { return cast(std::vector<RayQuery>{query}).front(); }
 

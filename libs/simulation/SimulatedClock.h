@@ -1,4 +1,4 @@
-/** When a lidar takes its columns, and what its clock says then. */
+/** When a lidar measures its columns, in true time and by its own clock. */
 #pragma once
 #include "core/Time.h"
 #include "lidar/OusterMetadata.h"
@@ -7,7 +7,7 @@
 
 namespace scanloom
 {
-/** A sensor's stamps against true time. */
+/** The error of a sensor's clock. */
 struct ClockError
 {
   Duration offset{0};
@@ -23,25 +23,25 @@ struct ClockError
   }
 };
 
-/** No phase lock: each lidar starts at some angle, at some time, and turns at a slightly wrong rate. */
+/** Lidars are not phase locked: each starts at its own angle and time, and its rotor has an error of rate. */
 struct LidarTiming
 {
   Timestamp start;            // of the recording
-  Duration first_column{0};   // after it
-  double rate_error_ppm = 0;  // positive: columns come later than they should
+  Duration first_column{0};   // after `start`
+  double rate_error_ppm = 0;  // positive: the rotor is too slow
   std::uint32_t first_frame_id = 0;
-  std::uint16_t first_measurement_id = 0;  // begins a packet
+  std::uint16_t first_measurement_id = 0;  // the first one of a packet
   ClockError clock;
 };
 
 struct ColumnInstant
 {
-  Timestamp truth;  // of the world
-  Timestamp stamp;  // by the sensor's clock
+  Timestamp truth;  // true time
+  Timestamp stamp;  // of the sensor's clock
   std::uint32_t frame_id = 0;
   std::uint16_t measurement_id = 0;
 };
 
-/** Of the n-th column. */
+/** The instant of the n-th column. */
 ColumnInstant columnInstant(const LidarTiming&, const OusterMetadata&, std::uint64_t column);
 }  // namespace scanloom

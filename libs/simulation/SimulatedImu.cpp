@@ -21,7 +21,7 @@ Eigen::Vector3d normalVector(Random& random)
 
 ImuSample idealImuSample(const Motion& body, const Rigid& body_T_imu, Timestamp stamp)
 {
-  // Rigid body: the IMU's acceleration is the origin's, plus what turning about it adds over the lever arm.
+  // Rigid body: acceleration of the origin, plus angular and centripetal acceleration over the lever arm.
   const Eigen::Vector3d& arm = body_T_imu.translation;
   const Eigen::Vector3d origin_force =
       body.world_T_body.rotation.conjugate() * (body.acceleration - gravityInMap()).eval();
@@ -74,7 +74,7 @@ ImuStream::Sample ImuStream::next()
       turn_on_.gyro + gyro_wander_ + kRadians * errors.gyro_noise_deg / std::sqrt(step) * normalVector(random);
   reading.accel += turn_on_.accel + accel_wander_ + errors.accel_noise / std::sqrt(step) * normalVector(random);
 
-  // First-order Gauss-Markov: forgets, and is driven so that its deviation stays what it is.
+  // First-order Gauss-Markov process with constant standard deviation.
   const double kept = std::exp(-step / errors.correlation_time), driven = std::sqrt(1 - kept * kept);
   gyro_wander_ =
       kept * gyro_wander_ + driven * kRadians / kSecondsPerHour * errors.gyro_instability * normalVector(random);

@@ -10,7 +10,7 @@
 
 namespace scanloom
 {
-/** What an IMU adds to the truth. */
+/** Rate and errors of an IMU. */
 struct SimulatedImuOptions
 {
   double rate = 200;
@@ -34,32 +34,37 @@ struct SimulatedImuOptions
                                "1.77e-3 (180 ug) (assumed)",
                                atLeast(0)});
     visit(o.gyro_instability,
-          Field{"gyro_instability", "deg/h", "standard deviation of the bias that wanders; 3DM-GQ7-like 1.5 (assumed)",
-                atLeast(0)});
+          Field{"gyro_instability", "deg/h",
+                "standard deviation of the gyroscope's varying bias; 3DM-GQ7-like 1.5 (assumed)", atLeast(0)});
     visit(o.accel_instability,
-          Field{"accel_instability", "m/s2", "likewise of the accelerometer; 15 ug (assumed)", atLeast(0)});
+          Field{"accel_instability", "m/s2",
+                "standard deviation of the accelerometer's varying bias; 1.5e-4 are 15 ug (assumed)", atLeast(0)});
     visit(o.correlation_time,
-          Field{"correlation_time", "s", "of the wandering biases, first-order Gauss-Markov (assumed)", above(0)});
-    visit(o.gyro_turn_on_deg, Field{"gyro_turn_on_deg", "deg/s",
-                                    "standard deviation of the constant bias of each axis (assumed)", atLeast(0)});
-    visit(o.accel_turn_on, Field{"accel_turn_on", "m/s2", "likewise of the accelerometer (assumed)", atLeast(0)});
+          Field{"correlation_time", "s", "correlation time of the varying biases, first-order Gauss-Markov (assumed)",
+                above(0)});
+    visit(o.gyro_turn_on_deg,
+          Field{"gyro_turn_on_deg", "deg/s", "standard deviation of the gyroscope's constant bias, each axis (assumed)",
+                atLeast(0)});
+    visit(o.accel_turn_on,
+          Field{"accel_turn_on", "m/s2", "standard deviation of the accelerometer's constant bias, each axis (assumed)",
+                atLeast(0)});
   }
 };
 
-/** The values for the IMU inside a lidar. */
+/** Values like those of the IMU inside an Ouster lidar. */
 SimulatedImuOptions ousterLikeImu();
 
-/** Constant over a recording; what wanders comes on top. */
+/** The constant part of the biases. */
 struct TurnOnBias
 {
   Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // rad/s
   Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // m/s2
 };
 
-/** What an ideal IMU at body_T_imu measures: turn rate and specific force, in its own frame. */
+/** What an IMU without errors measures at body_T_imu, in its own frame. */
 ImuSample idealImuSample(const Motion&, const Rigid& body_T_imu, Timestamp);
 
-/** Where a recording lies in time. */
+/** Start and duration of a recording. */
 struct RecordingSpan
 {
   Timestamp start;      // t = 0 of the drive
@@ -69,18 +74,18 @@ struct RecordingSpan
   Timestamp end() const { return start + fromSeconds(duration); }
 };
 
-/** Where an IMU sits, when it samples, and what its stamps say. */
+/** Pose, timing and errors of an IMU. */
 struct ImuSetup
 {
   Rigid body_T_imu;
-  Timestamp first;  // sample, in true time
+  Timestamp first;  // true time of the first sample
   SimulatedImuOptions errors;
   ClockError clock;
   RandomStream stream = RandomStream::BodyImu;
-  std::uint64_t place = 0;  // of the lidar whose IMU it is
+  std::uint64_t place = 0;  // number of the lidar that the IMU is in
 };
 
-/** One IMU's samples from its first one on; the only state is its biases. */
+/** The samples of one IMU, in time order. */
 class ImuStream
 {
  public:
@@ -94,7 +99,7 @@ class ImuStream
     ImuSample reading;  // stamped by the IMU's clock
   };
 
-  /** Those measured before `until`, and within the span, that were not given out yet. */
+  /** The samples before `until` and within the span that no earlier call returned. */
   std::vector<Sample> before(Timestamp until);
 
   const TurnOnBias& turnOnBias() const { return turn_on_; }

@@ -1,5 +1,7 @@
 #include "simulation/SimulatedLidar.h"
 
+#include "lidar/AzimuthWindow.h"
+#include "lidar/OusterDecoder.h"
 #include "lidar/OusterProfiles.h"
 
 #include <cmath>
@@ -11,13 +13,7 @@ namespace
 constexpr double kMillimetre = 1e-3;
 constexpr double kRadians = M_PI / 180;
 
-Rigid fromMillimetres(Eigen::Matrix4d matrix)
-{
-  matrix.topRightCorner<3, 1>() *= kMillimetre;
-  return Rigid::fromMatrix(matrix);
-}
-
-/** A ray of a beam that is a cone of `divergence` rad: anywhere in it, all places alike. */
+/** A ray of a beam, uniformly distributed within a cone of `divergence` rad (full angle). */
 Eigen::Vector3d besideAxis(const Eigen::Vector3d& axis, double divergence, Random& random)
 {
   const double off = 0.5 * divergence * std::sqrt(random.uniform()), around = random.uniform(0, 2 * M_PI);
@@ -29,31 +25,26 @@ Eigen::Vector3d besideAxis(const Eigen::Vector3d& axis, double divergence, Rando
 SimulatedLidar::SimulatedLidar(OusterMetadata metadata, const Rigid& body_T_sensor, const LidarTiming& timing,
                                const RangingOptions& ranging, std::uint64_t seed, std::uint64_t place)
   : metadata_(std::move(metadata)),
-    body_T_sensor_(body_T_sensor),
-    body_T_lidar_(body_T_sensor * fromMillimetres(metadata_.lidar_to_sensor_mm)),
+    body_T_lidar_(body_T_sensor * rigidFromMillimetres(metadata_.lidar_to_sensor_mm)),
     timing_(timing),
     seed_(seed),
     place_(place),
     two_returns_(layoutOf(metadata_).profile->returns() == 2),
     beam_radius_(kMillimetre * metadata_.beam_to_lidar_mm(0, 3)),
     beam_height_(kMillimetre * metadata_.beam_to_lidar_mm(2, 3)),
-    // The sensor's range is counted from the axis of rotation, along the path of the light: radius, then beam.
+    // The sensor adds the distance of the beam's origin from the axis of rotation to its ranges.
     receiver_(ranging, metadata_.product_line, std::hypot(beam_radius_, beam_height_))
 {
   for (int beam = 0; beam < metadata_.channels; ++beam)
   {
-    const double azimuth = -kRadians * metadata_.beam_azimuth_deg[beam];  // the file's azimuths are clockwise
+    const double azimuth = -kRadians * metadata_.beam_azimuth_deg[beam];  // azimuths in the metadata are clockwise
     const double altitude = kRadians * metadata_.beam_altitude_deg[beam];
     beam_directions_.emplace_back(std::cos(azimuth) * std::cos(altitude), std::sin(azimuth) * std::cos(altitude),
                                   std::sin(altitude));
   }
 }
 
-bool SimulatedLidar::sends(std::uint16_t measurement_id) const
-{
-  const bool from_first = measurement_id >= metadata_.first_column, to_last = measurement_id <= metadata_.last_column;
-  return metadata_.first_column <= metadata_.last_column ? from_first && to_last : from_first || to_last;
-}
+bool SimulatedLidar::sends(std::uint16_t measurement_id) const { return inAzimuthWindow(metadata_, measurement_id); }
 
 MeasuredColumn SimulatedLidar::measure(const Scenery& scenery, std::uint64_t column) const
 {
@@ -72,7 +63,7 @@ MeasuredColumn SimulatedLidar::measure(const Scenery& scenery, std::uint64_t col
   const Eigen::Vector3d origin = world_T_rotor * Eigen::Vector3d(beam_radius_, 0, beam_height_);
   const Eigen::Matrix3d world_R_rotor = world_T_rotor.rotation.toRotationMatrix();
 
-  // Every ray draws the same number of times, so that one lost return does not change its neighbours.
+  // Every ray takes the same number of random numbers: a lost return does not change its neighbours.
   std::vector<RayQuery> queries;
   std::vector<Luck> lucks;
   const auto add = [&](const Eigen::Vector3d& direction, Random& random)

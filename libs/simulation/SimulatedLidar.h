@@ -1,4 +1,4 @@
-/** One spinning lidar: every column cast from where the machine is at that column's instant. */
+/** A spinning lidar: each column is measured from the pose that the machine has at the column's instant. */
 #pragma once
 #include "simulation/Receiver.h"
 #include "simulation/Scenery.h"
@@ -11,7 +11,7 @@
 
 namespace scanloom
 {
-/** What the first returns of many beams came from. */
+/** Number of first returns by surface. */
 struct ReturnCounts
 {
   std::array<std::uint64_t, kSurfaces> of_surface{};
@@ -40,24 +40,21 @@ struct MeasuredColumn
 class SimulatedLidar
 {
  public:
-  /** `place` sets its random numbers apart from those of all others. Ranges of 0 are taken from the data sheet. */
+  /** `place`: key of its random numbers. Ranging options of 0 m are taken from the data sheet. */
   SimulatedLidar(OusterMetadata, const Rigid& body_T_sensor, const LidarTiming&, const RangingOptions&,
                  std::uint64_t seed, std::uint64_t place);
 
   const OusterMetadata& metadata() const { return metadata_; }
-  const Rigid& bodyTSensor() const { return body_T_sensor_; }
-  const LidarTiming& timing() const { return timing_; }
   ColumnInstant instantOf(std::uint64_t column) const { return columnInstant(timing_, metadata_, column); }
 
-  /** Within the azimuth window that the metadata give. */
+  /** Whether the column lies in the azimuth window. */
   bool sends(std::uint16_t measurement_id) const;
 
-  /** Pure: the same column for the same arguments, in any order and on any thread. Not valid outside the window. */
+  /** Pure: may be called in any order and from any thread. Outside the azimuth window the column is not valid. */
   MeasuredColumn measure(const Scenery&, std::uint64_t column) const;
 
  private:
   OusterMetadata metadata_;
-  Rigid body_T_sensor_;
   Rigid body_T_lidar_;
   LidarTiming timing_;
   std::uint64_t seed_, place_;

@@ -1,4 +1,4 @@
-/** What can be chosen about each simulated lidar: the unit, its clock, and what goes wrong with it. */
+/** Options of each simulated lidar: the unit, its clock, its faults; and of the ranging of all. */
 #pragma once
 #include "core/Field.h"
 
@@ -6,7 +6,7 @@
 
 namespace scanloom
 {
-/** A lidar's clock against the true time by which the world moves. */
+/** Errors of a lidar's rotor and clock. */
 struct LidarClockOptions
 {
   double rate_error_ppm = 0;
@@ -19,17 +19,19 @@ struct LidarClockOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.rate_error_ppm, Field{"rate_error_ppm", "ppm", "its rotor turns so much too slowly", between(-1000, 1000)});
-    visit(o.clock_offset, Field{"clock_offset", "s", "its stamps are so much too late", between(-1e6, 1e6)});
-    visit(o.clock_drift_ppm, Field{"clock_drift_ppm", "ppm", "its stamps run so much too fast", between(-1000, 1000)});
-    visit(o.clock_jump, Field{"clock_jump", "s", "its stamps jump by so much", between(-1e6, 1e6)});
-    visit(o.clock_jump_at, Field{"clock_jump_at", "s", "after the start; 0: they never jump", atLeast(0)});
-    visit(o.first_frame_id,
-          Field{"first_frame_id", "", "65500 wraps within seconds; -1: at random, below 60000", between(-1, 65535)});
+    visit(o.rate_error_ppm,
+          Field{"rate_error_ppm", "ppm", "how much too slowly its rotor turns", between(-1000, 1000)});
+    visit(o.clock_offset, Field{"clock_offset", "s", "offset of its stamps; positive: too late", between(-1e6, 1e6)});
+    visit(o.clock_drift_ppm, Field{"clock_drift_ppm", "ppm", "how much too fast its clock runs", between(-1000, 1000)});
+    visit(o.clock_jump, Field{"clock_jump", "s", "step of its clock at clock_jump_at", between(-1e6, 1e6)});
+    visit(o.clock_jump_at, Field{"clock_jump_at", "s", "time of that step after the start; 0: no step", atLeast(0)});
+    visit(o.first_frame_id, Field{"first_frame_id", "",
+                                  "frame id of the first frame; 65500 wraps within seconds; -1: random, below 60000",
+                                  between(-1, 65535)});
   }
 };
 
-/** Faults of a sensor and of its cable. Times count from the start of the recording. */
+/** Faults of a sensor and its cable. Times count from the start of the recording. */
 struct LidarFaultOptions
 {
   double loss = 0;
@@ -46,24 +48,27 @@ struct LidarFaultOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.loss, Field{"loss", "", "share of its packets that are lost, each by itself", between(0, 1)});
-    visit(o.burst_every, Field{"burst_every", "s", "mean time between bursts of loss; 0: none", atLeast(0)});
-    visit(o.burst_length, Field{"burst_length", "s", "how long all its packets are lost then", atLeast(0)});
+    visit(o.loss, Field{"loss", "", "share of its packets that are lost independently of each other", between(0, 1)});
+    visit(o.burst_every,
+          Field{"burst_every", "s", "mean time between bursts in which all its packets are lost; 0: none", atLeast(0)});
+    visit(o.burst_length, Field{"burst_length", "s", "length of such a burst", atLeast(0)});
     visit(o.reordered,
-          Field{"reordered", "", "share of its packets that come after one or two later ones", between(0, 1)});
-    visit(o.duplicated, Field{"duplicated", "", "share of its packets that come twice", between(0, 1)});
-    visit(o.silent_from, Field{"silent_from", "s", "it sends nothing from here on", atLeast(0)});
-    visit(o.silent_to, Field{"silent_to", "s", "until here; not above silent_from: it is never silent", atLeast(0)});
+          Field{"reordered", "", "share of its packets that arrive after one or two later ones", between(0, 1)});
+    visit(o.duplicated, Field{"duplicated", "", "share of its packets that arrive twice", between(0, 1)});
+    visit(o.silent_from, Field{"silent_from", "s", "start of the time in which it sends nothing", atLeast(0)});
+    visit(o.silent_to,
+          Field{"silent_to", "s", "end of that time; if not greater than silent_from, there is none", atLeast(0)});
     visit(o.restart_at, Field{"restart_at", "s",
-                              "it starts anew: other init id, frame ids and stamps from zero; 0: never", atLeast(0)});
-    visit(o.restart_takes, Field{"restart_takes", "s", "until it sends again (assumed)", atLeast(0)});
+                              "time of a restart: new init id, frame ids and stamps from zero; 0: none", atLeast(0)});
+    visit(o.restart_takes,
+          Field{"restart_takes", "s", "time from the restart until it sends again (assumed)", atLeast(0)});
     visit(o.pose_error, Field{"pose_error", "m deg",
-                              "the extrinsics that are written differ by this from the true pose, in the sensor's "
-                              "own frame: x y z yaw pitch roll"});
+                              "error of the pose that extrinsics.txt gets, in the sensor's frame: x y z yaw "
+                              "pitch roll"});
   }
 };
 
-/** From a lidar to the recording computer's stamp. */
+/** Delays from a lidar's measurement to its receipt by the recording computer. */
 struct NetworkOptions
 {
   double delay = 60e-6;
@@ -74,12 +79,15 @@ struct NetworkOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.delay, Field{"delay", "s", "from a packet's last measurement to its receipt (assumed)", between(0, 0.1)});
-    visit(o.jitter, Field{"jitter", "s", "up to so much more, all delays alike (assumed)", between(0, 0.1)});
+    visit(o.delay, Field{"delay", "s", "smallest delay from a packet's last measurement to its receipt (assumed)",
+                         between(0, 0.1)});
+    visit(o.jitter,
+          Field{"jitter", "s", "up to this is added to the delay, uniformly distributed (assumed)", between(0, 0.1)});
     visit(o.rare_jitter,
-          Field{"rare_jitter", "s", "up to so much more when the computer is busy, but no packet overtakes (assumed)",
+          Field{"rare_jitter", "s", "the same when the computer is busy; packets never overtake each other (assumed)",
                 between(0, 0.1)});
-    visit(o.rare_share, Field{"rare_share", "", "of the packets, for which it is busy (assumed)", between(0, 1)});
+    visit(o.rare_share, Field{"rare_share", "", "share of the packets that arrive when the computer is busy (assumed)",
+                              between(0, 1)});
   }
 };
 
@@ -99,28 +107,54 @@ struct SimulatedLidarOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.name, Field{"name", "", "of its files and in the extrinsics"});
+    visit(o.name, Field{"name", "", "name of the lidar in file names and extrinsics.txt"});
     visit(o.model,
-          Field{"model", "", "OS0, OS1 or OS2 and its beams, 8 to 128, with assumed tables; empty: as lidar1"});
-    visit(o.metadata, Field{"metadata", "", "a sensor's own metadata JSON file, in place of 'model'; empty: none"});
-    visit(o.mode, Field{"mode", "", "columns per turn and turns per second, 1024x10; empty: the file's, or as lidar1"});
+          Field{"model", "",
+                "OS0, OS1 or OS2 with 8 to 128 beams, OS0-32 for example; beam angles are assumed; empty: as lidar1"});
+    visit(o.metadata, Field{"metadata", "", "metadata JSON file of a real sensor, instead of 'model'; empty: none"});
+    visit(o.mode, Field{"mode", "",
+                        "columns per turn and turns per second, 1024x10 for example; empty: the file's, or as lidar1"});
     visit(o.profile,
           Field{"profile", "",
-                "layout of its packets, by Ouster's name; empty: the file's, or as lidar1. RNG15 has steps of "
-                "8 mm, RNG19 and LEGACY of 1 mm"});
+                "Ouster's name of the packet format; empty: the file's, or as lidar1. Ranges have steps of 8 mm in "
+                "RNG15, of 1 mm in RNG19 and LEGACY"});
     visit(o.window, Field{"window", "",
-                          "first and last column that it sends, '0 255'; first > last wraps around 0; "
+                          "azimuth window: first and last column, '0 255'; first > last wraps around 0; "
                           "empty: the whole turn"});
-    visit(o.pose, Field{"pose", "m deg", "sensor frame in the body frame: x y z yaw pitch roll"});
+    visit(o.pose, Field{"pose", "m deg", "pose of the sensor on the body: x y z yaw pitch roll"});
     visit(o.port,
-          Field{"port", "", "UDP port of its packets, its IMU's is the next one; 0: the file's, or 7502, 7504, ...",
+          Field{"port", "", "UDP port of its packets; its IMU uses the next one; 0: the file's, or 7502, 7504, ...",
                 between(0, 65534)});
     LidarClockOptions::fields(o.clock, visit);
     LidarFaultOptions::fields(o.faults, visit);
   }
 };
 
-/** What comes back from a surface; the same for all lidars. */
+/** Reflectivities at 865 nm. */
+struct ReflectivityOptions
+{
+  double ground = 0.15;
+  double stem = 0.3;
+  double branch = 0.3;
+  double crown = 0.4;
+  double undergrowth = 0.4;
+  double machine = 0.6;
+  double object = 0.3;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.ground, Field{"ground", "", "reflectivity at 865 nm: litter and moss (assumed)", between(0, 1)});
+    visit(o.stem, Field{"stem", "", "reflectivity of bark (assumed)", between(0, 1)});
+    visit(o.branch, Field{"branch", "", "reflectivity of branches (assumed)", between(0, 1)});
+    visit(o.crown, Field{"crown", "", "reflectivity of needles and leaves (assumed)", between(0, 1)});
+    visit(o.undergrowth, Field{"undergrowth", "", "reflectivity of shrubs and grass (assumed)", between(0, 1)});
+    visit(o.machine, Field{"machine", "", "reflectivity of the painted machine and its boom (assumed)", between(0, 1)});
+    visit(o.object, Field{"object", "", "reflectivity of persons and vehicles (assumed)", between(0, 1)});
+  }
+};
+
+/** Returns of all lidars: range, noise, signal. */
 struct RangingOptions
 {
   double range_noise = 0.008;
@@ -134,48 +168,39 @@ struct RangingOptions
   double photons = 25;
   double daylight = 1200;
   double sky = 900;
-  double ground = 0.15;
-  double stem = 0.3;
-  double branch = 0.3;
-  double crown = 0.4;
-  double undergrowth = 0.4;
-  double machine = 0.6;
-  double object = 0.3;
+  ReflectivityOptions reflectivity;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.range_noise,
-          Field{"range_noise", "m", "standard deviation of the range of a strong return", between(0, 0.2)});
+          Field{"range_noise", "m", "standard deviation of the range of strong returns", between(0, 0.2)});
     visit(o.range_noise_weak, Field{"range_noise_weak", "m",
-                                    "added in squares where half of the returns are lost; falls with the root of the "
-                                    "signal (assumed)",
+                                    "further standard deviation where half of the returns are lost; it falls with "
+                                    "the root of the signal (assumed)",
                                     between(0, 0.5)});
     visit(o.range_at_ten_percent, Field{"range_at_ten_percent", "m",
-                                        "where half of the returns of 10 % reflectivity are lost: 15 in rain to 35 for "
-                                        "an OS0; 0: the model's data sheet (35, 90, 200)",
+                                        "range at which half of the returns of 10 % reflectivity are lost: for an OS0 "
+                                        "15 in rain, 35 at best; 0: from the data sheet (35, 90, 200)",
                                         between(0, 500)});
     visit(o.least_range,
-          Field{"least_range", "m", "nothing nearer returns; 0: the model's data sheet (0.3, 0.5, 1)", between(0, 10)});
-    visit(o.farthest_range, Field{"farthest_range", "m", "no ray is followed farther", between(1, 500)});
+          Field{"least_range", "m", "smallest range that is measured; 0: from the data sheet (0.3, 0.5, 1)",
+                between(0, 10)});
+    visit(o.farthest_range, Field{"farthest_range", "m", "greatest range that is simulated", between(1, 500)});
     visit(o.beam_divergence_deg, Field{"beam_divergence_deg", "deg",
-                                       "full angle of a beam, within which profiles of two returns look for the second "
+                                       "full angle of a beam, in which profiles with two returns find the second one "
                                        "(assumed: an OS0's data sheet; OS1 and OS2 0.18, 0.09)",
                                        between(0, 2)});
     visit(o.least_separation,
-          Field{"least_separation", "m", "two returns of a beam are this far apart, or one (assumed)", between(0, 10)});
+          Field{"least_separation", "m", "smallest distance of two returns of a beam; nearer ones are one (assumed)",
+                between(0, 10)});
     visit(o.shade,
-          Field{"shade", "", "standard deviation of each reflectivity, share of it (assumed)", between(0, 0.5)});
-    visit(o.photons, Field{"photons", "", "signal where half of the returns are lost (assumed)", above(0)});
-    visit(o.daylight, Field{"daylight", "", "near infrared of a white surface under trees (assumed)", atLeast(0)});
-    visit(o.sky, Field{"sky", "", "near infrared where nothing is met (assumed)", atLeast(0)});
-    visit(o.ground, Field{"ground", "", "reflectivity at 865 nm: litter and moss (assumed)", between(0, 1)});
-    visit(o.stem, Field{"stem", "", "reflectivity of bark (assumed)", between(0, 1)});
-    visit(o.branch, Field{"branch", "", "reflectivity of branches (assumed)", between(0, 1)});
-    visit(o.crown, Field{"crown", "", "reflectivity of needles and leaves (assumed)", between(0, 1)});
-    visit(o.undergrowth, Field{"undergrowth", "", "reflectivity of shrubs and grass (assumed)", between(0, 1)});
-    visit(o.machine, Field{"machine", "", "reflectivity of the painted machine and its boom (assumed)", between(0, 1)});
-    visit(o.object, Field{"object", "", "reflectivity of persons and vehicles (assumed)", between(0, 1)});
+          Field{"shade", "", "standard deviation of a reflectivity, as a share of it (assumed)", between(0, 0.5)});
+    visit(o.photons, Field{"photons", "", "signal in photons where half of the returns are lost (assumed)", above(0)});
+    visit(o.daylight,
+          Field{"daylight", "", "near infrared photons from a white surface under trees (assumed)", atLeast(0)});
+    visit(o.sky, Field{"sky", "", "near infrared photons from the sky (assumed)", atLeast(0)});
+    ReflectivityOptions::fields(o.reflectivity, visit);
   }
 };
 }  // namespace scanloom

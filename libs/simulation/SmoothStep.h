@@ -2,8 +2,8 @@
 
 namespace scanloom
 {
-/** 0 to 1 over one unit with two continuous derivatives (K. Perlin: Improving Noise, SIGGRAPH 2002), and its integral.
- */
+/** A step from 0 to 1 over one unit with its integral and its first two derivatives, all continuous (K. Perlin:
+ * Improving Noise, SIGGRAPH 2002). */
 struct SmoothStep
 {
   double integral, value, first, second;

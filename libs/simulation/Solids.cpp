@@ -8,7 +8,7 @@ namespace scanloom
 {
 namespace
 {
-/** A ray that stays outside of the sphere, or leaves it behind, meets nothing inside. */
+/** Whether a ray cannot meet anything inside the sphere: it passes beside it, or the sphere is behind. */
 bool misses(const Ray& ray, const Eigen::Vector3d& centre, double radius)
 {
   const Eigen::Vector3d to_centre = centre - ray.origin;

@@ -1,4 +1,4 @@
-/** Rigid bodies of simple shape, met by rays in closed form and in double precision. */
+/** Intersections of rays with boxes and cones, in closed form and double precision. */
 #pragma once
 #include "core/Rigid.h"
 #include "simulation/Cone.h"
@@ -10,16 +10,16 @@
 
 namespace scanloom
 {
-/** Where a ray from outside meets a body, and how squarely. */
+/** Where a ray from outside meets a body. */
 struct Contact
 {
   double range = 0;
-  double cosine_incidence = 0;
+  double cosine_incidence = 0;  // 1 when it meets the surface at a right angle
 };
 
 std::optional<Contact> castBox(const Eigen::AlignedBox3d&, const Ray&);
 
-/** A box in any direction. Rays that pass its bounding sphere are dismissed at once. */
+/** A box of any orientation. */
 class OrientedBox
 {
  public:
@@ -37,6 +37,5 @@ class OrientedBox
   Eigen::Vector3d half_;
 };
 
-/** Likewise for a stem, a person, a falling tree. */
 std::optional<Contact> castCone(const Cone&, const Ray&);
 }  // namespace scanloom

@@ -13,10 +13,10 @@ namespace scanloom
 namespace
 {
 constexpr double kSquareMetresPerHectare = 1e4;
-constexpr double kCellSize = 2.0;  // m: no spacing is larger, so that only neighbouring cells matter
+constexpr double kCellSize = 2.0;  // m: at least the largest spacing, so that only neighbouring cells matter
 constexpr int kCellsPerTile = 8;
 
-/** Cells of the tiles around a lane, tile by tile. */
+/** The cells around a lane, tile by tile. */
 std::vector<GridCell> cellsAround(const Lane& lane, double reach)
 {
   std::vector<GridCell> cells;
@@ -26,7 +26,7 @@ std::vector<GridCell> cellsAround(const Lane& lane, double reach)
   return cells;
 }
 
-/** Smooth noise with mean 0 between -1 and 1 that changes over `size`: hashed values at the corners of a grid. */
+/** Smooth noise of mean 0 in [-1, 1]: interpolated between random values at the corners of a grid of `size`. */
 double smoothNoise(const Eigen::Vector2d& place, double size, std::uint64_t seed)
 {
   const GridCell cell = GridCell::of(place, size);
@@ -40,8 +40,8 @@ double smoothNoise(const Eigen::Vector2d& place, double size, std::uint64_t seed
 }
 
 /**
- * Points at random that keep their distance: of candidates without any order, each with a hashed rank, one stays where
- * no candidate of lower rank is too near (B. Matern: Spatial Variation, 1960, type II). Places depend on hashes alone.
+ * Random places with a smallest distance: of candidates with random places and ranks, one stays if no candidate of
+ * lower rank is too near (B. Matern: Spatial Variation, 1960, type II).
  */
 class Places
 {
@@ -58,7 +58,7 @@ class Places
     std::uint64_t key;  // of its random numbers
   };
 
-  /** In no cell two candidates have the same rank. */
+  /** The candidates in a cell that stay. */
   std::vector<Candidate> in(const GridCell& cell) const
   {
     std::vector<Candidate> rivals;
@@ -79,16 +79,16 @@ class Places
  private:
   double density() const { return options_.stems_per_hectare / kSquareMetresPerHectare; }  // 1/m2
 
-  /** Candidates per square metre of which `stay` stay: 1 - exp(-n A) = stay A, with the area A that each keeps free. */
+  /** Candidates n per square metre so that `stay` of them stay: 1 - exp(-n A) = stay A, with A = pi spacing^2. */
   double candidatesFor(double stay) const
   {
     const double area = M_PI * options_.spacing * options_.spacing;
     if (stay * area > 0.95)
-      throw std::invalid_argument(
-          fmt::format("[simulated_stand] spacing = {} m: so far apart, and with clustering = {}, at most {:.0f} stems "
-                      "stand on a hectare, fewer than stems_per_hectare = {}; let them stand nearer to each other",
-                      options_.spacing, options_.clustering,
-                      0.95 / area / (1 + options_.clustering) * kSquareMetresPerHectare, options_.stems_per_hectare));
+      throw std::invalid_argument(fmt::format(
+          "[simulated_stand] spacing = {} m: at this spacing and clustering = {}, a hectare has room for {:.0f} "
+          "stems, fewer than stems_per_hectare = {}; reduce the spacing",
+          options_.spacing, options_.clustering, 0.95 / area / (1 + options_.clustering) * kSquareMetresPerHectare,
+          options_.stems_per_hectare));
     return -std::log1p(-stay * area) / area;
   }
 
@@ -128,7 +128,7 @@ Stand growStand(const StandOptions& options, const TreeOptions& trees, const Gro
   StandOptions of_old_stems = options;
   of_old_stems.stems_per_hectare = options.stumps_per_hectare;
   of_old_stems.clustering = 0;
-  const Places old_places(of_old_stems, seed ^ 0x01d);  // other hashes than the living stems'
+  const Places old_places(of_old_stems, seed ^ 0x01d);  // other random numbers than the living stems
 
   const auto grow = [&](const Places::Candidate& candidate)
   {

@@ -1,4 +1,4 @@
-/** The table of stems: what grows where, from hashed places alone. */
+/** Stems and stumps of a stand. */
 #pragma once
 #include "core/Field.h"
 #include "simulation/Cone.h"
@@ -25,17 +25,22 @@ struct StandOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.stems_per_hectare, Field{"stems_per_hectare", "1/ha", "density of the stand", between(0, 10000)});
-    visit(o.spacing, Field{"spacing", "m", "no two stems nearer to each other (assumed)", between(0.1, 2)});
-    visit(o.clustering,
-          Field{"clustering", "", "how much denser and thinner groups are than the mean (assumed)", between(0, 0.95)});
-    visit(o.cluster_size, Field{"cluster_size", "m", "from one group to the next (assumed)", between(2, 100)});
-    visit(o.free_lane, Field{"free_lane", "m", "stems nearer to the machine's path are stumps (assumed)", atLeast(0)});
-    visit(o.reach, Field{"reach", "m", "how far from the path the stand is grown (assumed: beyond an OS0's range)",
-                         between(1, 500)});
-    visit(o.stumps_per_hectare,
-          Field{"stumps_per_hectare", "1/ha", "of earlier thinnings (assumed)", between(0, 5000)});
-    visit(o.stump_height, Field{"stump_height", "m", "above the ground (assumed)", between(0.02, 1)});
+    visit(o.stems_per_hectare, Field{"stems_per_hectare", "1/ha", "number of stems per hectare", between(0, 10000)});
+    visit(o.spacing, Field{"spacing", "m", "smallest distance of two stems (assumed)", between(0.1, 2)});
+    visit(o.clustering, Field{"clustering", "",
+                              "how much denser and thinner the stand is in places, as a share of the mean (assumed)",
+                              between(0, 0.95)});
+    visit(o.cluster_size,
+          Field{"cluster_size", "m", "distance from one dense place to the next (assumed)", between(2, 100)});
+    visit(o.free_lane,
+          Field{"free_lane", "m", "within this distance of the machine's path stems are felled to stumps (assumed)",
+                atLeast(0)});
+    visit(o.reach,
+          Field{"reach", "m", "the stand is grown within this distance of the path (assumed: beyond an OS0's range)",
+                between(1, 500)});
+    visit(o.stumps_per_hectare, Field{"stumps_per_hectare", "1/ha",
+                                      "number of stumps of earlier thinnings per hectare (assumed)", between(0, 5000)});
+    visit(o.stump_height, Field{"stump_height", "m", "height of stumps above the ground (assumed)", between(0.02, 1)});
   }
 };
 
@@ -46,9 +51,8 @@ struct Stand
 };
 
 /**
- * The stand around a lane. A stem depends on the seed and its place alone: another path through the same place finds
- * the same stem, except for those that it fells. Throws std::invalid_argument if so many stems can't stand so far
- * apart.
+ * The stand around a lane. A stem depends on the seed and its place alone, so that other paths find the same stems
+ * except for those that they fell. Throws std::invalid_argument if there is no room for so many stems at that spacing.
  */
 Stand growStand(const StandOptions&, const TreeOptions&, const Ground&, const Lane&, std::uint64_t seed);
 }  // namespace scanloom

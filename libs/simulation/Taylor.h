@@ -1,4 +1,4 @@
-/** A quantity over time with its first two derivatives: what is written once as a formula is differentiated exactly. */
+/** A quantity with its first two derivatives by time (automatic differentiation). */
 #pragma once
 #include <cmath>
 
@@ -11,7 +11,7 @@ struct Taylor
   double acceleration = 0;  // d2/dt2
 
   Taylor() = default;
-  Taylor(double constant) : value(constant) {}  // NOLINT: implicit, a number is a constant of time
+  Taylor(double constant) : value(constant) {}  // NOLINT: implicit, a number is a constant
   Taylor(double v, double first, double second) : value(v), rate(first), acceleration(second) {}
 };
 

@@ -10,7 +10,7 @@ namespace
 {
 constexpr double kRadians = M_PI / 180;
 constexpr double kArcSecond = kRadians / 3600;
-constexpr double kPrismRadius = 0.1;  // m: what is so near to the prism is its own mount
+constexpr double kPrismRadius = 0.1;  // m: nearer things are the prism's own mount
 }  // namespace
 
 const Rigid& stationTWorld()

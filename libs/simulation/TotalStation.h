@@ -1,4 +1,4 @@
-/** A total station that tracks the machine's prism from where it can see it. */
+/** A total station that tracks the machine's prism. */
 #pragma once
 #include "core/Field.h"
 #include "simulation/Scenery.h"
@@ -24,27 +24,26 @@ struct TotalStationOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.rate, Field{"rate", "Hz", "of its measurements, with some jitter", between(0.01, 100)});
+    visit(o.rate, Field{"rate", "Hz", "measurements per second, with some jitter", between(0.01, 100)});
     visit(o.noise, Field{"noise", "m", "standard deviation of each coordinate", between(0, 1)});
-    visit(o.angle_noise,
-          Field{"angle_noise", "arc seconds", "on top of it, across the line of sight", between(0, 3600)});
-    visit(o.stamp_offset, Field{"stamp_offset", "s", "its stamps are so much too late", between(-1000, 1000)});
-    visit(o.lost, Field{"lost", "", "share of the measurements that are lost by chance", between(0, 1)});
-    visit(o.occlusion, Field{"occlusion", "", "true: what stands or moves in the line of sight hides the prism"});
-    visit(o.x,
-          Field{"x", "m", "where it stands, in the world; the machine starts at 0, 0 and leaves a lane (assumed)"});
-    visit(o.y, Field{"y", "m", "likewise (assumed)"});
-    visit(o.height, Field{"height", "m", "of the instrument above the ground (assumed)", between(0, 20)});
+    visit(o.angle_noise, Field{"angle_noise", "arc seconds", "further standard deviation, across the line of sight",
+                               between(0, 3600)});
+    visit(o.stamp_offset, Field{"stamp_offset", "s", "offset of its stamps; positive: too late", between(-1000, 1000)});
+    visit(o.lost, Field{"lost", "", "share of the measurements that are lost at random", between(0, 1)});
+    visit(o.occlusion, Field{"occlusion", "", "whether what is in the line of sight hides the prism"});
+    visit(o.x, Field{"x", "m", "x of the station in the world frame; the machine starts at (0, 0) (assumed)"});
+    visit(o.y, Field{"y", "m", "y of the station in the world frame (assumed)"});
+    visit(o.height, Field{"height", "m", "height of the instrument above the ground (assumed)", between(0, 20)});
   }
 };
 
 struct PrismMeasurement
 {
-  Timestamp stamp;                                      // by the station's clock
+  Timestamp stamp;                                      // of the station's clock
   Eigen::Vector3d station_p = Eigen::Vector3d::Zero();  // m, in the station's frame
 };
 
-/** Into the coordinates in which the station measures: local ones, far from the world's origin. */
+/** From the world frame into the station's frame, whose origin is far away. */
 const Rigid& stationTWorld();
 
 class TotalStation
@@ -53,10 +52,10 @@ class TotalStation
   TotalStation(const TotalStationOptions&, const Eigen::Vector3d& body_p_prism, const RecordingSpan&,
                std::uint64_t seed);
 
-  /** Of the n-th measurement, in true time, after the start. */
+  /** True time of the n-th measurement, s after the start. */
   double secondsOf(std::uint64_t n) const;
 
-  /** Nothing if the prism was not to be seen, or by chance. */
+  /** Nothing if the prism is hidden or the measurement is lost. */
   std::optional<PrismMeasurement> measure(const Scenery&, std::uint64_t n) const;
 
  private:

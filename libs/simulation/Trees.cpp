@@ -9,7 +9,7 @@ namespace
 {
 constexpr double kRadians = M_PI / 180;
 constexpr double kBreastHeight = 1.3;  // m
-constexpr double kRootDepth = 0.5;     // m: bark begins below the ground on any slope
+constexpr double kRootDepth = 0.5;     // m: stems begin this deep, below the ground on any slope
 constexpr double kTipRadius = 0.004;   // m
 
 constexpr double kShortestTree = 2.0;  // m: of length class 0
@@ -23,17 +23,17 @@ int classOfLength(double length)
       std::lround(std::log(std::max(length, kShortestTree) / kShortestTree) / std::log(kLengthRatio)));
 }
 
-/** Elevation at which living branches leave the stem, deg. */
+/** Elevation of living branches, deg. */
 double branchElevation(const TreeOptions& options, Species species)
 {
   switch (species)
   {
     case Species::Pine:
-      return options.pine_branch_deg;
+      return options.branches.pine_branch_deg;
     case Species::Spruce:
-      return options.spruce_branch_deg;
+      return options.branches.spruce_branch_deg;
     case Species::Birch:
-      return options.birch_branch_deg;
+      return options.branches.birch_branch_deg;
   }
   return 0;
 }
@@ -70,7 +70,7 @@ Stem growTree(const TreeOptions& options, const Eigen::Vector3d& foot, Random& r
   const Eigen::Vector2d lean = kRadians * options.tilt_deg * Eigen::Vector2d(random.normal(), random.normal());
   stem.axis = Eigen::Vector3d(lean.x(), lean.y(), 1).normalized();
 
-  // Log-normal: never negative and skewed as diameters of young stands are, with the mean and deviation asked for.
+  // Log-normal: positive, and skewed as diameters of young stands are.
   constexpr double kFarthest = 3.5;  // deviations
   const double variance = std::log1p(std::pow(options.diameter_spread / options.diameter, 2));
   const double deviation = std::clamp(random.normal(), -kFarthest, kFarthest);
@@ -114,23 +114,23 @@ std::vector<Cone> growBranches(const TreeOptions& options, const TreeLook& look)
   Random random(static_cast<std::uint64_t>(look.species), RandomStream::Branches,
                 static_cast<std::uint64_t>(look.variant));
   const double tree = lengthOfClass(look.length_class);
-  const double thickest = 0.5 * options.branch_diameter * tree / options.height;
+  const double thickest = 0.5 * options.branches.branch_diameter * tree / options.height;
   std::vector<Cone> branches;
-  for (int i = 0; i < options.living_branches; ++i)
+  for (int i = 0; i < options.branches.living_branches; ++i)
   {
-    const double share = (i + random.uniform()) / options.living_branches;
+    const double share = (i + random.uniform()) / options.branches.living_branches;
     const double height = options.crown_base + (1 - options.crown_base) * (0.02 + 0.93 * share);
     const double mean = branchElevation(options, look.species);
     const double length = crownRadius(options, look.species, height) / std::cos(kRadians * mean);
-    const double elevation = mean + options.branch_spread_deg * random.normal();
+    const double elevation = mean + options.branches.branch_spread_deg * random.normal();
     if (length > 0)
       branches.push_back(growBranch(tree * height, tree * length, elevation, thickest * (1 - 0.7 * share), random));
   }
-  for (int i = 0; i < options.dead_branches && options.dead_branch_base < options.crown_base; ++i)
+  for (int i = 0; i < options.branches.dead_branches && options.branches.dead_branch_base < options.crown_base; ++i)
   {
-    const double height = random.uniform(options.dead_branch_base, options.crown_base);
+    const double height = random.uniform(options.branches.dead_branch_base, options.crown_base);
     const double length = options.crown_radius * random.uniform(0.1, 0.8);  // some are broken off
-    const double elevation = options.branch_spread_deg * random.normal();
+    const double elevation = options.branches.branch_spread_deg * random.normal();
     branches.push_back(growBranch(tree * height, tree * length, elevation, 0.6 * thickest, random));
   }
   return branches;

@@ -12,26 +12,20 @@ namespace scanloom
 {
 namespace
 {
-/** Cones are thickened by this much for Embree, so that its floats lose no hit: some units in the last place. */
+/** Embree's cones are thicker by this much, so that its single precision loses no hit. */
 double marginFor(double extent) { return 1e-4 + extent * 0x1p-21; }
 
-/** Returns at once what lies so little behind Embree's thickened surface that nothing else can be in between. */
+/** A hit this little behind the surface of Embree's thicker cone is the nearest: nothing can lie in between. */
 constexpr double kMarginsToBark = 4;
 
 /**
- * m. Embree loses rays at the thin end of long cones: its error in radius grows with length^2 / radius, and exceeds the
- * margin at the top of an 8 m stem.
+ * m. Embree's error in radius grows with length^2 / radius: at the thin end of a cone of 8 m it exceeds the margin, and
+ * rays are lost. So stems are given to it in pieces.
  */
 constexpr double kLongestPiece = 1.5;
 
 /** Geometries of the scene. */
 constexpr unsigned kTrunks = 0, kBranches = 1;
-
-bool countBytes(void* counter, ssize_t bytes, bool)
-{
-  *static_cast<std::atomic<std::int64_t>*>(counter) += bytes;
-  return true;
-}
 
 void requireNoError(RTCDevice device, const char* what)
 {
@@ -39,7 +33,7 @@ void requireNoError(RTCDevice device, const char* what)
     throw std::runtime_error(fmt::format("Embree can't {}: error {}", what, static_cast<int>(error)));
 }
 
-/** Adds what `forEachCone` visits, `count` cones, to a scene. */
+/** Adds the `count` cones that `forEachCone` visits to a scene. */
 template <typename ForEachCone>
 void attachCones(RTCDevice device, RTCScene scene, unsigned id, std::size_t count, const Eigen::Vector3d& origin,
                  double margin, ForEachCone&& forEachCone)
@@ -95,11 +89,10 @@ void Wood::Release::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene)
 Wood::Wood(std::vector<Stem> stems, const std::vector<Cone>& stumps, const TreeOptions& trees,
            const std::string& instruction_set)
   : stems_(std::move(stems)),
-    // One thread: who casts many rays shares them out himself.
+    // One thread builds; callers cast rays from as many as they like.
     device_(rtcNewDevice(fmt::format("threads=1,isa={}", instruction_set).c_str()))
 {
   if (!device_) throw std::runtime_error(fmt::format("Embree doesn't start with isa={}", instruction_set));
-  rtcSetDeviceMemoryMonitorFunction(device_.get(), &countBytes, embree_bytes_.get());
 
   for (const Stem& stem : stems_) trunks_.push_back(stem.wood());
   trunks_.insert(trunks_.end(), stumps.begin(), stumps.end());
@@ -141,13 +134,6 @@ void Wood::growLooks(const TreeOptions& trees)
   }
 }
 
-std::vector<Cone> Wood::branchesOf(std::uint32_t stem) const
-{
-  std::vector<Cone> branches;
-  for (const Cone& branch : looks_[look_of_[stem]]) branches.push_back(placeBranch(branch, stems_[stem]));
-  return branches;
-}
-
 std::optional<Hit> Wood::cast(const Ray& ray, double max_range) const
 {
   const Ray from_origin{ray.origin - origin_, ray.direction};
@@ -158,7 +144,7 @@ std::optional<Hit> Wood::cast(const Ray& ray, double max_range) const
     const std::optional<Hit> hit = hitOf(*candidate, ray);
     if (hit && hit->range < (nearest ? nearest->range : max_range)) nearest = hit;
     if (hit && hit->range - candidate->range < kMarginsToBark * margin_) break;
-    from = candidate->range * (1 + 0x1p-21) + 1e-5;  // behind it: the ray passed through the margin alone
+    from = candidate->range * (1 + 0x1p-21) + 1e-5;  // go on behind it: the ray passed through the margin only
   }
   return nearest;
 }

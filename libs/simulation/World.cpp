@@ -37,14 +37,14 @@ std::vector<std::optional<Hit>> World::cast(const std::vector<RayQuery>& queries
   {
     const auto& [ray, max_range, draw] = queries[i];
     nearest[i] = castGround(ray, max_range);
-    // An exponential depth has no memory: one for the whole ray is as good as a new one for every voxel.
+    // The exponential distribution has no memory: one draw per ray equals one per voxel.
     of_leaves.emplace_back(draw, RandomStream::Leaves, 0);
     through_foliage.push_back({ray, reach(i), of_leaves.back().exponential()});
   }
   const std::vector<std::optional<Leaf>> leaves = foliage_.intersect(through_foliage);
   for (std::size_t i = 0; i < queries.size(); ++i)
   {
-    // Leaves that face all directions alike are met in proportion to the area that they show: cosines of density 2c.
+    // Leaves in all directions alike are met in proportion to the area that they show: the cosine c has density 2c.
     if (leaves[i]) nearest[i] = Hit{leaves[i]->range, std::sqrt(of_leaves[i].uniform()), leaves[i]->surface, 0};
     if (const auto wood = wood_.cast(queries[i].ray, reach(i))) nearest[i] = wood;
   }

@@ -1,4 +1,4 @@
-/** What stands still around the machine: ground, wood and foliage. */
+/** The static world: ground, wood and foliage. */
 #pragma once
 #include "simulation/Foliage.h"
 #include "simulation/ForestOptions.h"
@@ -16,8 +16,8 @@ class World
 {
  public:
   /**
-   * A forest grown on the ground around `path` (m, in the world, points at most 0.25 m apart). Throws
-   * std::invalid_argument naming the option that cannot be.
+   * Grows a forest around `path` (in the world, m; points at most 0.25 m apart). Throws std::invalid_argument that
+   * names a wrong option.
    */
   World(const Ground&, const ForestOptions&, const std::vector<Eigen::Vector2d>& path, std::uint64_t seed);
 
@@ -27,8 +27,8 @@ class World
   const Foliage& foliage() const { return foliage_; }
 
   /**
-   * What each ray, in the world, meets; many rays at once take two thirds of the time that they take one by one. Pure,
-   * so that any thread may ask at any time: the same query, the same answer, whatever else is asked with it.
+   * What each ray, given in the world frame, meets. Pure; may be called from any thread. Many rays in one call take two
+   * thirds of the time of single calls, with the same results.
    */
   std::vector<std::optional<Hit>> cast(const std::vector<RayQuery>&) const;
   std::optional<Hit> cast(const RayQuery& query) const { return cast(std::vector<RayQuery>{query}).front(); }

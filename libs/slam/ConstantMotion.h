@@ -1,4 +1,4 @@
-/** In place of an IMU, for comparison: what it would measure if the machine went on as it did. */
+/** Instead of an IMU, for comparison: the samples that it would measure at constant velocity and turn rate. */
 #pragma once
 #include "core/ImuSample.h"
 #include "slam/StateEstimate.h"
@@ -8,13 +8,13 @@
 
 namespace scanloom
 {
-/** Constant velocity and turn rate: the velocity is the smoother's own, because these samples never accelerate. */
+/** The velocity is the smoother's, because the samples hold no acceleration. */
 class ConstantMotion
 {
  public:
   explicit ConstantMotion(const Rigid& body_T_imu) : body_T_imu_(body_T_imu) {}
 
-  /** The latest estimate; until there is one, nothing is known. */
+  /** The latest estimate. */
   void update(const StateEstimate&);
 
   /** At 100 Hz, after those given before, up to `end`; none before the first estimate. */

@@ -7,22 +7,22 @@
 namespace scanloom
 {
 /**
- * Whether lidar and IMU contradict each other for good. A scan that is far from its prediction says little; where half
- * of those of ten seconds are, the map or its place in it is wrong, though every scan finds its match.
+ * Tells whether lidar and IMU contradict each other for longer than a moment. A single scan that is far from its
+ * prediction means little. If half of the scans of ten seconds are, the map or the body's place in it is wrong, even
+ * though every scan is registered without an error.
  */
 class Contradiction
 {
  public:
-  /** Of every registration: the deviations between it and its prediction (StateEstimate::surprise). */
+  /** For every registration: its distance from the prediction in standard deviations (StateEstimate::surprise). */
   void add(Timestamp, double surprise);
 
-  /** The median of the last ten seconds; 0 until they are over, or if they hold fewer than five registrations. */
-  double median() const { return median_; }
+  /** The median of the last ten seconds; 0 until they have passed, and if they hold fewer than five registrations. */
+  double median() const;
 
-  void clear() { *this = {}; }
+  void clear() { last_.clear(); }
 
  private:
   std::deque<std::pair<Timestamp, double>> last_;
-  double median_ = 0;
 };
 }  // namespace scanloom

@@ -17,19 +17,20 @@ constexpr double kDegree = M_PI / 180;
 constexpr Duration kKept = 60s;
 constexpr double kSigmas = 4;  // beyond doubt
 
-/** True turn rates over the gyroscope's. What the drive accelerates passes for some factor; a unit is off by 57. */
+/** `scale`: true turn rates over the gyroscope's. Accelerations of the drive falsify it by some factor; a unit by 57.
+ */
 std::optional<std::string> ofUnits(double scale)
 {
   constexpr double kFactor = 4;
   const auto isAbout = [scale](double other) { return scale > other / kFactor && scale < other * kFactor; };
-  const std::string told = fmt::format("the body turns {:.2g} times as its gyroscope tells: ", scale);
+  const std::string told = fmt::format("the body turns {:.2g} times as fast as its gyroscope measures: ", scale);
   if (isAbout(kDegree)) return told + "the values are in deg/s, multiply them by 0.0174533";
   if (isAbout(1 / kDegree)) return told + "the values were converted from deg/s twice, multiply them by 57.2958";
-  if (scale < 0) return told + "it turns the left-handed way, change its signs";
+  if (scale < 0) return told + "its axes are left-handed, change its signs";
   return std::nullopt;
 }
 
-/** By the IMU alone: gravity must turn as the gyroscope tells. */
+/** By the IMU alone: gravity must turn as the gyroscope measures. */
 std::optional<std::string> ofUnits(const std::vector<ImuSample>& samples)
 {
   constexpr double kUnsure = 0.2;
@@ -97,7 +98,7 @@ std::optional<std::string> ImuWatch::complaint(const std::optional<GyroAgreement
   if (const auto units = ofUnits(1 / told->scale)) return units;
   const std::optional<std::string> axes = ofAxes(*told);
   if (!axes) return ofClocks(*told);
-  const std::optional<std::string> units = ofUnits(kept());  // left-handed axes look turned by 180 deg
+  const std::optional<std::string> units = ofUnits(kept());  // left-handed axes look like a rotation by 180 deg
   return units ? units : axes;
 }
 

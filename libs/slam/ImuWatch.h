@@ -1,4 +1,4 @@
-/** Whether the IMU tells the motion that the lidars see: wrong axes, units and clocks have names. */
+/** Checks that the IMU measures the motion that the lidars see, for wrong axes, units and clocks. */
 #pragma once
 #include "imu/GyroAgreement.h"
 #include "slam/StateEstimate.h"
@@ -15,16 +15,16 @@ class ImuWatch
  public:
   explicit ImuWatch(const Rigid& body_T_imu) : body_T_imu_(body_T_imu) {}
 
-  /** In time order, else it is left out, as what is not finite; the last minute is kept. */
+  /** In time order; other samples, and those that are not finite, are ignored. Keeps the last minute. */
   void add(const ImuSample&);
 
-  /** Every one: its registration against that of the last one tells a turn that the IMU had no part in. */
+  /** Every estimate: two registrations in a row give a turn without the IMU. */
   void add(const StateEstimate&);
 
-  /** None while they share too little motion to tell. */
+  /** None if there is too little motion. */
   std::optional<GyroAgreement> agreement() const;
 
-  /** For a person: what is wrong first of all, and how to mend it; only what is beyond doubt. */
+  /** The most important error and how to correct it, for a person; only beyond four standard deviations. */
   std::optional<std::string> complaint() const { return complaint(agreement()); }
   std::optional<std::string> complaint(const std::optional<GyroAgreement>&) const;
 
@@ -34,12 +34,12 @@ class ImuWatch
   Rigid body_T_imu_;
   std::deque<ImuSample> samples_;
   std::deque<BodyTurn> turns_;
-  std::optional<StampedPose> last_;  // as it was registered
+  std::optional<StampedPose> last_;  // the last registration, in the local map
 };
 
 /**
- * A first look, before anything is built on it: throws std::runtime_error that names the unit or the wrong axis if the
- * mean specific force of the samples cannot be that of a machine that stands on its wheels.
+ * Check before the start: throws std::runtime_error with the unit or the wrong axis if the mean specific force of the
+ * samples cannot be that of a machine on its wheels.
  */
 void requireGravity(const std::vector<ImuSample>&, const Rigid& body_T_imu);
 }  // namespace scanloom

@@ -34,7 +34,7 @@ void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_b
   if (options_.radius == 0 && !keyframes_.front().in_map) keyframes_.pop_front();
 }
 
-/** `age`: keyframes that came after it. */
+/** `age`: number of newer keyframes. */
 bool LocalMap::belongs(const Keyframe& keyframe, std::size_t age) const
 {
   if (options_.radius == 0) return age < static_cast<std::size_t>(options_.keyframes);

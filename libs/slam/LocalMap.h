@@ -1,4 +1,4 @@
-/** The last keyframes (paper, section 2.2), or those nearby, as one NDT map in the map frame. */
+/** The last keyframes (paper, section 2.2), or those nearby, as one NDT map. */
 #pragma once
 #include "core/Field.h"
 #include "core/Rigid.h"
@@ -19,13 +19,15 @@ struct LocalMapOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.keyframe_distance, Field{"keyframe_distance", "m", "travel before a new keyframe", above(0)});
+    visit(o.keyframe_distance,
+          Field{"keyframe_distance", "m", "distance from the last keyframe at which a new one is added", above(0)});
     visit(o.keyframe_turn_deg,
-          Field{"keyframe_turn_deg", "deg", "turn before a new keyframe; 180: never", between(1, 180)});
-    visit(o.keyframes, Field{"keyframes", "", "how many are kept", atLeast(1)});
+          Field{"keyframe_turn_deg", "deg", "turn since the last keyframe at which a new one is added; 180: never",
+                between(1, 180)});
+    visit(o.keyframes, Field{"keyframes", "", "number of keyframes in the map", atLeast(1)});
     visit(o.radius, Field{"radius", "m",
-                          "all keyframes so near to the newest are the map, also those of earlier passes, in place of "
-                          "the last ones; 0: the last ones",
+                          "the map holds all keyframes within this distance of the newest, also those of earlier "
+                          "passes, instead of the last ones; 0: the last ones",
                           atLeast(0)});
   }
 };
@@ -35,13 +37,12 @@ class LocalMap
  public:
   LocalMap(const LocalMapOptions&, const NdtOptions&);
 
-  /** Whether a body there is far enough from the newest keyframe; true while there is none. */
+  /** The body is far enough from the newest keyframe for another one; always if there is none. */
   bool wants(const Rigid& map_T_body) const;
 
-  /** Forgets all keyframes. */
   void clear();
 
-  /** Adds a keyframe, its views in the body frame, and forgets the oldest past the limit. */
+  /** Adds a keyframe and removes those that no longer belong to the map. */
   void add(const std::vector<View>& seen_from_body, const Rigid& map_T_body);
 
   bool empty() const { return keyframes_.empty(); }

@@ -1,8 +1,7 @@
 #include "slam/ScanRegistration.h"
 
+#include "core/Matrix6.h"
 #include "ndt/LidarInformation.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
@@ -12,20 +11,20 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::array kFactors{8, 4, 2, 1};  // of the map's cells, coarse ones first
+constexpr std::array kFactors{8, 4, 2, 1};  // cell sizes of the levels over that of the map, coarse first
 
-constexpr double kStep = 3;  // m: a start finds what is within 2 m of it
+constexpr double kStep = 3;  // m between starts: alignment finds a pose within 2 m of its start
 
-// Times the scan's cells: from further away the score of those draws nowhere, or to the wrong stem.
+// Share of the scan's cell size: from farther away its score leads nowhere, or to the wrong stem.
 constexpr double kReachOfCells = 0.3;
 
-/** Of both, so that a search from many places makes them once. */
+/** Map and scan in cells of several sizes, made once for searches from many places. */
 class Pyramid
 {
  public:
   Pyramid(const NdtMap& map, const std::vector<View>& views, NdtOptions cells)
   {
-    cells.min_points = std::max(cells.min_points, GaussianCell::kTellsItsSpread);  // far off, the others draw anywhere
+    cells.min_points = std::max(cells.min_points, GaussianCell::kMinPointsForCovariance);  // far off, others mislead
     std::vector<double> sizes;
     for (const int factor : kFactors)
     {
@@ -47,16 +46,16 @@ class Pyramid
 bool isFarFrom(const Rigid& pose, const Rigid& other)
 {
   constexpr double kMetres = 1, kRadians = 0.1;
-  const Vector6d way = boxMinus(pose, other);
-  return way.head<3>().norm() > kMetres || way.tail<3>().norm() > kRadians;
+  const Vector6d apart = boxMinus(pose, other);
+  return apart.head<3>().norm() > kMetres || apart.tail<3>().norm() > kRadians;
 }
 
-/** Not only trustworthy, which is enough where the pose is known roughly. */
+/** Stricter than trustworthy(), which suffices only where the pose is known roughly. */
 bool isPlace(const RegistrationResult& result)
 {
-  constexpr double kGoodOverlap = 0.5, kSurely = 0.3;  // m
+  constexpr double kGoodOverlap = 0.5, kMostDeviation = 0.3;  // m
   return result.outcome == Outcome::Converged && result.overlap >= kGoodOverlap &&
-         result.covariance.topLeftCorner<3, 3>().trace() < kSurely * kSurely;
+         result.covariance.topLeftCorner<3, 3>().trace() < kMostDeviation * kMostDeviation;
 }
 
 std::vector<Rigid> startsWithin(const SearchArea& area)
@@ -72,24 +71,23 @@ std::vector<Rigid> startsWithin(const SearchArea& area)
 }
 }  // namespace
 
-RegistrationResult registerScan(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
-                                const SlamSettings& settings, StageTimes& times)
+RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
+                                   const ScanRegistrationOptions& options, StageTimes& times)
 {
   const bool unsure =
-      guess.covariance && 3 * largestDeviation(*guess.covariance) > kReachOfCells * settings.scan_cells.cell_size;
-  const RegistrationResult rough = [&]
-  {
-    if (unsure)
-      return times.measure("rough_alignment",
-                           [&] { return Pyramid(map, views, settings.fine_cells).align(guess, settings.rough); });
-    const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, settings.scan_cells); });
-    return times.measure("rough_alignment", [&] { return align(map, scan, guess.target_T_source, settings.rough); });
-  }();
-  if (!settings.slam.refine) return rough;
+      guess.covariance && 3 * largestDeviation(*guess.covariance) > kReachOfCells * options.scan_cells.cell_size;
+  if (unsure)
+    return times.measure("rough_alignment",
+                         [&] { return Pyramid(map, views, options.fine_cells).align(guess, options.rough); });
+  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.scan_cells); });
+  return times.measure("rough_alignment", [&] { return align(map, scan, guess.target_T_source, options.rough); });
+}
 
-  const Rigid& start = rough.trustworthy() ? rough.target_T_source : guess.target_T_source;
-  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, settings.fine_cells); });
-  return times.measure("fine_alignment", [&] { return align(map, scan, start, settings.fine); });
+RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& views, const Rigid& start,
+                                  const ScanRegistrationOptions& options, StageTimes& times)
+{
+  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.fine_cells); });
+  return times.measure("fine_alignment", [&] { return align(map, scan, start, options.fine); });
 }
 
 Matrix6d covarianceWithin(const SearchArea& area, const RegistrationResult& found)
@@ -99,18 +97,18 @@ Matrix6d covarianceWithin(const SearchArea& area, const RegistrationResult& foun
   Vector6d most;
   most << Eigen::Vector3d::Constant(area.radius + kStep), kTilt, kTilt, area.headings > 1 ? M_PI : kHeading;
   const Matrix6d expected = most.cwiseAbs2().cwiseInverse().asDiagonal();
-  return (found.information + expected).llt().solve(Matrix6d::Identity());
+  return inverseOfPositive(found.information + expected);
 }
 
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views, const SearchArea& area,
-                                             const SlamSettings& settings)
+                                             const NdtOptions& cells, const RegistrationOptions& options)
 {
-  constexpr double kRivals = 0.8;  // of the best score, at another place: no telling which
-  const Pyramid pyramid(map, views, settings.fine_cells);
+  constexpr double kRivals = 0.8;  // share of the best score with which another place may be the true one
+  const Pyramid pyramid(map, views, cells);
   std::vector<RegistrationResult> found;
   for (const Rigid& start : startsWithin(area))
   {
-    RegistrationResult result = pyramid.align(start, settings.fine);
+    RegistrationResult result = pyramid.align(start, options);
     if (isPlace(result)) found.push_back(std::move(result));
   }
   if (found.empty()) return std::nullopt;

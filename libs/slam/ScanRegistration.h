@@ -1,36 +1,44 @@
 /** A scan's pose in the local map. */
 #pragma once
 #include "core/StageTimes.h"
-#include "slam/SlamSettings.h"
+#include "ndt/Registration.h"
+#include "ndt/View.h"
 
 #include <optional>
+#include <vector>
 
 namespace scanloom
 {
-/**
- * Roughly from the guess, then finely from there (paper, section 2.2); through coarser cells first where the guess may
- * be off by more than those of [scan_cells] reach. What the result says is the lidar's alone: a guess that is surer
- * than that chooses where to begin and nothing else.
- */
-RegistrationResult registerScan(const NdtMap& map, const std::vector<View>& seen_from_body, const PoseGuess& map_T_body,
-                                const SlamSettings&, StageTimes&);
+/** Cells of the scan and options of the search, for the rough alignment and for the fine one after it. */
+struct ScanRegistrationOptions
+{
+  NdtOptions scan_cells, fine_cells;
+  RegistrationOptions rough, fine;
+};
 
-/** Where a lost body may be: that far to each side (m), turned by any of so many headings, the pose's own among them.
- */
+/** First alignment (paper, section 2.2); through coarser cells where the guess may be too far off for scan_cells. */
+RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& seen_from_body,
+                                   const PoseGuess& map_T_body, const ScanRegistrationOptions&, StageTimes&);
+
+/** Second alignment, from the pose of the first. The result is the lidar's alone: no guess is part of it. */
+RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& seen_from_body, const Rigid& map_T_body,
+                                  const ScanRegistrationOptions&, StageTimes&);
+
+/** Where a lost body is searched. */
 struct SearchArea
 {
   Rigid map_T_body;
-  double radius = 3;
-  int headings = 8;  // what is within 25 deg of one is found: 8 are all around
+  double radius = 3;  // m, to each side
+  int headings = 8;   // evenly around, the pose's own first; one within 25 deg of the truth finds it: 8 cover all
 };
 
 /**
- * Of a pose found there: the lidar's, but what the lidar leaves open is known as well as the search knew it before. At
- * most the area to each side, any heading or 25 deg, and a tilt that is off by 15 deg.
+ * Covariance of a pose that was found in the area: the lidar's, limited by the area in directions that the lidar leaves
+ * open (the radius, 25 deg of heading or any if all were tried, 15 deg of tilt).
  */
 Matrix6d covarianceWithin(const SearchArea&, const RegistrationResult&);
 
-/** Nothing if no pose in it is trustworthy, or if another one far from the best is nearly as good. */
+/** None if no pose in the area is trustworthy, or if another one far from the best is nearly as good. */
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& seen_from_body,
-                                             const SearchArea&, const SlamSettings&);
+                                             const SearchArea&, const NdtOptions& cells, const RegistrationOptions&);
 }  // namespace scanloom

@@ -1,17 +1,46 @@
-/** Everything that can be set about localisation, section by section. */
+/** Everything that can be set about localisation: a section of the INI file per member, read directly into it. */
 #pragma once
 #include "config/Schema.h"
 #include "graph/FixedLagSmoother.h"
 #include "imu/ImuInitialisation.h"
 #include "imu/Preintegration.h"
-#include "ndt/Registration.h"
 #include "preprocessing/Crop.h"
+#include "slam/Assessment.h"
 #include "slam/LocalMap.h"
+#include "slam/ScanRegistration.h"
 
 #include <string>
 
 namespace scanloom
 {
+struct TrackingOptions
+{
+  bool refine = true;
+  bool stem_axes = true;
+  bool relative = true;
+  double correlation = 2.0;
+  double gate = 40.0;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.refine, Field{"refine", "", "align every scan a second time, with [fine_cells]"});
+    visit(o.stem_axes,
+          Field{"stem_axes", "", "register stems and poles by their axes, not by the side that the lidars see"});
+    visit(o.relative, Field{"relative", "",
+                            "true: a registration is a pose relative to the first keyframe, whose attitude may still "
+                            "be corrected by gravity; false: a pose in the map, as in the paper"});
+    visit(o.correlation, Field{"correlation", "m",
+                               "distance over which registration errors are correlated: registrations within it count "
+                               "as one measurement",
+                               atLeast(0)});
+    visit(o.gate,
+          Field{"gate", "sigma",
+                "a registration farther than this from the IMU's prediction is not trusted; 0: no limit", atLeast(0)});
+  }
+};
+
+/** [slam]: which scans and which IMU are used, and how. */
 struct SlamOptions
 {
   int every_nth = 1;
@@ -19,52 +48,27 @@ struct SlamOptions
   bool constant_motion = false;
   double imu_delay_ms = 0;
   double imu_wait_ms = 50;
-  double lost_after = 2.0;
-  bool refine = true;
-  bool stem_axes = true;
-  bool relative = true;
-  double correlation = 2.0;
-  double gate = 40.0;
-  double contradiction = 9.0;
-  double restart_after = 10.0;
+  TrackingOptions tracking;
+  TrustOptions trust;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.every_nth, Field{"every_nth", "", "only every N-th scan is used; the IMU always is", atLeast(1)});
-    visit(
-        o.imu,
-        Field{
-            "imu", "",
-            "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first lidar's, and "
-            "another one where that falls silent"});
-    visit(
-        o.constant_motion,
-        Field{"constant_motion", "",
-              "for comparison: the IMU serves the start alone, then velocity and turn rate are taken to stay what they "
-              "were, as surely as [imu_noise] says"});
+    visit(o.every_nth, Field{"every_nth", "", "use every N-th scan only; IMU samples are all used", atLeast(1)});
+    visit(o.imu, Field{"imu", "",
+                       "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first "
+                       "lidar's, and another one when the one in use falls silent"});
+    visit(o.constant_motion,
+          Field{"constant_motion", "",
+                "for comparison: use the IMU only for initialisation, then assume constant velocity and turn rate with "
+                "the noise of [imu_noise]"});
     visit(o.imu_delay_ms, Field{"imu_delay_ms", "ms",
-                                "by how much the IMU's stamps are later than the lidars', which slam tells at its end",
+                                "how much later the IMU's stamps are than the lidars' for the same instant; slam "
+                                "reports an estimate at its end",
                                 between(-500, 500)});
-    visit(o.imu_wait_ms, Field{"imu_wait_ms", "ms", "how long a scan waits for the IMU to cover its end", atLeast(0)});
-    visit(o.refine, Field{"refine", "", "align every scan again with [fine_cells] after the rough alignment"});
-    visit(o.stem_axes,
-          Field{"stem_axes", "", "stems and poles are registered by their axes, not by the side that the lidars see"});
-    visit(o.relative, Field{"relative", "",
-                            "a registration measures from the first keyframe, whose attitude gravity may still turn; "
-                            "false: from the map, as the paper does"});
-    visit(o.correlation, Field{"correlation", "m",
-                               "registrations err together over so much travel: so many count as one", atLeast(0)});
-    visit(o.gate, Field{"gate", "sigma", "a registration farther from what the IMU predicts is not trusted; 0: all are",
-                        atLeast(0)});
-    visit(o.contradiction,
-          Field{"contradiction", "sigma",
-                "registrations and IMU so far apart in the median over ten seconds: the state is LOST; 0: never",
-                atLeast(0)});
-    visit(o.restart_after,
-          Field{"restart_after", "s", "LOST for so long, a new local map begins where the IMU says", atLeast(0)});
-    visit(o.lost_after,
-          Field{"lost_after", "s", "without a trustworthy registration for so long the state is LOST", above(0)});
+    visit(o.imu_wait_ms, Field{"imu_wait_ms", "ms", "how long a scan waits for IMU samples up to its end", atLeast(0)});
+    TrackingOptions::fields(o.tracking, visit);
+    TrustOptions::fields(o.trust, visit);
   }
 };
 
@@ -75,12 +79,9 @@ struct SlamSettings
   ImuNoise imu;
   ImuNoise lidar_imu = insideLidar();
   CropOptions crop;
-  NdtOptions scan_cells = cells(2.5);
-  NdtOptions fine_cells = thinned(farCells(1.0));
+  ScanRegistrationOptions registration{cells(2.5), thinned(farCells(1.0)), reach(0.3), reach(1.0)};
   NdtOptions map_cells = farCells(1.0);
   NdtOptions keyframe_cells = thinned(farCells(0.5));
-  RegistrationOptions rough = reach(0.3);
-  RegistrationOptions fine = reach(1.0);
   LocalMapOptions local_map;
   SmootherOptions smoother;
 
@@ -89,21 +90,22 @@ struct SlamSettings
   {
     visit(s.slam, Section{"slam", "lidar-inertial localisation"});
     visit(s.start, Section{"start", "the first attitude and gyro bias, from standstill"});
-    visit(s.imu, Section{"imu_noise", "how far the body's IMU is trusted"});
-    visit(s.lidar_imu, Section{"lidar_imu_noise", "the same of an IMU inside a lidar, where it is the one in use"});
+    visit(s.imu, Section{"imu_noise", "noise of the body's IMU"});
+    visit(s.lidar_imu, Section{"lidar_imu_noise", "noise of an IMU inside a lidar, if that is the one in use"});
     visit(s.crop, Section{"crop", "the machine's own points, and the ranges that are used"});
-    visit(s.scan_cells, Section{"scan_cells", "NDT cells of a scan for the rough alignment"});
-    visit(s.fine_cells, Section{"fine_cells", "NDT cells of a scan for the fine alignment"});
+    visit(s.registration.scan_cells, Section{"scan_cells", "NDT cells of a scan for the rough alignment"});
+    visit(s.registration.fine_cells, Section{"fine_cells", "NDT cells of a scan for the fine alignment"});
     visit(s.map_cells, Section{"map_cells", "NDT cells of the local map"});
     visit(s.keyframe_cells, Section{"keyframe_cells", "NDT cells of a scan that becomes a keyframe"});
-    visit(s.rough, Section{"rough_registration", "a scan to the local map, from the IMU's prediction"});
-    visit(s.fine, Section{"fine_registration", "the same again from there, with finer cells and a narrower score"});
+    visit(s.registration.rough, Section{"rough_registration", "a scan to the local map, from the IMU's prediction"});
+    visit(s.registration.fine,
+          Section{"fine_registration", "the same again from there, with finer cells and a narrower score"});
     visit(s.local_map, Section{"local_map", "the keyframes that a scan is aligned to"});
     visit(s.smoother, Section{"smoother", "the window of states"});
   }
 
  private:
-  /** A consumer's chip, as Ouster's are (assumed). */
+  /** Of a consumer's chip, as Ouster's are assumed to be. */
   static ImuNoise insideLidar()
   {
     ImuNoise noise;
@@ -120,7 +122,7 @@ struct SlamSettings
     options.cell_size = size;
     return options;
   }
-  /** What is far away holds the angles, and few beams meet it. */
+  /** Far cells hold few points, but they determine the angles. */
   static NdtOptions farCells(double size)
   {
     NdtOptions options = cells(size);

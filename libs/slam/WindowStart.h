@@ -1,4 +1,4 @@
-/** The state that a new window begins with, where the one before cannot go on. */
+/** The state with which a new window begins where the previous window ends. */
 #pragma once
 #include "core/ImuSample.h"
 #include "imu/NavState.h"
@@ -8,26 +8,32 @@
 
 namespace scanloom
 {
-/** Another IMU, elsewhere in the body. */
-struct ImuChange
+/** An IMU, where it is and how noisy. */
+struct PlacedImu
 {
   Rigid body_T_imu;
   ImuNoise noise;
+};
+
+/** Another IMU takes over. */
+struct ImuChange
+{
+  PlacedImu imu;
   std::vector<ImuSample> samples;   // its own so far, back to the newest state or farther
-  std::vector<ImuSample> previous;  // what the one before read at the same time, as far as it did
+  std::vector<ImuSample> previous;  // what the IMU before read at the same time, as far as it did
 };
 
 /**
- * The newest state of the IMU before, as the other one has it: with the biases that the first tells of it, where both
- * were heard for long enough (biasBeside), and unsure of what happened while the first was silent and its last reading
- * was held.
+ * The newest state of the IMU before, as the state of the new one. Its biases follow from those of the IMU before where
+ * both have samples of the same time (biasOfReplacement). The covariance covers the motion while the IMU before was
+ * silent and its last sample was held.
  */
 NavEstimate continuedBy(const ImuChange&, const NavEstimate& newest, const Rigid& body_T_imu_before);
 
 /**
- * A body that was found again, as surely as `body_covariance` says and the map is level by `accel_bias_sigma` (m/s2);
- * how fast it goes is not known. Biases are `bias`, as surely as those of `newest`.
+ * The state of a body that was found again with this covariance, in a map that is level within accel_bias_sigma /
+ * gravity. The velocity is unknown. The biases are `bias` with the covariance that they have in `newest`.
  */
 NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, const NavEstimate& newest,
-                    const ImuBias& bias, const Rigid& body_T_imu, double accel_bias_sigma);
+                    const ImuBias& bias, const PlacedImu&);
 }  // namespace scanloom

@@ -1,6 +1,6 @@
 #include "study/ContentHash.h"
 
-#include "lidar/Digest.h"
+#include "core/Digest.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-/** What tells whether anything has changed. */
+/** The content of a file, and a hash that shows whether it has changed. */
 #pragma once
 #include <filesystem>
 #include <string>

@@ -1,4 +1,4 @@
-/** What a sweep varies. */
+/** The options of a sweep: drives, and what is varied. */
 #pragma once
 #include "config/Schema.h"
 
@@ -7,7 +7,7 @@
 
 namespace scanloom
 {
-/** Any parameter of any verb; with a single value it is set in every run. */
+/** One parameter of any verb that is varied; a single value is set in every run. */
 struct AxisOptions
 {
   std::string name;
@@ -16,8 +16,8 @@ struct AxisOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.name, Field{"name", "", "a parameter, section.key; empty: no axis"});
-    visit(o.values, Field{"values", "", "its values, with | between them"});
+    visit(o.name, Field{"name", "", "parameter that is varied, as section.key; empty: none"});
+    visit(o.values, Field{"values", "", "values of the parameter, separated by |"});
   }
 };
 
@@ -36,18 +36,21 @@ struct ExperimentOptions
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.simulations, Field{"simulations", "",
-                               "INI files of stands, with blanks between them; paths as seen from "
-                               "this file. Each drive is simulated once, for all of its runs"});
-    visit(o.recordings, Field{"recordings", "", "folders as 'simulate' writes them, likewise"});
+                               "INI files of simulated drives, separated by blanks; relative paths start at the folder "
+                               "of this file. A drive is simulated once for all of its runs"});
+    visit(o.recordings, Field{"recordings", "", "folders as 'simulate' writes them, separated by blanks"});
     visit(o.configurations, Field{"configurations", "",
-                                  "INI files of 'slam' for all runs, likewise; they find each drive's folder by "
-                                  "$env{SCANLOOM_RECORDING}"});
-    visit(o.lidars, Field{"lidars", "", "sets of lidars, names of one set with commas, sets with blanks between them"});
-    visit(o.every_nth, Field{"every_nth", "", "of the scans, with blanks between them"});
-    visit(o.seeds, Field{"seeds", "", "of the simulations: a list with blanks, or first:last"});
-    visit(o.keep_maps, Field{"keep_maps", "", "true: maps and keyframes of every run, some 50 MB each"});
+                                  "INI files that 'slam' reads in all runs, separated by blanks; one of them finds the "
+                                  "folder of the drive by $env{SCANLOOM_RECORDING}"});
+    visit(o.lidars, Field{"lidars", "",
+                          "sets of lidars that are compared, separated by blanks; the names in a set are separated by "
+                          "commas"});
+    visit(o.every_nth, Field{"every_nth", "", "values of N, separated by blanks: slam uses every N-th scan"});
+    visit(o.seeds, Field{"seeds", "", "seeds of the simulated drives: a list separated by blanks, or first:last"});
+    visit(o.keep_maps, Field{"keep_maps", "", "true: keep maps and keyframes of every run, about 50 MB each"});
     visit(o.keep_packets, Field{"keep_packets", "",
-                                "true: packets of simulated drives stay, 1.5 MB for a second of two OS0-32 at 512x10"});
+                                "true: keep the packets of simulated drives, 1.5 MB per second for two OS0-32 at "
+                                "512x10"});
   }
 };
 
@@ -59,8 +62,8 @@ struct ExperimentSettings
   template <typename Self, typename Visitor>
   static void sections(Self& s, Visitor&& visit)
   {
-    visit(s.experiment, Section{"experiment", "a sweep: what is combined with what"});
-    visit(s.axes, Section{"experiment", "a sweep: what is combined with what", "axis"});
+    visit(s.experiment, Section{"experiment", "a sweep: every combination of what is listed here is run"});
+    visit(s.axes, Section{"experiment", "a sweep: every combination of what is listed here is run", "axis"});
   }
 };
 }  // namespace scanloom

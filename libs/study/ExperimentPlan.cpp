@@ -40,13 +40,11 @@ std::optional<Number> positive(const std::string& text)
   return value;
 }
 
-/** Says what is wrong with a key of the section; a default is never wrong. */
-using Complain = std::function<ConfigError(const std::string& key, const std::string& constraint)>;
-
-std::vector<std::uint64_t> seedsOf(const std::string& text, const Complain& complain)
+std::vector<std::uint64_t> seedsOf(const std::string& text, const Configuration& configuration)
 {
   constexpr std::uint64_t kMost = 100000;
-  const auto refuse = [&] { return complain("seeds", "must be whole numbers from 1 on, or first:last"); };
+  const auto refuse = [&]
+  { return configuration.complaint(kSection, "seeds", "must be whole numbers from 1 on, or first:last"); };
   std::vector<std::uint64_t> seeds;
   for (const std::string& word : wordsOf(text))
   {
@@ -60,22 +58,22 @@ std::vector<std::uint64_t> seedsOf(const std::string& text, const Complain& comp
   return seeds;
 }
 
-std::vector<int> countsOf(const std::string& text, const Complain& complain)
+std::vector<int> countsOf(const std::string& text, const Configuration& configuration)
 {
   std::vector<int> counts;
   for (const std::string& word : wordsOf(text))
   {
     const auto count = positive<int>(word);
-    if (!count) throw complain("every_nth", "must be whole numbers from 1 on");
+    if (!count) throw configuration.complaint(kSection, "every_nth", "must be whole numbers from 1 on");
     counts.push_back(*count);
   }
-  if (counts.empty()) throw complain("every_nth", "names no N");
+  if (counts.empty()) throw configuration.complaint(kSection, "every_nth", "must have at least one number");
   return counts;
 }
 
-/** A file's paths are seen from its folder, those of --set from where the program runs. */
+/** Relative paths start at the folder of the file that names them; those of --set at the current folder. */
 std::vector<std::filesystem::path> pathsOf(const std::string& key, const std::string& text,
-                                           const Configuration& configuration, const Complain& complain)
+                                           const Configuration& configuration)
 {
   std::vector<std::filesystem::path> paths;
   for (const std::string& word : wordsOf(text))
@@ -84,12 +82,12 @@ std::vector<std::filesystem::path> pathsOf(const std::string& key, const std::st
     const auto folder = place.line > 0 ? std::filesystem::path(place.file).parent_path() : std::filesystem::path();
     paths.push_back((folder / word).lexically_normal());
     if (!std::filesystem::exists(paths.back()))
-      throw complain(key, fmt::format("'{}' is not there", paths.back().string()));
+      throw configuration.complaint(kSection, key, fmt::format("'{}' does not exist", paths.back().string()));
   }
   return paths;
 }
 
-/** "recordings/sparse/" and "stands/sparse.ini" are both sparse. */
+/** `sparse` for "recordings/sparse/" and for "stands/sparse.ini". */
 std::string standOf(const std::filesystem::path& path)
 {
   return path.has_stem() ? path.stem().string() : path.parent_path().filename().string();
@@ -111,7 +109,7 @@ PlannedRun onRecording(const std::filesystem::path& folder)
   return run;
 }
 
-/** What they were, once more for each value. */
+/** Each run once per value, with that value assigned. */
 std::vector<PlannedRun> times(const std::vector<PlannedRun>& runs, std::size_t values,
                               const std::function<void(PlannedRun&, std::size_t)>& assign)
 {
@@ -125,13 +123,6 @@ std::vector<PlannedRun> times(const std::vector<PlannedRun>& runs, std::size_t v
   return product;
 }
 
-bool isSame(std::string_view a, std::string_view b)
-{
-  const CaseInsensitiveLess less;
-  return !less(a, b) && !less(b, a);
-}
-
-/** What the files and --set say beside [experiment] holds for every run, unless an axis says otherwise. */
 std::vector<std::pair<std::string, std::string>> heldFixed(const Configuration& configuration,
                                                            const std::vector<AxisOptions>& axes)
 {
@@ -141,13 +132,13 @@ std::vector<std::pair<std::string, std::string>> heldFixed(const Configuration& 
     {
       const std::string name = section + '.' + key;
       const bool varied =
-          std::any_of(axes.begin(), axes.end(), [&](const auto& axis) { return isSame(axis.name, name); });
+          std::any_of(axes.begin(), axes.end(), [&](const auto& axis) { return sameName(axis.name, name); });
       if (!varied) settings.emplace_back(name, configuration.text(section, key));
     }
   return settings;
 }
 
-/** Recordings are what they are: only simulations have a seed. */
+/** Each simulated run once per seed; a recording has no seed. */
 std::vector<PlannedRun> timesSeeds(const std::vector<PlannedRun>& runs, const std::vector<std::uint64_t>& seeds)
 {
   std::vector<PlannedRun> product;
@@ -160,7 +151,7 @@ std::vector<PlannedRun> timesSeeds(const std::vector<PlannedRun>& runs, const st
   return product;
 }
 
-/** Else every run would read the same packets, or wait for lidars. */
+/** Without this variable every run would read the same packets, or wait for live lidars. */
 bool readsTheDrive(const std::vector<std::filesystem::path>& configurations)
 {
   return std::any_of(configurations.begin(), configurations.end(),
@@ -182,7 +173,7 @@ std::string namesAndSizes(const std::filesystem::path& folder)
 std::vector<std::string> sectionsForRuns(const Configuration& configuration)
 {
   std::vector<std::string> sections = configuration.sections();
-  sections.erase(std::remove_if(sections.begin(), sections.end(), [](const auto& s) { return isSame(s, kSection); }),
+  sections.erase(std::remove_if(sections.begin(), sections.end(), [](const auto& s) { return sameName(s, kSection); }),
                  sections.end());
   return sections;
 }
@@ -198,13 +189,9 @@ std::string PlannedRun::label() const
 ExperimentPlan planOf(const ExperimentSettings& settings, const Configuration& configuration)
 {
   const ExperimentOptions& options = settings.experiment;
-  const Complain complain = [&](const std::string& key, const std::string& constraint)
-  {
-    if (configuration.has(kSection, key)) return configuration.complaint(kSection, key, constraint);
-    return ConfigError(fmt::format("[{}] {} {}", kSection, key, constraint));
-  };
-  const auto paths = [&](const std::string& key, const std::string& text)
-  { return pathsOf(key, text, configuration, complain); };
+  const auto complain = [&](const std::string& key, const std::string& constraint)
+  { return configuration.complaint(kSection, key, constraint); };
+  const auto paths = [&](const std::string& key, const std::string& text) { return pathsOf(key, text, configuration); };
 
   ExperimentPlan plan;
   plan.configurations = paths("configurations", options.configurations);
@@ -215,26 +202,52 @@ ExperimentPlan planOf(const ExperimentSettings& settings, const Configuration& c
   auto& runs = plan.runs;
   for (const auto& file : plan.simulations) runs.push_back(onSimulation(file));
   for (const auto& folder : plan.recordings) runs.push_back(onRecording(folder));
-  if (runs.empty()) throw complain("simulations", "or recordings must name what runs");
+  if (runs.empty()) throw complain("simulations", "simulations or recordings must name what runs");
 
   for (PlannedRun& run : runs) run.settings = heldFixed(configuration, settings.axes);
 
   const std::vector<std::string> lidars = wordsOf(options.lidars);
-  if (lidars.empty()) throw complain("lidars", "names no set of lidars");
+  if (lidars.empty()) throw complain("lidars", "must have at least one set of lidars");
   runs = times(runs, lidars.size(), [&](PlannedRun& run, std::size_t i) { run.lidars = lidars[i]; });
-  const std::vector<int> counts = countsOf(options.every_nth, complain);
+  const std::vector<int> counts = countsOf(options.every_nth, configuration);
   runs = times(runs, counts.size(), [&](PlannedRun& run, std::size_t i) { run.every_nth = counts[i]; });
   for (std::size_t a = 0; a < settings.axes.size(); ++a)
   {
     const AxisOptions& axis = settings.axes[a];
     if (axis.name.empty()) continue;
     const std::vector<std::string> values = valuesOf(axis.values);
-    if (values.empty()) throw complain(numbered("axis", a) + "name", "has no values: name them by axisN_values");
+    if (values.empty())
+      throw complain(numbered("axis", a) + "name",
+                     fmt::format("{}values must name at least one value", numbered("axis", a)));
     runs = times(runs, values.size(),
                  [&](PlannedRun& run, std::size_t i) { run.settings.emplace_back(axis.name, values[i]); });
   }
-  runs = timesSeeds(runs, seedsOf(options.seeds, complain));
+  runs = timesSeeds(runs, seedsOf(options.seeds, configuration));
   return plan;
+}
+
+void refuseUnknownSettings(const ExperimentPlan& plan, const Schema& known)
+{
+  for (const PlannedRun& run : plan.runs)
+  {
+    Configuration configuration;
+    for (const auto& [name, value] : run.settings) configuration.set(name + '=' + value);
+    configuration.refuseUnknown(known);
+  }
+}
+
+ExperimentOptions withAbsolutePaths(ExperimentOptions options, const ExperimentPlan& plan)
+{
+  const auto absolute = [](const std::vector<std::filesystem::path>& paths)
+  {
+    std::vector<std::string> words;
+    for (const auto& path : paths) words.push_back(std::filesystem::absolute(path).string());
+    return fmt::format("{}", fmt::join(words, " "));
+  };
+  options.simulations = absolute(plan.simulations);
+  options.recordings = absolute(plan.recordings);
+  options.configurations = absolute(plan.configurations);
+  return options;
 }
 
 std::string configurationHash(const PlannedRun& run, const ExperimentPlan& plan, const std::string& version)

@@ -45,9 +45,7 @@ std::string PlannedDrive::label() const { return seed > 0 ? fmt::format("{} seed
 bool changesTheDrive(const std::string& setting)
 {
   constexpr std::string_view kSimulation = "simulated_";
-  const std::string_view section = std::string_view(setting).substr(0, kSimulation.size());
-  const CaseInsensitiveLess less;
-  return !less(section, kSimulation) && !less(kSimulation, section);
+  return sameName(std::string_view(setting).substr(0, kSimulation.size()), kSimulation);
 }
 
 std::vector<PlannedDrive> drivesOf(const std::vector<PlannedRun>& runs, const std::string& version)

@@ -1,4 +1,4 @@
-/** The drives of a sweep: what its runs read. */
+/** The drives of a sweep. Runs that read the same packets share one. */
 #pragma once
 #include "study/ExperimentPlan.h"
 
@@ -13,22 +13,22 @@ namespace scanloom
 struct PlannedDrive
 {
   std::string stand;
-  std::filesystem::path simulation;                           // empty: a recording
-  std::filesystem::path recording;                            // empty: a simulation
-  std::vector<std::pair<std::string, std::string>> settings;  // of the simulation
+  std::filesystem::path simulation;                           // empty: it is a recording
+  std::filesystem::path recording;                            // empty: it is simulated
+  std::vector<std::pair<std::string, std::string>> settings;  // those of the simulation
   std::uint64_t seed = 0;
-  std::string hash;               // 32 hexadecimal digits of the program's version and of all of the above
+  std::string hash;               // 32 hexadecimal digits from the version of the program and all of the above
   std::vector<std::size_t> runs;  // their places in the plan, ascending
 
   bool simulated() const { return recording.empty(); }
 
-  /** `sparse seed 3`; drives that differ in settings alone share it. */
+  /** `sparse seed 3`; the same for drives that differ in settings only. */
   std::string label() const;
 };
 
-/** A parameter of the simulation; all others are of slam. */
+/** It is a parameter of the simulation ([simulated_...]); all others are of slam. */
 bool changesTheDrive(const std::string& setting);
 
-/** By their first runs. Runs on a recording share nothing that has to be made: each has a drive of its own. */
+/** In the order of their first runs. Each run on a recording has a drive of its own: there is nothing to simulate. */
 std::vector<PlannedDrive> drivesOf(const std::vector<PlannedRun>&, const std::string& version);
 }  // namespace scanloom

@@ -4,8 +4,6 @@
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
 
-#include <set>
-
 namespace scanloom
 {
 namespace
@@ -15,60 +13,78 @@ constexpr double kLostPercent = 5;
 
 using Json = nlohmann::json;
 
-Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
-std::optional<double> optionalAt(const Json& json, const char* key)
+/** Calls visit(name in JSON and CSV, member, decimals in CSV) in the order of the columns. */
+template <typename Figures, typename Visitor>
+void forEachFigure(Figures&& f, Visitor&& visit)
 {
-  const Json& value = json.at(key);
-  if (value.is_null()) return std::nullopt;
-  return value.get<double>();
+  visit("drift_m", f.drift, 4);
+  visit("drift_percent", f.drift_percent, 3);
+  visit("drift_imu_m", f.imu_rate_drift, 4);
+  visit("drift_floor_m", f.floor, 4);
+  visit("final_m", f.final, 4);
+  visit("ape_rmse_m", f.ape, 4);
+  visit("rpe_rmse_m", f.rpe, 4);
+  visit("rpe_rmse_deg", f.rpe_deg, 4);
+  visit("path_m", f.path, 2);
+  visit("samples", f.samples, 0);
+}
+
+template <typename Costs, typename Visitor>
+void forEachCost(Costs&& c, Visitor&& visit)
+{
+  visit("real_time_factor", c.real_time_factor, 2);
+  visit("peak_memory_mb", c.peak_memory_mb, 0);
+  visit("elapsed_s", c.elapsed, 1);
+}
+
+template <typename Value>
+Json jsonOf(const Value& value)
+{
+  return value;
+}
+Json jsonOf(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+template <typename Value>
+void read(const Json& json, Value& value)
+{
+  value = json;
+}
+void read(const Json& json, std::optional<double>& value)
+{
+  if (!json.is_null()) value = json.get<double>();
 }
 
 Json toJson(const RunFigures& f)
 {
-  Json over_distance = Json::array();
+  Json json;
+  forEachFigure(f, [&](const char* name, const auto& value, int) { json[name] = jsonOf(value); });
+  Json& over_distance = json["drift_over_distance"] = Json::array();
   for (const auto& [distance, error] : f.over_distance) over_distance.push_back({distance, error});
-  return {{"drift_m", f.drift},
-          {"path_m", f.path},
-          {"final_m", f.final},
-          {"samples", f.samples},
-          {"drift_percent", orNull(f.drift_percent)},
-          {"drift_imu_m", orNull(f.imu_rate_drift)},
-          {"drift_floor_m", orNull(f.floor)},
-          {"ape_rmse_m", f.ape},
-          {"rpe_rmse_m", orNull(f.rpe)},
-          {"rpe_rmse_deg", orNull(f.rpe_deg)},
-          {"drift_over_distance", over_distance}};
+  return json;
 }
 
 RunFigures figuresFrom(const Json& json)
 {
   RunFigures f;
-  f.drift = json.at("drift_m");
-  f.path = json.at("path_m");
-  f.final = json.at("final_m");
-  f.samples = json.at("samples");
-  f.drift_percent = optionalAt(json, "drift_percent");
-  f.imu_rate_drift = optionalAt(json, "drift_imu_m");
-  f.floor = optionalAt(json, "drift_floor_m");
-  f.ape = json.at("ape_rmse_m");
-  f.rpe = optionalAt(json, "rpe_rmse_m");
-  f.rpe_deg = optionalAt(json, "rpe_rmse_deg");
+  forEachFigure(f, [&](const char* name, auto& value, int) { read(json.at(name), value); });
   for (const Json& row : json.at("drift_over_distance")) f.over_distance.push_back({row.at(0), row.at(1)});
   return f;
 }
 
 Json toJson(const RunCosts& c)
 {
-  return {{"stage_ms", c.stage_ms},
-          {"real_time_factor", c.real_time_factor},
-          {"peak_memory_mb", c.peak_memory_mb},
-          {"elapsed_s", c.elapsed}};
+  Json json;
+  json["stage_ms"] = c.stage_ms;
+  forEachCost(c, [&](const char* name, double value, int) { json[name] = value; });
+  return json;
 }
 
 RunCosts costsFrom(const Json& json)
 {
-  return {json.at("stage_ms"), json.at("real_time_factor"), json.at("peak_memory_mb"), json.at("elapsed_s")};
+  RunCosts c;
+  c.stage_ms = json.at("stage_ms").get<decltype(c.stage_ms)>();
+  forEachCost(c, [&](const char* name, double& value, int) { value = json.at(name); });
+  return c;
 }
 
 /** RFC 4180. */
@@ -80,55 +96,22 @@ std::string cell(const std::string& text)
   return quoted + '"';
 }
 
-std::string cell(const std::optional<double>& value, int decimals)
-{
-  return value ? fmt::format("{:.{}f}", *value, decimals) : "";
-}
-
-std::set<std::string> stagesOf(const std::vector<RunRecord>& records)
-{
-  std::set<std::string> stages;
-  for (const RunRecord& record : records)
-    if (record.costs)
-      for (const auto& [stage, ms] : record.costs->stage_ms) stages.insert(stage);
-  return stages;
-}
+std::string cell(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
+std::string cell(const std::optional<double>& value, int decimals) { return value ? cell(*value, decimals) : ""; }
+std::string cell(std::size_t count, int) { return std::to_string(count); }
 
 std::vector<std::string> headerOf(const std::vector<RunRecord>& records, const std::set<std::string>& stages)
 {
   std::vector<std::string> names{"version", "configuration", "stand", "lidars", "every_nth"};
   if (!records.empty())
     for (const auto& [name, value] : records.front().run.settings) names.push_back(name);
-  for (const char* name :
-       {"seed", "outcome", "lost", "drift_m", "drift_percent", "drift_imu_m", "drift_floor_m", "final_m", "ape_rmse_m",
-        "rpe_rmse_m", "rpe_rmse_deg", "path_m", "samples", "real_time_factor", "peak_memory_mb", "elapsed_s"})
-    names.emplace_back(name);
+  const auto add = [&](const char* name, const auto&, int) { names.emplace_back(name); };
+  for (const char* name : {"seed", "outcome", "lost"}) names.emplace_back(name);
+  forEachFigure(RunFigures{}, add);
+  forEachCost(RunCosts{}, add);
   for (const std::string& stage : stages) names.push_back("ms_" + stage);
   names.emplace_back("error");
   return names;
-}
-
-std::vector<std::string> figureCells(const std::optional<RunFigures>& figures)
-{
-  if (!figures) return std::vector<std::string>(10);
-  const RunFigures& f = *figures;
-  return {cell(f.drift, 4),         cell(f.drift_percent, 3), cell(f.imu_rate_drift, 4),
-          cell(f.floor, 4),         cell(f.final, 4),         cell(f.ape, 4),
-          cell(f.rpe, 4),           cell(f.rpe_deg, 4),       cell(f.path, 2),
-          std::to_string(f.samples)};
-}
-
-std::vector<std::string> costCells(const std::optional<RunCosts>& costs, const std::set<std::string>& stages)
-{
-  if (!costs) return std::vector<std::string>(3 + stages.size());
-  std::vector<std::string> cells{cell(costs->real_time_factor, 2), cell(costs->peak_memory_mb, 0),
-                                 cell(costs->elapsed, 1)};
-  for (const std::string& stage : stages)
-  {
-    const auto found = costs->stage_ms.find(stage);
-    cells.push_back(found == costs->stage_ms.end() ? "" : cell(found->second, 3));
-  }
-  return cells;
 }
 
 std::vector<std::string> rowOf(const RunRecord& record, const std::set<std::string>& stages)
@@ -140,8 +123,16 @@ std::vector<std::string> rowOf(const RunRecord& record, const std::set<std::stri
   row.push_back(run.seed > 0 ? std::to_string(run.seed) : "");
   row.push_back(record.outcome);
   row.push_back(record.lost() ? "1" : "0");
-  for (std::string& text : figureCells(record.figures)) row.push_back(std::move(text));
-  for (std::string& text : costCells(record.costs, stages)) row.push_back(std::move(text));
+  const RunCosts costs = record.costs.value_or(RunCosts{});
+  forEachFigure(record.figures.value_or(RunFigures{}), [&](const char*, const auto& value, int decimals)
+                { row.push_back(record.figures ? cell(value, decimals) : ""); });
+  forEachCost(costs, [&](const char*, double value, int decimals)
+              { row.push_back(record.costs ? cell(value, decimals) : ""); });
+  for (const std::string& stage : stages)
+  {
+    const auto found = costs.stage_ms.find(stage);
+    row.push_back(found == costs.stage_ms.end() ? "" : cell(found->second, 3));
+  }
   row.push_back(cell(record.error));
   return row;
 }
@@ -194,9 +185,30 @@ void from_json(const Json& json, RunRecord& record)
   if (!json.at("costs").is_null()) record.costs = costsFrom(json.at("costs"));
 }
 
+void addStages(const RunRecord& record, std::set<std::string>& stages)
+{
+  if (!record.costs) return;
+  for (const auto& [stage, ms] : record.costs->stage_ms) stages.insert(stage);
+}
+
+std::vector<RunRecord> plannedRecords(const ExperimentPlan& plan, const std::string& version)
+{
+  std::vector<RunRecord> records;
+  for (const PlannedRun& run : plan.runs)
+  {
+    RunRecord record;
+    record.run = run;
+    record.version = version;
+    record.configuration_hash = configurationHash(run, plan, version);
+    records.push_back(std::move(record));
+  }
+  return records;
+}
+
 void writeCsv(std::ostream& file, const std::vector<RunRecord>& records)
 {
-  const std::set<std::string> stages = stagesOf(records);
+  std::set<std::string> stages;
+  for (const RunRecord& record : records) addStages(record, stages);
   fmt::print(file, "{}\n", fmt::join(headerOf(records, stages), ","));
   for (const RunRecord& record : records) fmt::print(file, "{}\n", fmt::join(rowOf(record, stages), ","));
 }

@@ -1,4 +1,4 @@
-/** What is kept of one run of a sweep: a row of results.csv. */
+/** The result of one run of a sweep: a row of results.csv. */
 #pragma once
 #include "evaluation/Drift.h"
 #include "study/ExperimentPlan.h"
@@ -8,54 +8,60 @@
 #include <iosfwd>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace scanloom
 {
-/** Nothing where a run did not get so far. */
 struct RunFigures
 {
   double drift = 0, path = 0, final = 0;        // m, against the total station
-  std::size_t samples = 0;                      // of the station, that were compared
+  std::size_t samples = 0;                      // number of positions of the station that were compared
   std::optional<double> drift_percent;          // of the path
   std::optional<double> imu_rate_drift, floor;  // m
   double ape = 0;                               // m, root mean square against the true poses
-  std::optional<double> rpe, rpe_deg;           // likewise, over 1 m; nothing on a shorter path
-  std::vector<ErrorAtDistance> over_distance;   // at the IMU's rate
+  std::optional<double> rpe, rpe_deg;           // the same over 1 m; none on a shorter path
+  std::vector<ErrorAtDistance> over_distance;   // of the trajectory at the IMU's rate
 };
 
 struct RunCosts
 {
-  std::map<std::string, double> stage_ms;  // means
+  std::map<std::string, double> stage_ms;  // mean per stage
   double real_time_factor = 0;
   double peak_memory_mb = 0;
-  double elapsed = 0;  // s, of slam
+  double elapsed = 0;  // s, wall-clock time of slam
 };
 
 struct RunRecord
 {
   PlannedRun run;
   std::string version, configuration_hash;
-  std::string outcome;  // of summary.json, or FAILED
-  std::string error;    // why it failed
-  std::optional<RunFigures> figures;
-  std::optional<RunCosts> costs;
+  std::string outcome;                // of summary.json, or FAILED
+  std::string error;                  // why it failed; empty: it did not
+  std::optional<RunFigures> figures;  // none: it failed
+  std::optional<RunCosts> costs;      // none: it failed
 
-  /** The run did not end in an error. */
+  /** It did not fail; it may be lost. */
   bool finished() const { return error.empty(); }
 
   /**
-   * More than 10 m or 5 % of the path away, or by its own account at the end. At the IMU's rate where that is known:
-   * the chords between every 15th scan may be longer, and nobody is lost on them.
+   * slam ended LOST, or the drift is more than 10 m or 5 % of the path. The drift is that of the trajectory at the
+   * IMU's rate if there is one: with every 15th scan the interpolation between scans alone may be wrong by more.
    */
   bool lost() const;
 };
 
+/** Adds the names of the record's stages. */
+void addStages(const RunRecord&, std::set<std::string>& stages);
+
+/** Records with the run, the version and the hash only. */
+std::vector<RunRecord> plannedRecords(const ExperimentPlan&, const std::string& version);
+
 void to_json(nlohmann::json&, const RunRecord&);
 void from_json(const nlohmann::json&, RunRecord&);
 
-/** One line per record, in their order, with a header. Stages are the columns of any run; empty is what a run has not.
+/** A header and one line per record. There is a column for every stage of any run; a value that a run lacks is empty.
  */
 void writeCsv(std::ostream&, const std::vector<RunRecord>&);
 }  // namespace scanloom

@@ -1,7 +1,7 @@
 #include "study/Study.h"
 
-#include "config/AtomicFile.h"
 #include "config/Names.h"
+#include "core/AtomicFile.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ namespace
 {
 constexpr double kLost = std::numeric_limits<double>::infinity();
 
-/** Names of settings that are not the same in all runs. */
+/** Names of the settings that differ between runs. */
 std::set<std::string> varied(const std::vector<RunRecord>& records)
 {
   std::set<std::string> names;
@@ -37,7 +37,7 @@ std::string groupOf(const PlannedRun& run, const std::set<std::string>& names)
   return group;
 }
 
-/** With the lost ones at the end. */
+/** With kLost for each lost run. */
 std::optional<double> medianWithLost(const CellSummary& summary)
 {
   std::vector<double> values = summary.values;
@@ -65,6 +65,15 @@ Study readStudy(const std::filesystem::path& folder)
         fmt::format("{} has no results.json: is it the folder of an experiment?", folder.string()));
   const auto json = nlohmann::json::parse(file);
   return {json.at("command"), json.at("machine"), json.at("runs").get<std::vector<RunRecord>>()};
+}
+
+void pointLatestTo(const std::filesystem::path& folder)
+{
+  const auto target = std::filesystem::absolute(folder / "").parent_path();
+  const auto link = target.parent_path() / "latest";
+  std::error_code error;
+  if (std::filesystem::is_symlink(link)) std::filesystem::remove(link, error);
+  if (!std::filesystem::exists(link)) std::filesystem::create_directory_symlink(target.filename(), link, error);
 }
 
 std::string thisMachine()
@@ -113,8 +122,8 @@ CellSummary summaryOf(const StudyCell& cell, const Quantity& quantity)
   {
     const auto value = quantity.of(*record);
     if (!value)
-      ++summary.untold;
-    else if (quantity.lost == LostRuns::Apart && record->lost())
+      ++summary.failed;
+    else if (quantity.lost == LostRuns::CountedApart && record->lost())
       ++summary.lost;
     else
       summary.values.push_back(*value);

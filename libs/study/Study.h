@@ -1,4 +1,4 @@
-/** The results of a sweep as they lie in its folder, and as cells of a diagram. */
+/** The results of a sweep: the files in its folder, and the cells of its diagrams. */
 #pragma once
 #include "study/RunRecord.h"
 
@@ -12,7 +12,7 @@ namespace scanloom
 {
 struct Study
 {
-  std::string command;  // that repeats it
+  std::string command;  // repeats the sweep
   std::string machine;  // processor and number of cores
   std::vector<RunRecord> records;
 };
@@ -20,43 +20,46 @@ struct Study
 /** results.json and results.csv. Throws std::runtime_error if they cannot be written. */
 void writeStudy(const std::filesystem::path& folder, const Study&);
 
-/** Throws std::runtime_error if there is none in the folder. */
+/** Reads results.json. Throws std::runtime_error if the folder has none. */
 Study readStudy(const std::filesystem::path& folder);
+
+/** Sets the link `latest` in the parent folder, so that scripts find the newest results. */
+void pointLatestTo(const std::filesystem::path& folder);
 
 /** `AMD EPYC 7B13, 2 cores` */
 std::string thisMachine();
 
-/** All seeds of one combination. */
+/** The runs of one combination, with all of its seeds. */
 struct StudyCell
 {
   std::string stand, lidars;
-  std::string group;  // `N = 5`, and the settings that vary
+  std::string group;  // `N = 5`, and those settings that differ between runs
   std::vector<const RunRecord*> records;
 };
 
-/** In the order in which they first occur. The records must outlive the cells. */
+/** In the order of their first records. The records must outlive the cells. */
 std::vector<StudyCell> cellsOf(const std::vector<RunRecord>&);
 
 enum class LostRuns
 {
-  Apart,      // their errors say nothing but that they are lost
-  LikeOthers  // they cost as much
+  CountedApart,  // for errors: the value of a lost run means nothing
+  LikeOthers     // for costs: a lost run costs as much as any other
 };
 
-/** What is told of each run; nothing if it failed. */
+/** A number of each run; none if the run failed. */
 struct Quantity
 {
   std::string name;  // "drift [m]"
   std::function<std::optional<double>(const RunRecord&)> of;
-  LostRuns lost = LostRuns::Apart;
+  LostRuns lost = LostRuns::CountedApart;
 };
 
 struct CellSummary
 {
-  std::vector<double> values;  // of the runs that are not lost
-  std::size_t lost = 0, untold = 0;
+  std::vector<double> values;  // without the runs counted as lost
+  std::size_t lost = 0, failed = 0;
 
-  /** Lost runs count as worse than all others; nothing if the median itself is lost, or if there is no run. */
+  /** Lost runs count as larger than all others. None if the median itself is a lost run, or if there is no run. */
   std::optional<double> median() const;
   bool medianIsLost() const;
 };

@@ -1,6 +1,6 @@
 #include "study/StudyFigures.h"
 
-#include "dataset/Statistics.h"
+#include "core/Statistics.h"
 
 #include <fmt/format.h>
 
@@ -13,12 +13,12 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kBar = 0.8;    // width, of a place on the axis
-constexpr double kRoom = 1.12;  // above the largest value, for what was lost
+constexpr double kBar = 0.8;        // width of a bar; bars are 1 apart
+constexpr double kLostRoom = 1.12;  // lost runs are drawn this much above the largest value
 constexpr std::size_t kBins = 20;
-constexpr std::size_t kLevelLabels = 6;  // so many fit side by side
+constexpr std::size_t kLevelLabels = 6;  // with more groups the labels are rotated
 
-/** Okabe and Ito 2008: told apart by every eye. */
+/** Okabe and Ito 2008: also for colour-blind readers. */
 constexpr std::array kColours{"#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00"};
 
 std::string colour(std::size_t i) { return kColours[i % kColours.size()]; }
@@ -42,7 +42,7 @@ struct BarBlocks
   std::string medians, lost_medians, dots, lost_dots;
 };
 
-/** Side by side, in the order of the runs. */
+/** The dots of a bar, side by side in the order of the runs. */
 std::string spread(double x, const std::vector<double>& values)
 {
   std::string rows;
@@ -62,10 +62,10 @@ double topOf(const std::vector<Bar>& bars)
   double largest = 0;
   for (const Bar& bar : bars)
     for (const double value : bar.summary.values) largest = std::max(largest, value);
-  return largest > 0 ? kRoom * largest : 1;
+  return largest > 0 ? kLostRoom * largest : 1;
 }
 
-/** A vertex stands for all of the way to the next one: the one before `begin` counts, too. */
+/** A vertex holds the error up to the next one: the last vertex before `begin` counts, too. */
 double largestWithin(double begin, double end, const std::vector<ErrorAtDistance>& vertices)
 {
   const auto before = [](double distance, const ErrorAtDistance& vertex) { return distance < vertex.distance; };
@@ -77,7 +77,7 @@ double largestWithin(double begin, double end, const std::vector<ErrorAtDistance
   return largest;
 }
 
-/** Of "N = 5, cell_size = 1", where names stand once below the axis, "5, 1"; of any other name the name. */
+/** "N = 5, cell_size = 1" gives the names "N, cell_size", written once below the axis, and the values "5, 1". */
 struct GroupLabel
 {
   std::string names, values;
@@ -219,7 +219,7 @@ std::string driftOverDistanceScript(const std::vector<StudyCell>& cells)
         fmt::format("{}$cell{} using 1:2 with lines lw 1.5 dt {} lc rgb \"{}\" title \"{}, {}\"", c > 0 ? ", " : "", c,
                     dashes + 1, colour(hue), cells[c].lidars, labelOf(cells[c].group).values);
   }
-  // gnuplot finds no range by itself where all runs were lost.
+  // If all runs were lost, gnuplot has no data to choose a range from.
   script += farthest > 0 ? fmt::format("set xrange [0:{:.6g}]\nset yrange [0:*]\n", farthest)
                          : "set xrange [0:1]\nset yrange [0:1]\n";
   const std::string names = cells.empty() ? "" : labelOf(cells.front().group).names;

@@ -85,7 +85,7 @@ TEST_F(EvaluateVerb, endsWithThreeAboveTheLimitAndStillTellsAll)
   const Ended above = evaluate("--reference truth.tum --fail-if-drift-above 0.29");
   EXPECT_EQ(above.status, 3);
   EXPECT_THAT(above.output, HasSubstr("drift                     0.300 m (3.00 %)"));
-  EXPECT_THAT(above.output, HasSubstr("drift 0.300 m is above 0.29 m"));
+  EXPECT_THAT(above.output, HasSubstr("drift 0.300 m is above the limit of 0.29 m"));
 }
 
 TEST_F(EvaluateVerb, alignsTheFirstPosesOnRequest)
@@ -103,15 +103,15 @@ TEST_F(EvaluateVerb, alignsTheFirstPosesOnRequest)
 TEST_F(EvaluateVerb, saysThatAFullAlignmentRestsOnAStraightLine)
 {
   EXPECT_THAT(evaluate("--reference truth.tum --align se3").output,
-              HasSubstr("aligned on                2 of 11 samples, 0.00 m from the worst fixed axis on average, "
-                        "condition inf"));
+              HasSubstr("aligned on                2 of 11 samples, 0.00 m from the axis of the least certain rotation "
+                        "(rms), condition inf"));
 }
 
 TEST_F(EvaluateVerb, namesWhatIsWrong)
 {
   const Ended lever = evaluate("--reference station.csv --lever-arm '1 2'");
   EXPECT_EQ(lever.status, 2);
-  EXPECT_THAT(lever.output, HasSubstr("--lever-arm '1 2': expected \"x y z\" in m"));
+  EXPECT_THAT(lever.output, HasSubstr("--lever-arm '1 2': must be \"x y z\" in m"));
 
   EXPECT_EQ(evaluate("--reference station.csv --align first").status, 2);
   EXPECT_EQ(evaluate("--reference missing.tum").status, 1);

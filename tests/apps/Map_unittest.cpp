@@ -1,9 +1,9 @@
 /** `scanloom map` and `scanloom view` as a person meets them. */
-#include "cloud/PlyReader.h"
-#include "dataset/smallRawlog.h"
-#include "output/OctoMapFile.h"
-#include "output/SimpleMapReader.h"
-#include "output/Trajectory.h"
+#include "edit/smallRawlog.h"
+#include "formats/CloudFile.h"
+#include "formats/Trajectory.h"
+#include "maps/OctoMapFile.h"
+#include "maps/SimpleMapReader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ TEST_F(Map, makesEveryKindOfARawlogAndItsTrajectory)
   EXPECT_THAT(ended.output, HasSubstr("estimate: "));
 
   EXPECT_EQ(SimpleMapReader(name("m.simplemap")).size(), 4U);
-  EXPECT_EQ(readPly(name("m.ply")).points.size(), 360U);
+  EXPECT_EQ(readCloud(name("m.ply")).points.size(), 360U);
   octomap::OcTree stock(name("m.bt"));
   EXPECT_GT(stock.size(), 100U);
   EXPECT_DOUBLE_EQ(stock.getResolution(), 0.1);
@@ -76,12 +76,12 @@ TEST_F(Map, convertsOccupancyToPoints)
 {
   ASSERT_EQ(map("--preset preview -o " + name("m.bt")).status, 0);
   ASSERT_EQ(scanloomRuns("map -i " + name("m.bt") + " -o " + name("m.ply")).status, 0);
-  const auto cloud = readPly(name("m.ply"));
+  const auto cloud = readCloud(name("m.ply"));
   const octomap::OcTree stock(name("m.bt"));
   ASSERT_GT(cloud.points.size(), 0U);
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
   {
-    const auto* node = stock.search(cloud.points.x[i], cloud.points.y[i], cloud.points.z[i]);
+    const auto* node = stock.search(cloud.points[i].x(), cloud.points[i].y(), cloud.points[i].z());
     ASSERT_TRUE(node && stock.isNodeOccupied(node));
   }
 }
@@ -149,7 +149,7 @@ TEST_F(Map, viewSaysWhatItCannotShow)
   EXPECT_EQ(scanloomRuns("view " + rawlog + " --png " + name("m.jpg")).status, 2);
   const Ended beyond = scanloomRuns("view " + rawlog + " --scan 9 --png " + name("m.png"));
   EXPECT_EQ(beyond.status, 1);
-  EXPECT_THAT(beyond.output, HasSubstr("has 4 clouds, no number 9"));
+  EXPECT_THAT(beyond.output, HasSubstr("has 4 point clouds, so there is no number 9"));
   const Ended blind =
       runProgram("env -u DISPLAY -u WAYLAND_DISPLAY " SCANLOOM_BIN_DIR "/scanloom view " + path + " 2>&1");
   EXPECT_EQ(blind.status, 1);

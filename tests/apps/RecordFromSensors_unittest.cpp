@@ -1,7 +1,7 @@
 /** `scanloom record` that knows of two lidars their addresses only. */
 #include "mrpt_bridge/RawlogReader.h"
-#include "simulation/FakeSensor.h"
 #include "support/ChildProcess.h"
+#include "support/FakeSensor.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 #include "support/UdpSender.h"

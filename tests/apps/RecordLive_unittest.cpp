@@ -1,6 +1,6 @@
 /** `scanloom record` on lidars of the loopback interface: how it ends, and what is on disk when it does. */
 #include "mrpt_bridge/RawlogReader.h"
-#include "source/RigReplay.h"
+#include "rig/RigReplay.h"
 #include "support/ChildProcess.h"
 #include "support/RecordedLidars.h"
 #include "support/TemporaryFolder.h"

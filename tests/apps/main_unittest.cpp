@@ -35,13 +35,13 @@ TEST(Executable, endsWithTwoAndTheNearestNameOnWrongUsage)
   const Ended wrong_verb = scanloom("confg --parameters");
   EXPECT_EQ(wrong_verb.status, 2);
   EXPECT_EQ(wrong_verb.output,
-            "scanloom: confg is unknown: did you mean 'config'?\n'scanloom --help' lists what there is\n");
+            "scanloom: unknown argument confg: did you mean 'config'?\n'scanloom --help' lists all arguments\n");
 
   const Ended wrong_option = scanloom("config --paramters");
   EXPECT_EQ(wrong_option.status, 2);
   EXPECT_EQ(wrong_option.output,
-            "scanloom config: --paramters is unknown: did you mean '--parameters'?\n"
-            "'scanloom config --help' lists what there is\n");
+            "scanloom config: unknown argument --paramters: did you mean '--parameters'?\n"
+            "'scanloom config --help' lists all arguments\n");
 
   EXPECT_EQ(scanloom("").status, 2);
   EXPECT_EQ(scanloom("config").status, 2);
@@ -53,7 +53,7 @@ TEST(Executable, namesTheVerbsThatHaveParameters)
   const Ended ended = scanloom("config --default nonsense");
 
   EXPECT_EQ(ended.status, 2);
-  EXPECT_THAT(ended.output, StartsWith("scanloom config: --default nonsense: no verb with parameters"));
+  EXPECT_THAT(ended.output, StartsWith("scanloom config: --default nonsense: is no verb with parameters"));
 }
 
 TEST(Executable, keepsResultsOnStdoutAndMessagesOnStderr)

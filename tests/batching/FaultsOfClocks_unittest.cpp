@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "FaultRig.h"
+#include "support/pushPacket.h"
 
 using namespace scanloom;
 
@@ -214,7 +215,7 @@ TEST(F14, anotherEpochIsRefusedWhereTheConfigurationSaysSo)
   Timestamp refused{};
   for (const Arrival& a : stepped(drive(rig, 2s), 1, Timestamp::min(), -37s)) try
     {
-      batcher.push(a.lidar, a.packet, a.received);
+      push(batcher, a.lidar, a.packet, a.received);
     }
     catch (const std::runtime_error& error)
     {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "FaultRig.h"
+#include "support/pushPacket.h"
 
 using namespace scanloom;
 
@@ -171,7 +172,7 @@ TEST(F11, aChangeOfModeIsSeenAtTheFirstPacketAndCostsTheOthersNothing)
       replaced = true;
       batcher.replace(0, std::make_shared<FakeLidar>(other_mode));
     }
-    for (Scan& scan : batcher.push(a.lidar, a.packet, a.received)) scans.push_back(std::move(scan));
+    for (Scan& scan : push(batcher, a.lidar, a.packet, a.received)) scans.push_back(std::move(scan));
     if (!seen && batcher.counters(0).malformed_packets == 1) seen = a.sent;
   }
   EXPECT_LE(*seen - (from + 300ms), 2 * kPacketTime);
@@ -199,7 +200,7 @@ TEST(F11, aLidarMayBecomeKnownAfterTheStart)
   {
     if (!batcher.lidars()[3].decoder && a.received > kBegin + 1s)
       batcher.replace(3, std::make_shared<FakeLidar>(rig[3]));
-    for (Scan& scan : batcher.push(a.lidar, a.packet, a.received)) scans.push_back(std::move(scan));
+    for (Scan& scan : push(batcher, a.lidar, a.packet, a.received)) scans.push_back(std::move(scan));
   }
   EXPECT_LE(scans.front().start, kBegin + 2 * kPeriod);
   EXPECT_TRUE(scans.front().missing.test(3));

@@ -5,6 +5,7 @@
 
 #include "FaultRig.h"
 #include "batching/PacketConsensus.h"
+#include "support/pushPacket.h"
 
 using namespace scanloom;
 
@@ -17,7 +18,7 @@ struct Session
 
   void push(LidarIndex lidar, const std::vector<std::uint8_t>& packet, Timestamp received)
   {
-    take(batcher.push(lidar, packet, received));
+    take(scanloom::push(batcher, lidar, packet, received));
   }
   void take(std::vector<Scan> more)
   {

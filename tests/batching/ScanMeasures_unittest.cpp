@@ -1,4 +1,4 @@
-#include "batching/ScanMeasures.h"
+#include "support/ScanMeasures.h"
 
 #include <gtest/gtest.h>
 

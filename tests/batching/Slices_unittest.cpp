@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "FaultRig.h"
+#include "support/pushPacket.h"
 
 using namespace scanloom;
 
@@ -41,7 +42,7 @@ Sliced slicesOf(const Rig& rig, const Arrivals& arrivals, const BatcherOptions& 
   {
     for (Scan& scan : scans) sliced.scans.push_back(std::move(scan));
   };
-  for (const Arrival& a : arrivals) collect(batcher.push(a.lidar, a.packet, a.received));
+  for (const Arrival& a : arrivals) collect(push(batcher, a.lidar, a.packet, a.received));
   collect(batcher.finish());
   return sliced;
 }
@@ -91,7 +92,7 @@ TEST(Slices, asScansOfTheirOwnJoinToTheWhole)
   std::vector<Scan> parts, scans;
   batcher.onSlice([&parts](const ScanSlice& slice) { parts.push_back(copyOf(slice)); });
   for (const Arrival& a : drive(rig, 1s))
-    for (Scan& scan : batcher.push(a.lidar, a.packet, a.received)) scans.push_back(std::move(scan));
+    for (Scan& scan : push(batcher, a.lidar, a.packet, a.received)) scans.push_back(std::move(scan));
   ASSERT_GE(parts.size(), 4 * scans.size());
   for (std::size_t k = 0; k < scans.size(); ++k)
   {

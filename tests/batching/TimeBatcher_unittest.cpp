@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "support/FakeLidar.h"
+#include "support/pushPacket.h"
 
 using namespace scanloom;
 
@@ -51,7 +52,7 @@ std::vector<Scan> feed(TimeBatcher& batcher, const std::vector<Arrival>& arrival
   std::vector<Scan> scans;
   const auto collect = [&scans](std::vector<Scan> more)
   { std::move(more.begin(), more.end(), std::back_inserter(scans)); };
-  for (const Arrival& arrival : arrivals) collect(batcher.push(arrival.lidar, arrival.packet, arrival.received));
+  for (const Arrival& arrival : arrivals) collect(push(batcher, arrival.lidar, arrival.packet, arrival.received));
   collect(batcher.finish());
   return scans;
 }
@@ -164,7 +165,7 @@ TEST(TimeBatcher, aSilentLidarHoldsNobodyLongerThanTheDeadline)
   {
     for (; now < a.received; now += 500us)
       for (Scan& scan : batcher.advance(now)) released.emplace_back(now, std::move(scan));
-    for (Scan& scan : batcher.push(a.lidar, a.packet, a.received)) released.emplace_back(a.received, std::move(scan));
+    for (Scan& scan : push(batcher, a.lidar, a.packet, a.received)) released.emplace_back(a.received, std::move(scan));
   }
   ASSERT_EQ(released.size(), 19u);
   const Duration packet = lidar.description().blockPeriod() * 8;
@@ -182,7 +183,7 @@ TEST(TimeBatcher, aLidarThatNeverStartsDelaysTheFirstScanByNoMoreThanTwoPeriodsA
   TimeBatcher batcher = fakeLidars({{}, {}});
   std::optional<Timestamp> first;
   for (const Arrival& a : arrivalsOf(0, lidar.drive(Timestamp{130ms}, 1s)))
-    if (!batcher.push(a.lidar, a.packet, a.received).empty() && !first) first = a.received;
+    if (!push(batcher, a.lidar, a.packet, a.received).empty() && !first) first = a.received;
   ASSERT_TRUE(first);
   EXPECT_LE(*first - Timestamp{130ms}, 2 * 100ms + 5ms + 13ms);
 }

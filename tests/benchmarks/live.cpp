@@ -8,7 +8,7 @@
  *   scanloom_bench_live --sensors 2 --seconds 600 --busy 4    with all cores under stress
  */
 #include "LoopbackLidars.h"
-#include "source/RigLive.h"
+#include "rig/RigLive.h"
 
 #include <fmt/format.h>
 #include <signal.h>

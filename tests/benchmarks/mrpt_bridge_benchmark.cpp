@@ -1,3 +1,4 @@
+#include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogReader.h"
 #include "mrpt_bridge/RawlogWriter.h"
 
@@ -48,8 +49,8 @@ void makeObservation(benchmark::State& state)
 void writeScan(benchmark::State& state)
 {
   const Scan scan = fullScan();
-  RawlogWriter writer(scratchFile(), {}, {static_cast<int>(state.range(0)), CloudClass::CGenericPointsMap});
-  for ([[maybe_unused]] auto step : state) writer.write(scan);
+  RawlogWriter writer(scratchFile(), {}, {static_cast<int>(state.range(0))});
+  for ([[maybe_unused]] auto step : state) writer.write(*toObservation(scan));
   writer.close();
   state.counters["MB"] =
       1e-6 * static_cast<double>(std::filesystem::file_size(scratchFile())) / static_cast<double>(state.iterations());

@@ -4,9 +4,10 @@
  */
 #include "benchmarks/ForestScans.h"
 #include "benchmarks/NeesHistogram.h"
-#include "dataset/Statistics.h"
+#include "core/Statistics.h"
 #include "evaluation/RegistrationTrials.h"
 #include "ndt/Registration.h"
+#include "ndt/briefOf.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -110,7 +111,7 @@ void run(const Arguments& arguments)
     if (r.error.head<3>().norm() > 0.1 || r.error.tail<3>().norm() > kDegree)
     {
       fmt::print("pair {}: {:.3f} m {:.2f} deg off, {}\n", i, r.error.head<3>().norm(),
-                 r.error.tail<3>().norm() / kDegree, r.result.brief());
+                 r.error.tail<3>().norm() / kDegree, briefOf(r.result));
       continue;
     }
     metres.push_back(r.error.head<3>().norm());

@@ -5,8 +5,10 @@
 #include "simulation/World.h"
 
 #include <benchmark/benchmark.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -135,17 +137,24 @@ void castFoliage(benchmark::State& state, const std::string& stand)
 BENCHMARK_CAPTURE(castFoliage, sparse, "sparse")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(castFoliage, dense, "dense")->Unit(benchmark::kMillisecond);
 
+/** Memory of this process, MiB. */
+double residentMemory()
+{
+  std::ifstream statm("/proc/self/statm");
+  double total = 0, resident = 0;
+  statm >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
 /** The world around 1 km of path. */
 void grow(benchmark::State& state, const std::string& stand)
 {
-  constexpr double kMebibyte = 1 << 20;
   for (auto _ : state)
   {
+    const double before = residentMemory();
     const World world = makeWorld(stand, 1000);
     state.counters["stems"] = static_cast<double>(world.stems().size());
-    state.counters["table_MiB"] = static_cast<double>(world.stems().size() * (sizeof(Stem) + sizeof(Cone))) / kMebibyte;
-    state.counters["Embree_MiB"] = static_cast<double>(world.wood().embreeBytes()) / kMebibyte;
-    state.counters["foliage_MiB"] = static_cast<double>(world.foliage().voxels().bytes()) / kMebibyte;
+    state.counters["MiB"] = residentMemory() - before;
   }
 }
 BENCHMARK_CAPTURE(grow, sparse, "sparse")->Unit(benchmark::kMillisecond)->Iterations(1);

@@ -4,7 +4,7 @@
  */
 #include "benchmarks/NeesHistogram.h"
 #include "config/Configuration.h"
-#include "dataset/Statistics.h"
+#include "core/Statistics.h"
 #include "simulation/SceneInput.h"
 #include "slam/LidarInertialSlam.h"
 
@@ -236,11 +236,11 @@ std::vector<Comparison> drive(const Settings& settings, const std::vector<std::s
 {
   const auto scene = std::make_shared<const Scene>(makeScene(settings.simulation, seed));
   const Rig rig = rigOf(*scene, settings.batcher, lidars);
-  std::vector<Eigen::Vector3d> positions;
-  for (const RigSensor& sensor : rig.sensors) positions.push_back(sensor.body_T_sensor.translation);
+  std::vector<MountedLidar> lidars_of_rig;
+  for (const RigSensor& sensor : rig.sensors) lidars_of_rig.push_back({sensor.options.name, sensor.body_T_sensor});
   std::deque<LidarInertialSlam> slams;
-  for (const SlamSettings& arm : settings.arms) slams.emplace_back(arm, rig.body_T_imu, positions);
-  std::vector<Comparison> comparisons(slams.size(), Comparison(scene, rig.body_T_imu));
+  for (const SlamSettings& arm : settings.arms) slams.emplace_back(arm, *rig.body_T_imu, lidars_of_rig);
+  std::vector<Comparison> comparisons(slams.size(), Comparison(scene, *rig.body_T_imu));
   const auto input = makeSceneInput(scene, rig);
   while (std::optional<SensorEvent> event = input->next({}))
     for (std::size_t arm = 0; arm < slams.size(); ++arm)

@@ -1,6 +1,6 @@
 #include "config/IniFile.h"
 
-#include "config/ConfigError.h"
+#include "core/ConfigError.h"
 #include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>

@@ -6,7 +6,7 @@ using namespace scanloom;
 
 namespace
 {
-/** Every field of every point has another value. */
+/** Every field of every point has a different value. */
 PointCloud numbered(std::size_t points, int from)
 {
   PointCloud cloud;

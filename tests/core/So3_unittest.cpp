@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 namespace
 {
-const std::vector<Vector3d> kRotations{{0, 0, 0},       {1e-9, -2e-9, 1e-9}, {9e-5, 1e-5, -3e-5}, {2e-4, 0, 1e-4},
+const std::vector<Vector3d> kRotations{{0, 0, 0},        {1e-9, -2e-9, 1e-9}, {9e-5, 1e-5, -3e-5}, {2e-4, 0, 1e-4},
                                        {0.3, -0.2, 0.5}, {1.5, 2.0, -1.0},    {0, 0, 3.14}};
 }
 

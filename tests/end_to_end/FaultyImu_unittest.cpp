@@ -1,8 +1,8 @@
 // The whole line with a body's IMU that fails: scans go on, every pose is one, and health says what is left of it.
 #include <gtest/gtest.h>
 
-#include "output/SlamRun.h"
-#include "output/TrajectoryReader.h"
+#include "formats/TrajectoryReader.h"
+#include "run/SlamRun.h"
 #include "simulation/SceneInput.h"
 #include "support/TemporaryFolder.h"
 
@@ -29,9 +29,9 @@ struct SmallDrive
     settings.lidars[0].model = "OS0-16";
     settings.lidars[0].mode = "512x10";
     scene = std::make_shared<const Scene>(makeScene(settings, 3));
-    const auto input = makeSceneInput(scene, rigOf(*scene, {}));
-    header = input->header();
-    for (const int sensor : {SensorImu::kBody, 0, 1}) body_T_imu[sensor] = *input->body_T_imu(sensor);
+    const Rig rig = rigOf(*scene, {});
+    const auto input = makeSceneInput(scene, rig);
+    setup = input->setup();
     while (auto event = input->next({})) events.push_back(std::move(*event));
   }
 
@@ -39,8 +39,7 @@ struct SmallDrive
   Rigid bodyAt(Timestamp stamp) const { return scene->scenery.drive().at(seconds(since(stamp))).world_T_body; }
 
   std::shared_ptr<const Scene> scene;
-  RecordingHeader header;
-  std::map<int, Rigid> body_T_imu;
+  SensorSetup setup;
   std::vector<SensorEvent> events;
 };
 
@@ -72,15 +71,13 @@ class FaultyInput : public SensorInput
     return std::nullopt;
   }
   bool ended() const override { return next_ == smallDrive().events.size(); }
-  const RecordingHeader& header() const override { return smallDrive().header; }
-  std::optional<Rigid> body_T_imu(int sensor) const override
+  void stop() override {}
+  SensorSetup setup() const override
   {
-    if (std::find(imus_.begin(), imus_.end(), sensor) == imus_.end()) return std::nullopt;
-    return smallDrive().body_T_imu.at(sensor);
+    SensorSetup setup{smallDrive().setup.header, {}};
+    for (const int imu : imus_) setup.body_T_imu[imu] = smallDrive().setup.body_T_imu.at(imu);
+    return setup;
   }
-  double progress() const override { return 0; }
-  std::map<std::string, std::uint64_t> counts() const override { return {}; }
-  std::vector<std::string> takeWarnings() override { return {}; }
 
  private:
   Fault fault_;
@@ -131,7 +128,7 @@ LeftBehind localise(const Fault& fault, const std::vector<int>& imus = {SensorIm
 {
   const TemporaryFolder folder;
   FaultyInput input(fault, imus);
-  SlamFiles files(folder.path(), input.header().lidars, std::nullopt);
+  SlamFiles files(folder.path(), input.setup().header.lidars, std::nullopt);
   const SlamRunResult result = runSlam(
       input, {}, files, [](const RunProgress&) { return true; }, [](const std::string&) {});
   files.close(result.summary);

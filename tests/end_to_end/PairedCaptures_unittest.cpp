@@ -6,8 +6,8 @@
 #include "mrpt_bridge/RawlogReader.h"
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/RigObservations.h"
-#include "source/CaptureWriter.h"
-#include "source/RigReplay.h"
+#include "packets/CaptureWriter.h"
+#include "rig/RigReplay.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
@@ -86,7 +86,7 @@ TEST(PairedCaptures, twoRealOustersBecomeOneRawlogWithExactCounts)
   Timestamp previous = Timestamp::min();
   while (const auto event = replay.next())
   {
-    writer.write(*toObservation(*event, rig, DriverOptions{}));
+    writer.write(*toObservation(*event, replay.setup(), DriverOptions{}));
     if (const auto* scan = std::get_if<Scan>(&*event))
     {
       for (const Column& column : scan->columns)
@@ -100,7 +100,8 @@ TEST(PairedCaptures, twoRealOustersBecomeOneRawlogWithExactCounts)
   }
   writer.close();
 
-  const LidarCounters &first = replay.batcher().counters(0), &second = replay.batcher().counters(1);
+  const RigAccount account = replay.account();
+  const LidarCounters &first = account.lidars[0].counters, &second = account.lidars[1].counters;
   EXPECT_EQ(first.received, 3u * 1024u);
   EXPECT_EQ(second.received, 1024u);
   EXPECT_EQ(columns, first.emitted + second.emitted);

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "evaluation/PositionError.h"
+#include "mrpt_bridge/RawlogInput.h"
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/RigObservations.h"
-#include "output/SlamRun.h"
-#include "source/RigReplay.h"
+#include "rig/RigReplay.h"
+#include "rig/openRig.h"
+#include "run/SlamRun.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
@@ -29,7 +31,7 @@ RunSummary localise(SensorInput& input, const std::filesystem::path& folder, con
   OctoMapOptions coarse;  // not what is looked at here
   coarse.resolution = 1;
   coarse.max_range = 5;
-  SlamFiles files(folder, input.header().lidars, coarse);
+  SlamFiles files(folder, input.setup().header.lidars, coarse);
   SlamRunResult result = runSlam(
       input, settings, files, [](const RunProgress&) { return true; },
       [](const std::string& warning) { ADD_FAILURE() << warning; });
@@ -49,7 +51,7 @@ void expectDrift(const std::filesystem::path& recording, const std::vector<std::
   const TemporaryFolder folder;
   SlamSettings settings;
   settings.slam.every_nth = every_nth;
-  const auto input = makeCaptureInput(rigOf(recording, lidars));
+  const auto input = openRig(rigOf(recording, lidars));
   localise(*input, folder.path(), settings);
   const double error = largestError(folder.path(), recording);
   testing::Test::RecordProperty("largest_error_m", std::to_string(error));
@@ -85,8 +87,8 @@ TEST(Recordings, everyScanGetsAPoseAtItsEndAndASecondRunGivesTheSameBytes)
 {
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
   const TemporaryFolder first, second;
-  const RunSummary summary = localise(*makeCaptureInput(rigOf(recording)), first.path());
-  localise(*makeCaptureInput(rigOf(recording)), second.path());
+  const RunSummary summary = localise(*openRig(rigOf(recording)), first.path());
+  localise(*openRig(rigOf(recording)), second.path());
 
   const Trajectory trajectory = readTum(first / "trajectory.tum");
   EXPECT_EQ(trajectory.size(), summary.counts.at("scans"));
@@ -103,11 +105,12 @@ TEST(Recordings, aRawlogGivesThePosesOfItsCaptureWithinAMillimetre)
   const Rig rig = rigOf(recording);
   RawlogWriter writer(folder / "dual.rawlog", recordingHeader(rig), {});
   RigReplay replay(rig);
-  while (const auto event = replay.next()) writer.write(*toObservation(*event, rig, DriverOptions{}));
+  while (const auto event = replay.next()) writer.write(*toObservation(*event, replay.setup(), DriverOptions{}));
   writer.close();
 
-  localise(*makeCaptureInput(rig), folder / "capture");
-  localise(*makeRawlogInput(folder / "dual.rawlog"), folder / "rawlog");
+  localise(*openRig(rig), folder / "capture");
+  RawlogInput rawlog(folder / "dual.rawlog");
+  localise(rawlog, folder / "rawlog");
 
   const Trajectory expected = readTum(folder / "capture/trajectory.tum"),
                    got = readTum(folder / "rawlog/trajectory.tum");

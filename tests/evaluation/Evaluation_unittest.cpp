@@ -1,6 +1,6 @@
 #include "evaluation/Evaluation.h"
 
-#include "output/Trajectory.h"
+#include "formats/Trajectory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /**
- * Any fate of the packets of three lidars on their way to the batcher: lost, repeated, held back, damaged, of a clock
+ * Packets of three lidars that are lost, repeated, held back or damaged on their way to the batcher, or of a clock
  * that steps, of a sensor that starts again. Whatever happens, the invariants of the fault table hold, and the
  * output does not run ahead of the input.
  * fuzz options: -max_len=128
@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "../support/FakeLidar.h"
+#include "../support/pushPacket.h"
 #include "batching/TimeBatcher.h"
 #include "require.h"
 
@@ -297,20 +298,25 @@ class Session
   void push(LidarIndex lidar, const std::vector<std::uint8_t>& packet)
   {
     ++pushed_[lidar];
-    checker_.take(batcher_.push(lidar, packet, now_));
+    checker_.take(scanloom::push(batcher_, lidar, packet, now_));
     senders_[lidar].latest = packet;
-    require(batcher_.waitingPackets(lidar) <= static_cast<std::size_t>(options_.queue_packets));
+    require(blocksWaiting(batcher_.counters(lidar)) <=
+            blocksOf(lidar, static_cast<std::uint64_t>(options_.queue_packets)));
+  }
+
+  static std::uint64_t blocksOf(LidarIndex lidar, std::uint64_t packets)
+  {
+    return packets * static_cast<std::uint64_t>(decoders()[lidar]->description().columns_per_packet);
   }
 
   void checkAccounts(LidarIndex lidar) const
   {
     const LidarCounters& c = batcher_.counters(lidar);
     require(c.emitted == checker_.emitted[lidar]);
-    require(c.received ==
-            c.emitted + c.late + c.duplicate + c.invalid + c.before_start + c.implausible + c.quarantined + c.dropped);
+    require(blocksWaiting(c) == 0);
     require(pushed_[lidar] == c.packets + c.malformed_packets + c.bad_crc_packets + c.foreign_packets +
                                   c.other_packets + c.doubtful_packets);
-    require(c.received == c.packets * static_cast<std::uint64_t>(decoders()[lidar]->description().columns_per_packet));
+    require(c.received == blocksOf(lidar, c.packets));
   }
 
   Script& script_;

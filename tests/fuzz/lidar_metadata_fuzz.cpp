@@ -3,6 +3,8 @@
  * between the rest as the text, and the rest as changes to a sound file, so that more is reached than the JSON parser.
  * fuzz options: -max_len=1024
  */
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <stdexcept>
 #include <string>

@@ -1,6 +1,6 @@
 /**
  * Any bytes as a packet of every profile at once, so that each run is one execution for each of them: what kind()
- * accepts is decoded without a word, by every kernel to the same bits, everything else at worst ends in
+ * accepts is decoded without exceptions, by every kernel to the same bits; anything else throws at most
  * std::out_of_range.
  * fuzz options: -max_len=900
  */
@@ -16,7 +16,7 @@ using namespace scanloom;
 
 namespace
 {
-/** What is put right before a decoder sees the bytes, or nearly all of them would end at the door. */
+/** What is corrected before decoding; otherwise nearly all bytes would be refused at once. */
 enum Mend : std::uint8_t
 {
   kSize = 1,
@@ -121,7 +121,7 @@ void refuse(void (*decode)(const OusterDecoder&, Bytes), const OusterDecoder& de
 }
 }  // namespace
 
-/** The first byte says what is mended, the second which profile is looked at more closely. */
+/** The first byte tells what is corrected, the second which profile is tested more closely. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   static const auto decoders = everyDecoder();

@@ -1,7 +1,6 @@
 /**
- * Any bytes as a packet of every Velodyne model at once: what kind() accepts is decoded without a word, everything else
- * at worst ends in std::out_of_range.
- * fuzz options: -max_len=1300
+ * Any bytes as a packet of every Velodyne model at once: what kind() accepts is decoded without exceptions; anything
+ * else throws at most std::out_of_range. fuzz options: -max_len=1300
  */
 #include <array>
 #include <stdexcept>
@@ -89,7 +88,7 @@ void refuse(const VelodyneDecoder& decoder, Bytes packet)
 }
 }  // namespace
 
-/** The first byte says what is mended, the second which decoder also has to refuse what it does not know. */
+/** The first byte tells what is corrected, the second which decoder must also refuse a packet that is too short. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
   static const std::array<VelodyneDecoder, 5> decoders{

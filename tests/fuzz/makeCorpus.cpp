@@ -2,6 +2,8 @@
  * Writes seeds for the fuzz targets from recordings: a folder per target below OUT. Each is cut to the size and led by
  * the first bytes that its target expects. scanloom_fuzz_corpus RECORDINGS INIS OUT
  */
+#include <nlohmann/json.hpp>
+
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -11,7 +13,7 @@
 #include "lidar/MetadataKeys.h"
 #include "lidar/OusterDecoder.h"
 #include "lidar/VelodynePacket.h"
-#include "source/CaptureReader.h"
+#include "packets/CaptureReader.h"
 
 namespace fs = std::filesystem;
 using namespace scanloom;
@@ -77,7 +79,7 @@ Seed cutDown(const OusterDecoder& decoder, Bytes packet)
 /** Whatever a capture holds, as each target would have it; the metadata file of the same name tells Ouster's apart. */
 void addCapture(const fs::path& path, Corpus& corpus)
 {
-  corpus.add("source_pcap", led({0xFF}, bytesOf(path), 1024));
+  corpus.add("packets_pcap", led({0xFF}, bytesOf(path), 1024));
   std::unique_ptr<OusterDecoder> ouster;
   if (const fs::path metadata = fs::path(path).replace_extension(".json"); fs::exists(metadata))
     ouster = std::make_unique<OusterDecoder>(loadOusterMetadata(metadata.string()), Rigid::identity());

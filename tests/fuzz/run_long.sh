@@ -1,7 +1,7 @@
 #!/bin/sh
 # Runs one fuzz target for MILLIONS of 10^6 executions, out of everybody's way; stops at the first finding. One line per
 # million; the corpus is kept and grows. Seeds from recordings: build/fuzz/bin/scanloom_fuzz_corpus RECORDINGS params CORPUS
-#   tests/fuzz/run_long.sh TARGET MILLIONS CORPUS     e.g. source_pcap 10 /tmp/corpus
+#   tests/fuzz/run_long.sh TARGET MILLIONS CORPUS     e.g. packets_pcap 10 /tmp/corpus
 set -eu
 target=$1 millions=$2 corpus=$3/$1
 root=$(cd "$(dirname "$0")/../.." && pwd)

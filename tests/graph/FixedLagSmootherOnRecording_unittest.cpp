@@ -65,7 +65,7 @@ Outcomes runOn(const std::filesystem::path& recording, Duration period)
     return interpolate(a.world_T_body, b.world_T_body, seconds(stamp - a.stamp) / seconds(b.stamp - a.stamp));
   };
 
-  ImuInitialisation first = *initialiseAtRest(imu.between(start - 2100ms, start), kBodyFromRealImu, {});
+  NavEstimate first = *initialiseAtRest(imu.between(start - 2100ms, start), kBodyFromRealImu, {});
   const Rigid at_start = poseAt(start);
   const Rigid map_T_world = Rigid::fromXyzYawPitchRoll(0, 0, 0, -at_start.yawPitchRoll().x(), 0, 0) *
                             Rigid{Eigen::Quaterniond::Identity(), -at_start.translation};

@@ -54,7 +54,6 @@ TEST(ImuInitialisation, findsTiltAndGyroBiasOfAQuietMachine)
 {
   const auto start = initialiseAtRest(atRest(kTilted, kGyroOnly, 0), kBodyFromImu, {});
   ASSERT_TRUE(start);
-  EXPECT_TRUE(start->at_rest);
   EXPECT_EQ(start->state.stamp, Timestamp{2100ms});
   const Rigid map_T_body = start->state.map_T_imu * kBodyFromImu.inverse();
   EXPECT_LT(boxMinus(map_T_body, kTilted).norm(), 2e-4);  // position 0 and yaw 0 of the body among them
@@ -67,8 +66,6 @@ TEST(ImuInitialisation, survivesAnIdlingEngine)
   const auto start = initialiseAtRest(atRest(kTilted, kGyroOnly, 0.7), kBodyFromImu, {});
   ASSERT_TRUE(start);
   EXPECT_LT(tiltBetween(start->state, kTilted * kBodyFromImu), 0.2 * kDegree);
-  EXPECT_GT(start->statistics.accel_deviation, 0.5);
-  EXPECT_LT(start->statistics.slow_accel_deviation, 0.1);
 }
 
 TEST(ImuInitialisation, takesTheAccelerometerBiasAlongGravity)
@@ -132,8 +129,7 @@ TEST(ImuInitialisation, hasGravityFromAFewSamplesOnTheMove)
 {
   const AnalyticDrive drive;
   const auto samples = drive.samples(Timestamp{1s}, Timestamp{1300ms}, 10ms);
-  const ImuInitialisation start = gravityOnly(samples, Rigid::identity());
-  EXPECT_FALSE(start.at_rest);
+  const NavEstimate start = gravityOnly(samples, Rigid::identity());
   EXPECT_EQ(start.state.bias.gyro.norm(), 0);
   const double tilt = tiltBetween(start.state, drive.stateAt(start.state.stamp).map_T_imu);
   EXPECT_LT(tilt, 3 * std::sqrt(start.covariance.block<3, 3>(3, 3).trace()));

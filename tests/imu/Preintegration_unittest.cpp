@@ -21,7 +21,7 @@ Vector9d difference(const ImuDelta& to, const ImuDelta& from)
   return d;
 }
 
-ImuDelta deltaOf(const Preintegration& m) { return {m.rotation, m.velocity, m.position}; }
+ImuDelta deltaOf(const Preintegration& m) { return m.delta; }
 
 ImuBias biasPlus(const ImuBias& bias, const Vector6d& step)
 {
@@ -56,9 +56,9 @@ TEST(Preintegration, isExactForConstantReadings)
   for (Duration t = 0ms; t <= 500ms; t += 5ms) samples.push_back({Timestamp{t}, gyro, accel});
   const Preintegration motion = preintegrate(samples, {}, {});
 
-  EXPECT_LT(logSo3(expSo3(gyro * 0.5).conjugate() * motion.rotation).norm(), 1e-14);
-  EXPECT_LT((motion.velocity - Eigen::Vector3d(0.05, 0, 0)).norm(), 1e-14);
-  EXPECT_LT((motion.position - Eigen::Vector3d(0.0125, 0, 0)).norm(), 1e-14);
+  EXPECT_LT(logSo3(expSo3(gyro * 0.5).conjugate() * motion.delta.rotation).norm(), 1e-14);
+  EXPECT_LT((motion.delta.velocity - Eigen::Vector3d(0.05, 0, 0)).norm(), 1e-14);
+  EXPECT_LT((motion.delta.position - Eigen::Vector3d(0.0125, 0, 0)).norm(), 1e-14);
   EXPECT_EQ(motion.duration(), 0.5);
 }
 
@@ -193,7 +193,7 @@ TEST(Preintegration, isIntegratedAgainOnlyWhenTheBiasHasMovedFar)
   EXPECT_EQ(linearisedAt(0, 0.11).bias.accel, kBias.accel + Eigen::Vector3d(0, 0.11, 0));
 
   const ImuBias far{kBias.gyro + Eigen::Vector3d(0.02, 0, 0), kBias.accel};
-  EXPECT_EQ(linearisedAt(0.02, 0).position, preintegrate(samples, far, {}).position);
+  EXPECT_EQ(linearisedAt(0.02, 0).delta.position, preintegrate(samples, far, {}).delta.position);
 }
 
 TEST(Preintegration, predictsEveryStampOnTheWay)

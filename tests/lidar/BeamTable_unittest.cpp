@@ -41,18 +41,17 @@ TEST(BeamTable, isWithinATenthOfAMillimetreOfTheDocumentedFormulaUpTo100Metres)
     const OusterMetadata m = loadOusterMetadata(file.string());
     const BeamTable table(beamsOf(m), kTilted * rigidFromMillimetres(m.lidar_to_sensor_mm));
     const ColumnAngles angles = clockwiseColumns(m.columns_per_frame);
-    BeamTable::Coordinates points(table.size(), 3);
     for (int column = 0; column < m.columns_per_frame; ++column)
       for (const std::uint32_t range_mm : {1u, 500u, 7'001u, 33'333u, 65'537u, 99'999u, 100'000u})
       {
         const auto u = static_cast<std::size_t>(column);
-        table.project(angles.cosine[u], angles.sine[u],
-                      BeamTable::Ranges::Constant(table.size(), static_cast<float>(range_mm)), points);
         for (Eigen::Index beam = 0; beam < table.size(); ++beam)
         {
           const Eigen::Vector3d expected =
               documentedPoint(m, column, static_cast<std::size_t>(beam), range_mm, kTilted.matrix());
-          largest = std::max(largest, (points.row(beam).matrix().transpose().cast<double>() - expected).norm());
+          const Eigen::Vector3f point =
+              table.project(beam, angles.cosine[u], angles.sine[u], static_cast<float>(range_mm));
+          largest = std::max(largest, (point.cast<double>() - expected).norm());
         }
       }
   }
@@ -90,19 +89,15 @@ TEST(BeamTable, theDecodersPointsFollowTheDocumentedFormula)
 TEST(BeamTable, aBeamThatLooksForwardMeasuresAlongX)
 {
   const BeamTable table({Beam{}}, Rigid::fromXyzYawPitchRoll(0, 0, 2, 0, 0, 0));
-  BeamTable::Coordinates point(1, 3);
-  table.project(1, 0, BeamTable::Ranges::Constant(1, 5000), point);
-  EXPECT_LT((point.matrix() - Eigen::RowVector3f(5, 0, 2)).norm(), 1e-6);
-  table.project(0, 1, BeamTable::Ranges::Constant(1, 5000), point);  // a quarter of a turn counter-clockwise
-  EXPECT_LT((point.matrix() - Eigen::RowVector3f(0, 5, 2)).norm(), 1e-6);
+  EXPECT_LT((table.project(0, 1, 0, 5000) - Eigen::Vector3f(5, 0, 2)).norm(), 1e-6);
+  const Eigen::Vector3f quarter_turn_on = table.project(0, 0, 1, 5000);  // counter-clockwise
+  EXPECT_LT((quarter_turn_on - Eigen::Vector3f(0, 5, 2)).norm(), 1e-6);
 }
 
 TEST(BeamTable, theOriginOfARayTurnsWithTheEncoder)
 {
   const BeamTable table({Beam{0, 0, {0.5, 0, 0.1}, 0}}, Rigid::identity());
-  BeamTable::Coordinates point(1, 3);
-  table.project(0, 1, BeamTable::Ranges::Constant(1, 0), point);
-  EXPECT_LT((point.matrix() - Eigen::RowVector3f(0, 0.5, 0.1)).norm(), 1e-6);
+  EXPECT_LT((table.project(0, 0, 1, 0) - Eigen::Vector3f(0, 0.5, 0.1)).norm(), 1e-6);
 }
 
 TEST(ColumnAngles, columnsCountClockwiseFromTheFirst)

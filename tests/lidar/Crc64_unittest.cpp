@@ -27,7 +27,7 @@ TEST(Crc64, givesTheCheckValueOfTheCatalogue)
   EXPECT_EQ(crc64({reinterpret_cast<const std::uint8_t*>(digits.data()), digits.size()}), 0x995DC9BBDF1939FAu);
 }
 
-TEST(Crc64, everyKernelEqualsTheDefinitionAtEveryLengthAndAlignment)
+TEST(Crc64, equalsTheDefinitionAtEveryLengthAndAlignment)
 {
   std::mt19937 random(1);
   std::vector<std::uint8_t> bytes(1200);
@@ -35,9 +35,6 @@ TEST(Crc64, everyKernelEqualsTheDefinitionAtEveryLengthAndAlignment)
   for (std::size_t length = 0; length < 1100; ++length)
   {
     const Bytes some{bytes.data() + length % 67, length};
-    const std::uint64_t expected = bitByBit(some);
-    ASSERT_EQ(crc64(some), expected) << length;
-    for (const Kernel kernel : runnableKernels())
-      ASSERT_EQ(crc64(some, kernel), expected) << nameOf(kernel) << ' ' << length;
+    ASSERT_EQ(crc64(some), bitByBit(some)) << length;
   }
 }

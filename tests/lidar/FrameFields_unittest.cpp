@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "captures.h"
-#include "lidar/Digest.h"
+#include "core/Digest.h"
 #include "simpleMetadata.h"
 
 using namespace scanloom;

@@ -228,7 +228,7 @@ TEST(OusterMetadata, packetsLargerThanADatagramAreRefused)
   json["lidar_data_format"]["columns_per_packet"] = 128;
   json["beam_intrinsics"]["beam_altitude_angles"] = std::vector<int>(256, 1);
   json["beam_intrinsics"]["beam_azimuth_angles"] = std::vector<int>(256, 1);
-  EXPECT_THAT(complaintAbout(json), HasSubstr("more than UDP carries"));
+  EXPECT_THAT(complaintAbout(json), HasSubstr("more than UDP can carry"));
 }
 
 TEST(OusterMetadata, aFileThatIsNotThereIsNamed)

@@ -113,7 +113,7 @@ TEST(ReferenceDecode, theFirstTurnLiesInTheMakersMapToTenMicrometres)
   RecordProperty("map_points_found", static_cast<int>(found));
   EXPECT_GT(found, map.size() / 4);
 
-  // They are not found by chance: turned by a tenth of a degree they are gone.
+  // Not by chance: after a rotation of a tenth of a degree none is found.
   const OusterDecoder turned = decoderOf(metadata, Rigid::fromXyzYawPitchRoll(0, 0, 0, 0.1 * M_PI / 180, 0, 0));
   EXPECT_LT(countFound(map, pointsOfTurn(turned, capture, kFirstTurn), 1e-5f), map.size() / 100);
 }

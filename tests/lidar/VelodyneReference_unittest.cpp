@@ -1,4 +1,4 @@
-/** Recordings of four models, decoded by us and by programs that are not ours. */
+/** Recordings of four models, decoded by us and by other programs. */
 #include <gtest/gtest.h>
 
 #include <algorithm>

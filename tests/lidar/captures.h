@@ -2,7 +2,7 @@
 #pragma once
 #include "core/Bytes.h"
 #include "lidar/OusterDecoder.h"
-#include "source/CaptureReader.h"
+#include "packets/CaptureReader.h"
 #include "support/TestData.h"
 
 #include <string>

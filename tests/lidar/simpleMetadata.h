@@ -1,4 +1,4 @@
-/** A sensor made up for tests: few channels, so that a packet can be looked at. */
+/** A made-up sensor of few channels for tests. */
 #pragma once
 #include "lidar/OusterEncoder.h"
 
@@ -33,7 +33,7 @@ inline OusterMetadata simpleMetadata(const std::string& profile, int channels = 
   return m;
 }
 
-/** Columns of one packet; every field of every channel at random, ranges within the shortest reach of all profiles. */
+/** Columns of one packet with random fields in all channels; ranges fit into every profile. */
 inline std::vector<OusterColumn> randomColumns(const OusterMetadata& m, std::uint32_t seed, std::uint32_t frame_id = 7,
                                                std::uint16_t first_column = 32)
 {

@@ -1,6 +1,6 @@
 #include "mrpt_bridge/CMultiLidarSensor.h"
 
-#include "config/ConfigError.h"
+#include "core/ConfigError.h"
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogReader.h"
 #include "mrpt_bridge/registerClasses.h"
@@ -108,8 +108,7 @@ TEST(CMultiLidarSensor, givesHeaderThenScansAndImuThenEnds)
   EXPECT_EQ(header->lidars.at(0).body_T_sensor.translation.z(), 2);
   EXPECT_EQ(countOf<mrpt::obs::CObservationIMU>(all.observations), 30u) << "as many as there are IMU packets";
   EXPECT_GE(countOf<mrpt::obs::CObservationPointCloud>(all.observations), 3u) << "0.3 s at 10 Hz";
-  EXPECT_EQ(countOf<mrpt::obs::CObservationComment>(all.observations), 2u)
-      << "the header, and the sacrifice at the end";
+  EXPECT_EQ(countOf<mrpt::obs::CObservationComment>(all.observations), 2u) << "the header, and the comment at the end";
 }
 
 TEST(CMultiLidarSensor, namesImusAndTurnsGravityUpInTheBodyFrame)
@@ -161,7 +160,8 @@ TEST(CMultiLidarSensor, givesXyziCloudsIfAskedTo)
 TEST(CMultiLidarSensor, namesTheKeyThatIsWrongAndTheOneThatWasMeant)
 {
   const std::string complaint = complaintAbout(sectionFor("a.pcap", "a.json") + "scan_rte = 20\n");
-  EXPECT_NE(complaint.find("section 'lidars': unknown key 'scan_rte': did you mean 'scan_rate'?"), std::string::npos)
+  EXPECT_NE(complaint.find("section 'lidars': scan_rte is an unknown key: did you mean 'scan_rate'?"),
+            std::string::npos)
       << complaint;
 }
 

@@ -1,7 +1,9 @@
 /** RawlogWriter, RawlogReader and RawlogInfo on files. */
+#include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogInfo.h"
 #include "mrpt_bridge/RawlogReader.h"
 #include "mrpt_bridge/RawlogWriter.h"
+#include "mrpt_bridge/RecordingHeaderJson.h"
 #include "mrpt_bridge/registerClasses.h"
 #include "someScan.h"
 #include "support/TemporaryFolder.h"
@@ -27,15 +29,15 @@ class Rawlog : public testing::Test
 {
  protected:
   /** `scans` scans of 120 points, each with two IMU samples. */
-  fs::path written(int scans, const RawlogOptions& options = {})
+  fs::path written(int scans, const RawlogOptions& options = {}, CloudClass cloud = CloudClass::CGenericPointsMap)
   {
     RawlogWriter writer(path_, someHeader(), options);
     for (int i = 0; i < scans; i++)
     {
       const Timestamp start = fromNanoseconds(kStart) + i * 100ms;
-      writer.write(someScan(start));
-      writer.write(ImuSample{start + 10ms, {1, 2, 3}, {4, 5, 6}}, kBodyTImu);
-      writer.write(ImuSample{start + 60ms, {1, 2, 3}, {4, 5, 6}}, kBodyTImu);
+      writer.write(*toObservation(someScan(start), cloud));
+      writer.write(*toObservation(ImuSample{start + 10ms, {1, 2, 3}, {4, 5, 6}}, kBodyTImu));
+      writer.write(*toObservation(ImuSample{start + 60ms, {1, 2, 3}, {4, 5, 6}}, kBodyTImu));
     }
     writer.close();
     return path_;
@@ -115,7 +117,7 @@ TEST_F(Rawlog, hasItsNameOnlyWhenItIsWhole)
 {
   {
     RawlogWriter writer(path_, someHeader());
-    writer.write(someScan(fromNanoseconds(kStart)));
+    writer.write(*toObservation(someScan(fromNanoseconds(kStart))));
     EXPECT_FALSE(fs::exists(path_));
   }
   EXPECT_FALSE(fs::exists(path_));
@@ -128,7 +130,7 @@ TEST_F(Rawlog, leavesAnOlderFileAloneUntilTheNewOneIsWhole)
   written(1);
   {
     RawlogWriter interrupted(path_, someHeader());
-    interrupted.write(someScan(fromNanoseconds(kStart)));
+    interrupted.write(*toObservation(someScan(fromNanoseconds(kStart))));
   }
   EXPECT_EQ(rawlogInfo(path_).observations(), 3u);
 }
@@ -158,7 +160,7 @@ TEST_F(Rawlog, saysSoWhenTheDiskIsFull)
   EXPECT_THROW(
       {
         RawlogWriter writer(path_, someHeader());
-        writer.write(someScan({}));
+        writer.write(*toObservation(someScan({})));
         writer.close();
       },
       std::runtime_error);
@@ -166,7 +168,7 @@ TEST_F(Rawlog, saysSoWhenTheDiskIsFull)
 
 TEST_F(Rawlog, isReadUpToWhereItWasCut)
 {
-  written(20, {0, CloudClass::CGenericPointsMap});
+  written(20, {0});
   const std::string whole = bytes();
   int last = -1;
   for (const double share : {0.02, 0.3, 0.6, 0.95})
@@ -184,7 +186,7 @@ TEST_F(Rawlog, isReadUpToWhereItWasCut)
 
 TEST_F(Rawlog, isReadUpToWhereItWasDamaged)
 {
-  written(20, {1, CloudClass::CGenericPointsMap});
+  written(20, {1});
   std::string damaged = bytes();
   for (std::size_t i = 0; i < 64; i++) damaged[damaged.size() / 2 + i] ^= 0x5A;
   overwrite(damaged);
@@ -197,7 +199,7 @@ TEST_F(Rawlog, isReadUpToWhereItWasDamaged)
 
 TEST_F(Rawlog, cutWithinItsLastCheckSumIsStillSaidToBeCut)
 {
-  written(2, {0, CloudClass::CGenericPointsMap});
+  written(2, {0});
   overwrite(bytes().substr(0, bytes().size() - 4));
 
   RawlogReader reader(path_);
@@ -236,7 +238,7 @@ TEST_F(Rawlog, isCountedByLabelAndClass)
 
 TEST_F(Rawlog, holdsXyziCloudsIfAskedTo)
 {
-  const RawlogInfo info = rawlogInfo(written(1, {1, CloudClass::CPointsMapXYZI}));
+  const RawlogInfo info = rawlogInfo(written(1, {}, CloudClass::CPointsMapXYZI));
   EXPECT_EQ(info.sensors.at(1).cloud_class, "mrpt::maps::CPointsMapXYZI");
 }
 }  // namespace scanloom

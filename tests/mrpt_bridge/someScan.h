@@ -1,7 +1,7 @@
 /** A small scan of two lidars, as the batcher would give it, for tests of what is written and read. */
 #pragma once
 #include "batching/Scan.h"
-#include "mrpt_bridge/RecordingHeader.h"
+#include "rig/RecordingHeader.h"
 
 namespace scanloom
 {

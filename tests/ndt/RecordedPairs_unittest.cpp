@@ -1,5 +1,6 @@
 /** Registration of recorded clouds against the transforms that came with them. */
 #include "ndt/Registration.h"
+#include "ndt/briefOf.h"
 #include "support/PointFile.h"
 #include "support/TestData.h"
 
@@ -155,7 +156,7 @@ TEST(RecordedPair, ofAStandingVehicleIsFoundToMillimetres)
     const Rigid truth = world_T_lidar[i - 1].inverse() * world_T_lidar[i];
     std::mt19937_64 random(i);
     const RegistrationResult result = align(target, source, truth * offBy(0.2, 2, random), {});
-    EXPECT_EQ(result.outcome, Outcome::Converged) << result.brief();
+    EXPECT_EQ(result.outcome, Outcome::Converged) << briefOf(result);
     metres.push_back(errorOf(result.target_T_source, truth).metres);
     degrees.push_back(errorOf(result.target_T_source, truth).degrees);
   }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "config/ConfigError.h"
+#include "core/ConfigError.h"
 #include "preprocessing/Crop.h"
 #include "preprocessing/Deskew.h"
 #include "preprocessing/Thin.h"
@@ -36,7 +36,7 @@ TEST(Crop, removesTheMachineAndLeavesItsColumnsInPlace)
   CropOptions box;
   box.min_x = box.min_y = box.min_z = -1;
   box.max_x = box.max_y = box.max_z = 1;
-  const Scan cropped = cropOut(scanOf({{5, 0, 0}, {0.9f, 0.9f, -0.9f}, {0, 1.1f, 0}}), box).scan;
+  const Scan cropped = cropOut(scanOf({{5, 0, 0}, {0.9f, 0.9f, -0.9f}, {0, 1.1f, 0}}), cropOf(box)).scan;
   ASSERT_EQ(cropped.points.size(), 2u);
   EXPECT_EQ(cropped.points.y[1], 1.1f);
   ASSERT_EQ(cropped.columns.size(), 3u);
@@ -48,7 +48,7 @@ TEST(Crop, removesWhatIsTooFarOrNotFinite)
 {
   CropOptions options;
   options.max_range = 50;
-  EXPECT_EQ(cropOut(scanOf({{60, 0, 0}, {40, 0, 0}, {NAN, 0, 10}}), options).scan.points.size(), 1u);
+  EXPECT_EQ(cropOut(scanOf({{60, 0, 0}, {40, 0, 0}, {NAN, 0, 10}}), cropOf(options)).scan.points.size(), 1u);
 }
 
 TEST(Crop, countsEveryPointOnceByLidarAndByWhatRemovedIt)
@@ -60,7 +60,7 @@ TEST(Crop, countsEveryPointOnceByLidarAndByWhatRemovedIt)
   scan.columns[5].sensor_id = 1;
   scan.points.sensor_id[5] = 1;
 
-  const std::vector<CropCounts> counts = cropOut(scan, options).counts;
+  const std::vector<CropCounts> counts = cropOut(scan, cropOf(options)).counts;
 
   ASSERT_EQ(counts.size(), 2u);
   EXPECT_EQ(counts[0].machine, 1u);
@@ -80,7 +80,9 @@ TEST(Crop, removesFromEachLidarWhatIsInItsOwnBoxAndLeavesItToTheOthers)
   Scan scan = scanOf({{20, 5, 0}, {20, 5, 0}, {15, 0, 0}});
   for (const std::size_t i : {1, 2}) scan.columns[i].sensor_id = scan.points.sensor_id[i] = 1;
 
-  const CroppedScan cropped = cropOut(scan, {}, lidarBoxes("right 4 -1 -1 6 1 1", lidars));
+  CropOptions options;
+  options.lidar_boxes = "right 4 -1 -1 6 1 1";
+  const CroppedScan cropped = cropOut(scan, cropOf(options, lidars));
 
   EXPECT_EQ(cropped.scan.points.size(), 2u);
   EXPECT_EQ(cropped.counts[0].kept, 1u);

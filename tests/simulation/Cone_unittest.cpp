@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mantle.h"
+
 namespace scanloom
 {
 namespace
@@ -41,7 +43,7 @@ TEST(Cone, isEnteredWhereTheFirstPointLiesInside)
   const auto isInside = [&](const Eigen::Vector3d& p)
   {
     const double along = (p - cone.base).dot(cone.axis);
-    return along >= 0 && along <= cone.length && cone.distanceToMantle(p) < 0;
+    return along >= 0 && along <= cone.length && distanceToMantle(cone, p) < 0;
   };
   Random random(1, RandomStream::Stand, 0);
   int met = 0;

@@ -72,7 +72,7 @@ TEST(Foliage, letsLightThroughAsBeerAndLambertSay)
   EXPECT_NEAR(depth / (kRays - through), mean, 0.02);
 }
 
-/** Whatever the walk skips as open space: against small steps that look at every place. */
+/** Skipping open space loses no leaf: compared with small steps along the ray. */
 TEST(Foliage, isMetWhereTheSumOfItsExtinctionReachesTheDepth)
 {
   const Foliage foliage = somePlants();

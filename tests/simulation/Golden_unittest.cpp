@@ -1,4 +1,4 @@
-/** The bytes of small recordings, known by their checksums: nothing changes them unnoticed. */
+/** Checksums of small simulated recordings: any change of their bytes fails this test. */
 #include "simulation/ScenePackets.h"
 #include "support/TestData.h"
 
@@ -11,7 +11,7 @@ namespace scanloom
 {
 namespace
 {
-/** FNV-1a. Not a CRC: that of packets which end with their own one is the same for all. */
+/** FNV-1a. Not a CRC: that of a packet together with its own CRC is always the same. */
 class Checksum
 {
  public:
@@ -44,7 +44,7 @@ std::string checksumOf(const char* file)
 }
 }  // namespace
 
-/** A change of the world, the machine or the sensors that is meant changes these: put the new ones here. */
+/** An intended change of world, machine or sensors changes these: then enter the new values here. */
 TEST(Golden, recordingsOfTheFirstSecondHaveTheirChecksums)
 {
   EXPECT_EQ(checksumOf("demo.ini"), "eb501f38c9cef736");

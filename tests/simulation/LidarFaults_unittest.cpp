@@ -1,8 +1,8 @@
-/** Every fault that can be asked for, as the batcher and the decoder see it. */
+/** Every configurable fault, as batcher and decoder see it. */
 #include "lidar/OusterDecoder.h"
+#include "rig/Extrinsics.h"
 #include "simulation/SceneInput.h"
 #include "simulation/ScenePackets.h"
-#include "source/Extrinsics.h"
 
 #include <gmock/gmock.h>
 
@@ -16,7 +16,7 @@ namespace
 {
 using testing::HasSubstr;
 
-/** Few beams in an empty world; the left lidar is to suffer. */
+/** Few beams in an empty world; the left lidar gets the faults. */
 SimulationSettings twoSmallLidars(double duration = 4)
 {
   SimulationSettings settings;
@@ -43,7 +43,7 @@ Received batched(const SimulationSettings& settings)
   const auto scene = std::make_shared<const Scene>(makeScene(settings, 1));
   BatcherOptions batcher;
   batcher.deadline_ms = 50;
-  const auto input = makeSceneRigInput(scene, rigOf(*scene, batcher));
+  const auto input = makeSceneInput(scene, rigOf(*scene, batcher));
   Received received;
   while (auto event = input->next())
     if (auto* scan = std::get_if<Scan>(&*event)) received.scans.push_back(std::move(*scan));
@@ -52,7 +52,7 @@ Received batched(const SimulationSettings& settings)
   return received;
 }
 
-/** The left lidar's packets, as they come. */
+/** The left lidar's packets in the order of receipt. */
 void forEachLeft(const SimulationSettings& settings,
                  const std::function<void(const Datagram&, const OusterDecoder&)>& visit)
 {

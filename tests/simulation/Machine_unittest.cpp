@@ -55,7 +55,7 @@ TEST(Machine, hidesAboutAThirdOfEachLidarsDirections)
     double hidden = 0, rays = 0;
     const double t = 20;  // at work
     const Moment moment = scene.scenery.at(t);
-    const Rigid world_T_sensor = moment.worldTBody() * station.runs[0].lidar.bodyTSensor();
+    const Rigid world_T_sensor = moment.worldTBody() * station.written_body_T_sensor;
     for (int i = 0; i < 512; ++i)
       for (int j = 0; j < 32; ++j)
       {
@@ -115,7 +115,7 @@ TEST(Boom, slewsAtTheRatesThatWereGivenWhileItWorksAndRestsWhileItDrives)
     else if (route.driving(t).value > 0)
     {
       EXPECT_EQ(boom.at(t).slew, 0) << t;
-      EXPECT_EQ(boom.at(t).reach, settings.boom.reach_rest) << t;
+      EXPECT_EQ(boom.at(t).reach, settings.boom.reach.reach_rest) << t;
     }
   }
   EXPECT_GT(fastest, 20);
@@ -136,7 +136,7 @@ TEST(Boom, doesNotJump)
 TEST(Boom, refusesReachesThatItsLinksDoNotHave)
 {
   BoomOptions options;
-  options.reach_max = 9;
+  options.reach.reach_max = 9;
   const SimulationSettings settings = working();
   EXPECT_THROW(Boom(options, Route(settings.drive, settings.work, 1), 1), std::invalid_argument);
 }

@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "mantle.h"
+
 namespace scanloom
 {
 namespace
@@ -83,7 +85,7 @@ TEST(MovingObjects, areNoneWhereNoneAreWanted)
 {
   ObjectOptions none;
   none.person_every = none.vehicle_every = 0;
-  none.felled_trees = false;
+  none.trees.felled_trees = false;
   const Drive drive = workDay();
   const MovingObjects objects(none, drive, 1);
   for (double t = 0; t < 900; t += 10) EXPECT_TRUE(objects.at(t).empty());
@@ -103,7 +105,7 @@ TEST(MovingObjects, standWhereTheyAreSaidToBe)
   const auto cones = conesOf({person, tree});
   ASSERT_EQ(cones.size(), 2u);
   EXPECT_NEAR(castCone(cones[0], {{-7, 4, 1.5}, Eigen::Vector3d::UnitX()})->range, 9.75, 1e-12);
-  EXPECT_NEAR(cones[1].distanceToMantle({3, 4, 0.5}), -0.12, 1e-3) << "at its foot";
+  EXPECT_NEAR(distanceToMantle(cones[1], {3, 4, 0.5}), -0.12, 1e-3) << "at its foot";
   const auto lying = castCone(cones[1], {{3, 10, 5}, -Eigen::Vector3d::UnitZ()});
   ASSERT_TRUE(lying) << "it fell along y";
   EXPECT_NEAR(lying->range, 4.5 - 0.12 * (1 - 0.8 * 6 / 16), 1e-3);

@@ -1,5 +1,5 @@
-/** source/OusterHttp and source/SensorHttp against the fake sensor: what a healthy one tells, and every fault. */
-#include "source/OusterHttp.h"
+/** packets/OusterHttp and packets/SensorHttp against the fake sensor: what a healthy one tells, and every fault. */
+#include "packets/OusterHttp.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -12,7 +12,7 @@
 
 #include "lidar/OusterMetadata.h"
 #include "simulation/AssumedOuster.h"
-#include "simulation/FakeSensor.h"
+#include "support/FakeSensor.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
@@ -32,6 +32,12 @@ SensorAddress addressOf(const FakeSensor& sensor) { return SensorAddress::parse(
 /** What parseOusterMetadata makes of a text, as a text again: equal if every field is. */
 std::string fieldsOf(const std::string& metadata) { return toJson(parseOusterMetadata(metadata, "metadata")); }
 
+std::string metadataOf(const FakeSensor& sensor)
+{
+  SensorHttp http(addressOf(sensor), {});
+  return fetchOusterMetadata(http);
+}
+
 struct Failure
 {
   SensorFault fault;
@@ -45,7 +51,8 @@ Failure failureOf(const SensorAddress& address, const SensorHttpLimits& limits =
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   try
   {
-    fetchOusterMetadata(address, limits);
+    SensorHttp http(address, limits);
+    fetchOusterMetadata(http);
   }
   catch (const SensorHttpError& error)
   {
@@ -60,17 +67,16 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 TEST(OusterHttp, metadataOfASensorAreThoseOfItsFile)
 {
   const FakeSensor sensor(someMetadata());
-  EXPECT_EQ(fieldsOf(fetchOusterMetadata(addressOf(sensor))), fieldsOf(someMetadata()));
+  EXPECT_EQ(fieldsOf(metadataOf(sensor)), fieldsOf(someMetadata()));
 }
 
-TEST(OusterHttp, tellsFirmwareStatusAndConfiguration)
+TEST(OusterHttp, metadataTellStatusAndTheConfigurationInUse)
 {
   SCANLOOM_NEEDS_DATA(file, "ouster/ouster-lidar+ouster-sdk/tests/metadata/2_5_0_os-992146000760-128.json");
   const FakeSensor sensor(contentOf(file));
-  SensorHttp http(addressOf(sensor), {});
-  EXPECT_EQ(fetchOusterFirmware(http), "2.5.0");
-  EXPECT_EQ(fetchOusterStatus(http), "RUNNING");
-  EXPECT_EQ(nlohmann::json::parse(fetchOusterConfig(http)).at("udp_dest"), "10.0.0.167");
+  const auto metadata = nlohmann::json::parse(metadataOf(sensor));
+  EXPECT_EQ(metadata.at("sensor_info").at("status"), "RUNNING");
+  EXPECT_EQ(metadata.at("config_params").at("udp_dest"), "10.0.0.167");
 }
 
 TEST(OusterHttp, readsEveryRealSensorFromFirmware20OnByNewAndOldEndpoints)
@@ -94,7 +100,7 @@ TEST(OusterHttp, readsEveryRealSensorFromFirmware20OnByNewAndOldEndpoints)
           ++refused;
           continue;
         }
-        EXPECT_EQ(fieldsOf(fetchOusterMetadata(addressOf(sensor))), fieldsOf(text)) << entry.path() << old;
+        EXPECT_EQ(fieldsOf(metadataOf(sensor)), fieldsOf(text)) << entry.path() << old;
         ++read;
       }
     }
@@ -107,7 +113,7 @@ TEST(OusterHttp, configurationIsAskedForWhereTheMetadataHaveNone)
   FakeSensorOptions options;
   options.old_endpoints = true;
   const FakeSensor sensor(someMetadata(), options);
-  EXPECT_EQ(parseOusterMetadata(fetchOusterMetadata(addressOf(sensor)), "metadata").lidar_port, 7502);
+  EXPECT_EQ(parseOusterMetadata(metadataOf(sensor), "metadata").lidar_port, 7502);
   const auto requests = sensor.requests();
   EXPECT_EQ(std::count(requests.begin(), requests.end(), "GET /api/v1/sensor/cmd/get_config_param?args=active"), 1);
 }
@@ -120,7 +126,7 @@ TEST(OusterHttp, askingNeverWritesToASensor)
     options.old_endpoints = old;
     const FakeSensor sensor(someMetadata(), options);
     const std::string before = sensor.metadata();
-    fetchOusterMetadata(addressOf(sensor));
+    metadataOf(sensor);
     EXPECT_EQ(sensor.metadata(), before);
     for (const std::string& request : sensor.requests())
       EXPECT_TRUE(contains(request, "GET ") && !contains(request, "set_") && !contains(request, "reinit")) << request;
@@ -177,7 +183,7 @@ TEST_P(SensorFaults, leaveASensorThatRecoversUsable)
   sensor.set(GetParam().given);
   failureOf(addressOf(sensor), {200ms, 1024 * 1024});
   sensor.set(FakeFault::None);
-  EXPECT_EQ(fieldsOf(fetchOusterMetadata(addressOf(sensor))), fieldsOf(someMetadata()));
+  EXPECT_EQ(fieldsOf(metadataOf(sensor)), fieldsOf(someMetadata()));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -220,7 +226,7 @@ TEST(OusterHttp, aSensorThatStartsIsRefusedUntilItRuns)
   EXPECT_TRUE(contains(failure.message, "INITIALIZING")) << failure.message;
 
   std::this_thread::sleep_for(350ms);
-  EXPECT_EQ(parseOusterMetadata(fetchOusterMetadata(addressOf(sensor)), "metadata").init_id, 4712u);
+  EXPECT_EQ(parseOusterMetadata(metadataOf(sensor), "metadata").init_id, 4712u);
 }
 
 TEST(OusterHttp, aSensorOnStandbySaysHowToWakeIt)

@@ -2,8 +2,8 @@
  */
 #include "core/Bytes.h"
 #include "lidar/Crc64.h"
+#include "packets/CaptureReader.h"
 #include "simulation/ScenePackets.h"
-#include "source/CaptureReader.h"
 #include "support/TestData.h"
 
 #include <gtest/gtest.h>

@@ -28,7 +28,7 @@ RangingOptions plain()
   RangingOptions options;
   options.range_at_ten_percent = 20;
   options.least_range = 0.3;
-  options.stem = 0.1;
+  options.reflectivity.stem = 0.1;
   options.shade = 0;
   return options;
 }

@@ -1,13 +1,13 @@
 #include "simulation/RecordingFolder.h"
 
 #include "config/Configuration.h"
+#include "formats/EurocImu.h"
+#include "formats/Trajectory.h"
 #include "imu/Preintegration.h"
 #include "lidar/OusterDecoder.h"
-#include "output/Trajectory.h"
+#include "packets/CaptureReader.h"
+#include "rig/Extrinsics.h"
 #include "simulation/Machine.h"
-#include "source/CaptureReader.h"
-#include "source/EurocImu.h"
-#include "source/Extrinsics.h"
 #include "support/TemporaryFolder.h"
 
 #include <fmt/format.h>
@@ -17,6 +17,8 @@
 
 #include <algorithm>
 #include <map>
+
+#include "mantle.h"
 
 namespace scanloom
 {
@@ -32,8 +34,8 @@ SimulationSettings shortDrive()
   settings.ranging.range_noise = 0.02;
   settings.ranging.range_noise_weak = 0;
   settings.objects.person_every = settings.objects.vehicle_every = 0;
-  // Ground and stems alone: surfaces that a test knows.
-  settings.forest.trees.living_branches = settings.forest.trees.dead_branches = 0;
+  // Ground and stems only: surfaces that the test can compute.
+  settings.forest.trees.branches.living_branches = settings.forest.trees.branches.dead_branches = 0;
   settings.forest.stand.stumps_per_hectare = 0;
   settings.forest.foliage.leaf_area_density = settings.forest.foliage.undergrowth_cover = 0;
   return settings;
@@ -52,7 +54,7 @@ std::map<std::string, std::string> contents(const std::filesystem::path& folder)
   for (const std::string& name : recordingFileNames(shortDrive())) files[name] = contentOf(folder / name);
   return files;
 }
-/** A lidar of a recorded folder, as a stranger would set it up: from the files alone. */
+/** The decoder of a lidar, made from the files of the recording alone. */
 OusterDecoder decoderOf(const std::filesystem::path& folder, const std::string& name)
 {
   return {loadOusterMetadata((folder / (name + ".json")).string()),
@@ -101,8 +103,8 @@ Surroundings nearestSurface(const World& world, const Eigen::Vector3d& p)
   const Eigen::Vector3d up = world.ground().normal(p.x(), p.y());
   Surroundings nearest{(p.z() - world.ground().height(p.x(), p.y())) * up.z(), up};
   for (const Stem& stem : world.stems())
-    if ((stem.foot - p).head<2>().norm() < 4 && std::abs(stem.wood().distanceToMantle(p)) < std::abs(nearest.distance))
-      nearest = {stem.wood().distanceToMantle(p), stem.wood().normal(p)};
+    if ((stem.foot - p).head<2>().norm() < 4 && std::abs(distanceToMantle(stem.wood(), p)) < std::abs(nearest.distance))
+      nearest = {distanceToMantle(stem.wood(), p), stem.wood().normal(p)};
   return nearest;
 }
 

@@ -1,4 +1,4 @@
-/** A rig that knows only its sensors' addresses: source/Rig, RigSensor, LidarMetadata, SensorInquiries. */
+/** A rig that is configured by the sensors' addresses only: rig/Rig, RigSensor, LidarMetadata, SensorInquiries. */
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "lidar/OusterMetadata.h"
+#include "rig/Rig.h"
+#include "rig/SensorInquiries.h"
 #include "simulation/AssumedOuster.h"
-#include "simulation/FakeSensor.h"
-#include "source/Rig.h"
-#include "source/SensorInquiries.h"
+#include "support/FakeSensor.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 

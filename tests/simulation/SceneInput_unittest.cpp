@@ -1,7 +1,7 @@
 #include "simulation/SceneInput.h"
 
+#include "rig/RigReplay.h"
 #include "simulation/RecordingFolder.h"
-#include "source/RigReplay.h"
 #include "support/TemporaryFolder.h"
 
 #include <fmt/format.h>
@@ -48,7 +48,7 @@ TEST(SceneInput, givesTheEventsOfTheWrittenRecordingToTheBit)
       "x.ini");
   const RigSettings settings = readRigSettings(configuration, "rig");
   RigReplay written(makeRig(settings));
-  const auto direct = makeSceneRigInput(scene, rigOf(*scene, settings.batcher));
+  const auto direct = makeSceneInput(scene, rigOf(*scene, settings.batcher));
 
   int scans = 0, imu = 0;
   while (auto expected = written.next())

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "mantle.h"
+
 namespace scanloom
 {
 namespace
@@ -14,7 +16,7 @@ Eigen::Vector3d randomVector(Random& random)
   return {x, y, z};
 }
 
-/** Steps along the ray, for comparison: the first point with inside(p), to 1 mm. */
+/** For comparison: the first point along the ray with inside(p), in steps of 1 mm. */
 template <typename Inside>
 std::optional<double> march(const Ray& ray, Inside&& inside)
 {
@@ -90,7 +92,7 @@ TEST(Solids, aCylinderSeenSquarelyHasItsRadiusAndItsNormal)
   EXPECT_NEAR(from_above->range, 5, 1e-12);
   EXPECT_FALSE(castCone(upright, {{-5, 0.26, 1}, Eigen::Vector3d::UnitX()}));
   EXPECT_FALSE(castCone(upright, {{5, 0, 1}, Eigen::Vector3d::UnitX()})) << "behind";
-  EXPECT_NEAR(upright.distanceToMantle({1, 0, 1}), 0.75, 1e-12);
+  EXPECT_NEAR(distanceToMantle(upright, {1, 0, 1}), 0.75, 1e-12);
 }
 }  // namespace
 }  // namespace scanloom

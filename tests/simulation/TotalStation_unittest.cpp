@@ -20,7 +20,7 @@ SimulationSettings atRest()
   settings.drive.standstill = 1000;
   settings.drive.duration = 200;
   settings.objects.person_every = settings.objects.vehicle_every = 0;
-  settings.objects.felled_trees = false;
+  settings.objects.trees.felled_trees = false;
   settings.machine = {"", "", "", ""};
   settings.boom.boom = false;
   settings.forest.stand.stems_per_hectare = settings.forest.stand.stumps_per_hectare = 0;

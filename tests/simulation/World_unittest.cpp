@@ -129,7 +129,7 @@ TEST(World, hasTheStemDiametersOfItsTable)
 {
   ForestOptions options;
   options.foliage.undergrowth_cover = 0;
-  options.trees.dead_branches = 0;
+  options.trees.branches.dead_branches = 0;
   const World world = worldAround(options);
   int measured = 0;
   double largest_error = 0;

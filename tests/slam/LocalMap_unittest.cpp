@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "ndt/cellAt.h"
+
 using namespace scanloom;
 
 namespace
@@ -39,9 +41,9 @@ TEST(LocalMap, keepsTheLastThreeKeyframes)
   LocalMap map({}, {});
   for (int i = 0; i < 5; ++i) map.add(cube(), at(10 * i));
   EXPECT_EQ(map.ndt().points(), 3u * 27u);
-  EXPECT_EQ(map.ndt().cellAt({10, 0, 0}), nullptr);
-  ASSERT_NE(map.ndt().cellAt({40, 0, 0}), nullptr);
-  EXPECT_NEAR(map.ndt().cellAt({40, 0, 0})->mean.x(), 40.5, 1e-4);
+  EXPECT_EQ(cellAt(map.ndt(), {10, 0, 0}), nullptr);
+  ASSERT_NE(cellAt(map.ndt(), {40, 0, 0}), nullptr);
+  EXPECT_NEAR(cellAt(map.ndt(), {40, 0, 0})->mean.x(), 40.5, 1e-4);
 }
 
 TEST(LocalMap, keepsAllWithinTheRadiusAndTakesUpThoseOfAnEarlierPass)
@@ -50,11 +52,11 @@ TEST(LocalMap, keepsAllWithinTheRadiusAndTakesUpThoseOfAnEarlierPass)
   options.radius = 15;
   LocalMap map(options, {});
   for (const double x : {0, 10, 20, 30}) map.add(cube(), at(x));
-  EXPECT_EQ(map.ndt().cellAt({0, 0, 0}), nullptr);
+  EXPECT_EQ(cellAt(map.ndt(), {0, 0, 0}), nullptr);
   EXPECT_EQ(map.ndt().points(), 2u * 27u);
   map.add(cube(), at(5));
   EXPECT_EQ(map.ndt().points(), 4u * 27u) << "0, 5, 10 and 20";
-  ASSERT_NE(map.ndt().cellAt({0, 0, 0}), nullptr);
+  ASSERT_NE(cellAt(map.ndt(), {0, 0, 0}), nullptr);
 }
 
 TEST(LocalMap, keyframesThatOverlapShareCells)

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "StandOfStems.h"
+#include "slam/SlamSettings.h"
 
 using namespace scanloom;
 
@@ -16,7 +17,7 @@ std::vector<View> viewsAt(const Rigid& map_T_body, unsigned stand = 1)
 }
 
 /** Of a scan taken at kMapPose, in its frame. */
-NdtMap mapOfOneScan(const SlamSettings& settings) { return NdtMap(viewsAt(kMapPose), settings.map_cells); }
+NdtMap mapOfOneScan() { return NdtMap(viewsAt(kMapPose), SlamSettings().map_cells); }
 
 PoseGuess guessWith(const Rigid& pose, double metres, double radians)
 {
@@ -25,46 +26,54 @@ PoseGuess guessWith(const Rigid& pose, double metres, double radians)
   return {pose, Matrix6d(sigma.cwiseAbs2().asDiagonal())};
 }
 
+RegistrationResult registerScan(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
+                                const ScanRegistrationOptions& options)
+{
+  StageTimes times;
+  return registerFinely(map, views, registerRoughly(map, views, guess, options, times).target_T_source, options, times);
+}
+
+std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views, const SearchArea& area)
+{
+  const ScanRegistrationOptions options = SlamSettings().registration;
+  return scanloom::relocalise(map, views, area, options.fine_cells, options.fine);
+}
+
 double distance(const Rigid& a, const Rigid& b) { return boxMinus(a, b).norm(); }
 }  // namespace
 
 TEST(ScanRegistration, findsAPoseFromWithinTheReachOfTheRoughCells)
 {
-  const SlamSettings settings;
-  StageTimes times;
   const Rigid truth = Rigid::fromXyzYawPitchRoll(1, -0.5, 0.1, 0.1, 0, 0.02);
   const Rigid off = truth * Rigid::fromXyzYawPitchRoll(0.3, -0.2, 0.1, 0.03, 0, 0);
   const auto result =
-      registerScan(mapOfOneScan(settings), viewsAt(kMapPose * truth), guessWith(off, 0.2, 0.02), settings, times);
+      registerScan(mapOfOneScan(), viewsAt(kMapPose * truth), guessWith(off, 0.2, 0.02), SlamSettings().registration);
   EXPECT_LT(distance(result.target_T_source, truth), 0.02);
 }
 
 TEST(ScanRegistration, goesThroughCoarserCellsWhenTheGuessIsUnsure)
 {
-  const SlamSettings settings;
-  StageTimes times;
   const Rigid truth = Rigid::fromXyzYawPitchRoll(1, -0.5, 0.1, 0.1, 0, 0.02);
   const Rigid off = truth * Rigid::fromXyzYawPitchRoll(1.5, -1.5, 0, 0.25, 0, 0);
-  const NdtMap map = mapOfOneScan(settings);
+  const NdtMap map = mapOfOneScan();
   const std::vector<View> cloud = viewsAt(kMapPose * truth);
-  EXPECT_LT(distance(registerScan(map, cloud, guessWith(off, 1.2, 0.15), settings, times).target_T_source, truth),
-            0.02);
+  EXPECT_LT(
+      distance(registerScan(map, cloud, guessWith(off, 1.2, 0.15), SlamSettings().registration).target_T_source, truth),
+      0.02);
 }
 
 TEST(ScanRegistration, relocalisesFromAnywhereNearby)
 {
-  const SlamSettings settings;
   const Rigid truth = Rigid::fromXyzYawPitchRoll(2, 1, 0, 0.3, 0, 0);
-  const auto found = relocalise(mapOfOneScan(settings), viewsAt(kMapPose * truth),
-                                SearchArea{Rigid::fromXyzYawPitchRoll(-2, 4, 0, 2.5, 0, 0), 5}, settings);
+  const auto found = relocalise(mapOfOneScan(), viewsAt(kMapPose * truth),
+                                SearchArea{Rigid::fromXyzYawPitchRoll(-2, 4, 0, 2.5, 0, 0), 5});
   ASSERT_TRUE(found);
   EXPECT_LT(distance(found->target_T_source, truth), 0.05);
 }
 
 TEST(ScanRegistration, relocalisesFromTiltsThatAreFarOff)
 {
-  const SlamSettings settings;
-  const NdtMap map = mapOfOneScan(settings);
+  const NdtMap map = mapOfOneScan();
   const Rigid truth = Rigid::fromXyzYawPitchRoll(2, 1, 0, 0.3, 0, 0);
   const std::vector<View> cloud = viewsAt(kMapPose * truth);
   for (const double degrees : {7.0, 15.0})
@@ -72,7 +81,7 @@ TEST(ScanRegistration, relocalisesFromTiltsThatAreFarOff)
     {
       Rigid start = truth * Rigid::fromXyzYawPitchRoll(-2, 1.2, 0, 0.05, 0, 0);
       start.rotation = Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()) * start.rotation;
-      const auto found = relocalise(map, cloud, SearchArea{start, 3, 1}, settings);
+      const auto found = relocalise(map, cloud, SearchArea{start, 3, 1});
       ASSERT_TRUE(found) << degrees;
       EXPECT_LT(distance(found->target_T_source, truth), 0.05) << degrees;
     }
@@ -99,6 +108,5 @@ TEST(ScanRegistration, whatTheLidarLeavesOpenIsKnownAsWellAsTheSearchKnewIt)
 
 TEST(ScanRegistration, doesNotRelocaliseInAnotherStand)
 {
-  const SlamSettings settings;
-  EXPECT_FALSE(relocalise(mapOfOneScan(settings), viewsAt(kMapPose, 7), SearchArea{}, settings));
+  EXPECT_FALSE(relocalise(mapOfOneScan(), viewsAt(kMapPose, 7), SearchArea{}));
 }

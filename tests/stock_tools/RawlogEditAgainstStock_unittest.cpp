@@ -1,8 +1,8 @@
 /** Where MRPT's rawlog-edit has the same operation, it gives the same bytes. */
-#include "dataset/RawlogCut.h"
-#include "dataset/RawlogLabels.h"
-#include "dataset/SplitLidars.h"
-#include "dataset/smallRawlog.h"
+#include "edit/RawlogCut.h"
+#include "edit/RawlogLabels.h"
+#include "edit/SplitLidars.h"
+#include "edit/smallRawlog.h"
 #include "stockTool.h"
 
 #include <gtest/gtest.h>

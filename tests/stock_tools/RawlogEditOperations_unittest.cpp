@@ -1,6 +1,6 @@
 /** What MRPT's rawlog-edit makes of our rawlogs, operation by operation. */
-#include "dataset/CloudObservation.h"
-#include "dataset/smallRawlog.h"
+#include "edit/CloudObservation.h"
+#include "edit/smallRawlog.h"
 #include "stockTool.h"
 
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+#include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogInfo.h"
 #include "mrpt_bridge/RawlogWriter.h"
 #include "stockTool.h"
@@ -27,9 +28,9 @@ void writeRecording(const std::filesystem::path& path)
   for (int i = 0; i < 25; i++)
   {
     scan.start = fromNanoseconds(1'700'000'000'000'000'000) + i * 100ms;
-    writer.write(scan);
-    writer.write(ImuSample{scan.start + 20ms, {}, {}}, Rigid::identity());
-    writer.write(ImuSample{scan.start + 70ms, {}, {}}, Rigid::identity());
+    writer.write(*toObservation(scan));
+    writer.write(*toObservation(ImuSample{scan.start + 20ms, {}, {}}, Rigid::identity()));
+    writer.write(*toObservation(ImuSample{scan.start + 70ms, {}, {}}, Rigid::identity()));
   }
   writer.close();
 }

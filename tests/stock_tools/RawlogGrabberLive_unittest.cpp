@@ -1,6 +1,6 @@
 /** The plugin in the stock rawlog-grabber with lidars of the loopback interface; its own capture is the reference. */
 #include "mrpt_bridge/RawlogReader.h"
-#include "source/RigReplay.h"
+#include "rig/RigReplay.h"
 #include "stockTool.h"
 #include "support/ChildProcess.h"
 #include "support/RecordedLidars.h"

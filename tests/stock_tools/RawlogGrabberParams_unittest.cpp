@@ -1,6 +1,6 @@
 /** Every INI file of params/rawlog-grabber runs as it is: in our loader and in the stock grabber. */
 #include "mrpt_bridge/RawlogInfo.h"
-#include "source/RigOptions.h"
+#include "rig/RigOptions.h"
 #include "stockTool.h"
 #include "support/ChildProcess.h"
 #include "support/TestData.h"

@@ -1,7 +1,7 @@
 /** The plugin in the stock rawlog-grabber, with the INI files of params/; the batcher alone is the reference. */
 #include "mrpt_bridge/RawlogInfo.h"
 #include "mrpt_bridge/RawlogReader.h"
-#include "source/RigReplay.h"
+#include "rig/RigReplay.h"
 #include "stockTool.h"
 #include "support/TestData.h"
 
@@ -149,6 +149,6 @@ TEST(RawlogGrabber, printsWhichKeyIsWrong)
 
   const std::string log = grab(workplace, workplace / "wrong.ini").log;
 
-  EXPECT_NE(log.find("unknown key 'lidar1_poes': did you mean 'lidar1_pose'?"), std::string::npos) << log;
+  EXPECT_NE(log.find("lidar1_poes is an unknown key: did you mean 'lidar1_pose'?"), std::string::npos) << log;
 }
 }  // namespace scanloom

@@ -111,7 +111,7 @@ TEST_F(ExperimentPlanOf, namesFileLineAndWhatIsWrong)
   const std::string easy = "simulations = stands/easy.ini\n";
   EXPECT_THAT(complaintAbout("simulations = stands/esy.ini\n"),
               HasSubstr("experiment.ini:3: [experiment] simulations"));
-  EXPECT_THAT(complaintAbout("simulations = stands/esy.ini\n"), HasSubstr("stands/esy.ini' is not there"));
+  EXPECT_THAT(complaintAbout("simulations = stands/esy.ini\n"), HasSubstr("stands/esy.ini' does not exist"));
   EXPECT_THAT(complaintAbout(easy + "seeds = 5:1\n"), HasSubstr("experiment.ini:4: [experiment] seeds"));
   EXPECT_THAT(complaintAbout(easy + "seeds = 0\n"), HasSubstr("seeds"));
   EXPECT_THAT(complaintAbout(easy + "every_nth = 1 2.5\n"), HasSubstr("every_nth"));

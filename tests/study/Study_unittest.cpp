@@ -33,7 +33,7 @@ TEST(Study, lostRunsAreWorseThanAllOthersAndFailedOnesAreNone)
 
   EXPECT_THAT(summary.values, ElementsAre(1, 3, 2));
   EXPECT_EQ(summary.lost, 2U);
-  EXPECT_EQ(summary.untold, 1U);
+  EXPECT_EQ(summary.failed, 1U);
   EXPECT_EQ(*summary.median(), 3);
   EXPECT_EQ(*summaryOfDrifts({1, 2, 4, 30}).median(), 3);
 }

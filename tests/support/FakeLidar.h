@@ -47,7 +47,7 @@ class FakeLidar : public PacketDecoder
   }
 
   const LidarDescription& description() const override { return description_; }
-  PacketKind kind(Bytes packet) const override
+  PacketKind kindByHeader(Bytes packet) const override
   {
     return packet.size() == kHeaderSize + kBlockSize * static_cast<std::size_t>(description_.columns_per_packet)
                ? PacketKind::Lidar

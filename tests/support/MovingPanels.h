@@ -3,10 +3,11 @@
  * becomes of the panels in the scans of a batcher. For the paper's section 1.1: what it costs to put turns together.
  */
 #pragma once
-#include "batching/ScanMeasures.h"
 #include "batching/TimeBatcher.h"
 #include "lidar/OusterDecoder.h"
 #include "lidar/OusterEncoder.h"
+#include "support/ScanMeasures.h"
+#include "support/pushPacket.h"
 
 #include <algorithm>
 #include <array>
@@ -188,7 +189,7 @@ Figures measure(Batcher&& batcher, const std::vector<Arrival>& arrivals)
     batcher.lidars()[arrival.lidar].decoder->readBlocks(arrival.packet, blocks);
     arrived[{arrival.lidar, blocks.front().frame_id, blocks.front().measurement_id / kColumnsPerPacket}] =
         arrival.received;
-    for (const Scan& scan : batcher.push(arrival.lidar, arrival.packet, arrival.received))
+    for (const Scan& scan : push(batcher, arrival.lidar, arrival.packet, arrival.received))
     {
       if (++scans <= 2 || scan.end() > kBegin + (kTurns - 1) * kTurn) continue;
       std::array<Timestamp, 2> ready{};

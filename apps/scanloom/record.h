@@ -1,0 +1,24 @@
+#pragma once
+#include "Arguments.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+struct RecordArguments
+{
+  ConfigurationArguments configuration;
+  SceneArguments scene;
+  std::filesystem::path output;
+  std::vector<std::string> lidars;
+  double seconds = 0;  // live: 0 until it is interrupted
+  bool overwrite = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+/** Writes a rawlog; for `scanloom record` and `scanloom edit --from-pcap`. @return the exit status. */
+int record(const RecordArguments&);
+}  // namespace scanloom

@@ -1,0 +1,11 @@
+#include "core/ConfigError.h"
+
+#include <fmt/format.h>
+
+namespace scanloom
+{
+ConfigError::ConfigError(std::vector<std::string> all_problems)
+  : UsageError(fmt::format("{}", fmt::join(all_problems, "\n"))), problems(std::move(all_problems))
+{
+}
+}  // namespace scanloom

@@ -1,0 +1,37 @@
+#include "core/Matrix6.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+namespace scanloom
+{
+Matrix6d congruent(const Matrix6d& m, const Matrix6d& j) { return j.transpose() * m * j; }
+
+Matrix6d inverse(const Matrix6d& m) { return m.inverse(); }
+
+Matrix6d solve(const Matrix6d& a, const Matrix6d& b) { return a.partialPivLu().solve(b); }
+
+bool isPositiveDefinite(const Matrix6d& m) { return m.allFinite() && m.llt().info() == Eigen::Success; }
+
+std::optional<Vector6d> solvePositive(const Matrix6d& a, const Vector6d& b)
+{
+  const Eigen::LLT<Matrix6d> solver(a);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  return Vector6d(solver.solve(b));
+}
+
+Matrix6d inverseOfPositive(const Matrix6d& m) { return m.llt().solve(Matrix6d::Identity()); }
+
+Eigensystem6 eigensystem(const Matrix6d& symmetric)
+{
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(symmetric);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+Eigensystem6 eigensystem(const Matrix6d& a, const Matrix6d& b)
+{
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> eigen(a, b);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+}  // namespace scanloom

@@ -1,0 +1,93 @@
+#include "core/Progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+using namespace std::chrono_literals;
+
+constexpr auto kTerminalPeriod = 100ms;
+constexpr auto kLogPeriod = 10s;  // if the total is not known
+constexpr int kBarWidth = 20;
+
+std::string bar(double share)
+{
+  const int filled = static_cast<int>(share * kBarWidth);
+  return "[" + std::string(filled, '=') + std::string(kBarWidth - filled, ' ') + "]";
+}
+}  // namespace
+
+bool standardErrorIsTerminal() { return ::isatty(STDERR_FILENO) == 1; }
+
+Progress::Progress(std::string what, std::uint64_t total, std::string unit, std::ostream& out, bool terminal)
+  : what_(std::move(what)), total_(total), unit_(std::move(unit)), out_(out), terminal_(terminal)
+{
+}
+
+Progress::~Progress()
+{
+  if (terminal_ || done_ != shown_) show();
+  if (terminal_) out_ << std::endl;
+}
+
+void Progress::update(std::uint64_t done)
+{
+  done_ = total_ > 0 ? std::min(done, total_) : done;
+  if (isTimeToShow()) show();
+}
+
+bool Progress::isTimeToShow() const
+{
+  const auto since = Clock::now() - shown_at_;
+  if (terminal_) return since >= kTerminalPeriod;
+  if (total_ == 0) return since >= kLogPeriod;
+  const auto tenths = [this](std::uint64_t count) { return count * 10 / total_; };
+  return tenths(done_) > tenths(shown_);
+}
+
+void Progress::show()
+{
+  shown_ = done_;
+  shown_at_ = Clock::now();
+  constexpr const char* kBackAndErase = "\r\033[K";
+  if (terminal_)
+    out_ << kBackAndErase << line() << std::flush;
+  else
+    out_ << line() << std::endl;
+}
+
+std::string Progress::line() const
+{
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double rate = elapsed > 0 ? static_cast<double>(done_) / elapsed : 0.0;
+  const std::string speed = fmt::format("{:.1f} {}/s", rate, unit_);
+  if (total_ == 0) return fmt::format("{}: {} {}, {}", what_, done_, unit_, speed);
+
+  const double share = static_cast<double>(done_) / static_cast<double>(total_);
+  const std::string drawn = terminal_ ? bar(share) + " " : "";
+  const std::string time = done_ == total_ ? "took " + timeText(elapsed)
+                           : rate > 0      ? timeText(static_cast<double>(total_ - done_) / rate) + " left"
+                                           : "starting";
+  return fmt::format("{}: {}{:.0f} %, {}/{} {}, {}, {}", what_, drawn, 100 * share, done_, total_, unit_, speed, time);
+}
+
+std::uint64_t megabytesOf(const std::vector<std::filesystem::path>& files)
+{
+  std::uintmax_t bytes = 0;
+  for (const auto& file : files) bytes += std::filesystem::file_size(file);
+  return std::max<std::uint64_t>(1, bytes / 1000000);
+}
+
+std::string timeText(double seconds)
+{
+  const auto whole = static_cast<std::int64_t>(std::max(0.0, seconds) + 0.5);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{}:{:02} min", whole / 60, whole % 60);
+  return fmt::format("{}:{:02} h", whole / 3600, whole % 3600 / 60);
+}
+}  // namespace scanloom

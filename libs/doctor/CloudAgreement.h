@@ -1,0 +1,42 @@
+/** Whether two lidars see the same things in the same place, which checks their poses on the body. */
+#pragma once
+#include "core/Rigid.h"
+#include "doctor/Snapshots.h"
+
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/** Snapshots of both lidars from the same time. */
+struct SnapshotPair
+{
+  const Snapshot* a;
+  const Snapshot* b;
+};
+
+struct CloudAgreement
+{
+  std::size_t turns = 0;   // with at least 500 common points (CommonView)
+  std::size_t common = 0;  // points per turn, median
+  double near_share = 0;   // of these: points with one of B within 0.3 m, median
+
+  /** How A's sensor must move and turn (in the body's axes) if B's pose is right. None if registration found no better
+   * pose. */
+  struct Correction
+  {
+    Eigen::Vector3d offset, rotation;     // m, rad
+    double offset_sigma, rotation_sigma;  // standard deviations, by leaving out one turn at a time
+    double near_share;                    // after the correction
+  };
+  std::optional<Correction> correction;
+};
+
+/**
+ * Registers all turns at once (D2D NDT). First come the points that are not on the machine, with coarse cells, because
+ * two sides of one part of the machine, each seen by one lidar, would be matched to each other; then all points with
+ * fine cells. None if no turn has enough common points.
+ */
+std::optional<CloudAgreement> cloudAgreement(const std::vector<SnapshotPair>&, const Rigid& body_T_a,
+                                             const Rigid& body_T_b);
+}  // namespace scanloom

@@ -1,0 +1,234 @@
+#include "edit/EditOperations.h"
+
+#include "config/Values.h"
+#include "core/ConfigError.h"
+#include "edit/ApplyExtrinsics.h"
+#include "edit/ConvertClouds.h"
+#include "edit/CropClouds.h"
+#include "edit/DeskewByGyro.h"
+#include "edit/DeskewClouds.h"
+#include "edit/ExportClouds.h"
+#include "edit/ExportTables.h"
+#include "edit/GyroBias.h"
+#include "edit/KeepEvery.h"
+#include "edit/KeepLidars.h"
+#include "edit/MapFromRawlog.h"
+#include "edit/MergeLidars.h"
+#include "edit/RawlogCut.h"
+#include "edit/RawlogHeader.h"
+#include "edit/RawlogLabels.h"
+#include "edit/RebatchClouds.h"
+#include "edit/SplitLidars.h"
+#include "edit/ThinClouds.h"
+#include "edit/TimeOffset.h"
+#include "formats/SecondsText.h"
+#include "formats/TrajectoryReader.h"
+#include "mrpt_bridge/Observations.h"
+#include "preprocessing/LidarBox.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+namespace scanloom
+{
+namespace
+{
+using Header = std::optional<RecordingHeader>;
+using Path = std::filesystem::path;
+using Notice = std::function<void(const std::string&)>;
+
+std::optional<Timestamp> parseTime(const std::string& option, const std::string& text)
+{
+  if (text.empty()) return std::nullopt;
+  const auto time = parseSeconds(text);
+  if (!time) throw UsageError(fmt::format("{} {}: must be seconds since 1970, e.g. 1750000000.25", option, text));
+  return time;
+}
+
+RawlogSpan spanOf(const EditOptions& options)
+{
+  const RawlogSpan span{parseTime("--from-time", options.from_time), parseTime("--to-time", options.to_time),
+                        options.from_index, options.to_index};
+  const bool empty = (span.from_time && span.to_time && *span.from_time > *span.to_time) ||
+                     (span.from_index && span.to_index && *span.from_index > *span.to_index);
+  if (empty) throw UsageError("the cut is empty: its --from is after its --to");
+  return span;
+}
+
+Eigen::AlignedBox3f cropBox(const std::string& text)
+{
+  if (const auto box = parseBox(text)) return box->cast<float>();
+  throw UsageError(
+      fmt::format("--crop-box \"{}\": must be \"x0 y0 z0 x1 y1 z1\" in m, with x0 < x1, y0 < y1 and z0 < z1", text));
+}
+
+struct LabelOffset
+{
+  std::string label;
+  Duration offset;
+};
+LabelOffset parseTimeOffset(const std::string& text)
+{
+  constexpr double kLargest = 9e9;  // s: what 64 bits of nanoseconds hold
+  const auto equals = text.rfind('=');
+  const auto offset = equals == std::string::npos ? std::nullopt : parseNumber(text.substr(equals + 1));
+  if (!offset || equals == 0 || std::abs(*offset) > kLargest)
+    throw UsageError(fmt::format("--time-offset {}: must be LABEL=SECONDS, e.g. imu=-0.02", text));
+  return {text.substr(0, equals), fromSeconds(*offset)};
+}
+
+RangeLimits rangesOf(const EditOptions& options)
+{
+  RangeLimits limits;
+  limits.least = options.min_range.value_or(limits.least);
+  limits.most = options.max_range.value_or(limits.most);
+  if (limits.least > limits.most) throw UsageError("--min-range is above --max-range: no point would be left");
+  return limits;
+}
+
+CloudClass cloudClassOf(const std::string& name)
+{
+  try
+  {
+    return cloudClassFromName(name);
+  }
+  catch (const std::invalid_argument& e)
+  {
+    throw UsageError(fmt::format("--convert-clouds {}: {}", name, e.what()));
+  }
+}
+
+RawlogOperation deskewingByGyro(const Path& input, const std::string& label, const Header& header, const Notice& notice)
+{
+  const auto rest = gyroBiasIn(input, label);
+  if (!rest)
+  {
+    notice(fmt::format(
+        "warning: '{}' is never at rest for long enough: the bias of its gyroscope is unknown and not subtracted",
+        label));
+    return deskewByGyro({label}, header);
+  }
+  const Eigen::Vector3d deg_per_s = rest->bias * 180 / M_PI;
+  notice(fmt::format("gyroscope of '{}' at rest up to {} s: bias {:.4f} {:.4f} {:.4f} deg/s is subtracted", label,
+                     secondsText(rest->until), deg_per_s.x(), deg_per_s.y(), deg_per_s.z()));
+  return deskewByGyro({label, rest->bias}, header);
+}
+
+/** By a trajectory, or by the rawlog's own IMU if the option's value is `imu`. */
+std::function<RawlogOperation(const Header&)> deskewing(const EditOptions& options, const Path& input, Notice notice)
+{
+  if (options.deskew == "imu")
+    return [input, label = options.imu.empty() ? kImuLabel : options.imu,
+            notice = std::move(notice)](const Header& header) { return deskewingByGyro(input, label, header, notice); };
+  return [trajectory = readTrajectory(options.deskew)](const Header& header)
+  { return deskewClouds(trajectory, header); };
+}
+
+std::set<std::string> asSet(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
+
+using Chosen = std::vector<EditOperation>;
+
+void add(Chosen& chosen, const std::string& option, std::function<RawlogOperation(const Header&)> make)
+{
+  chosen.push_back({option, {}, {}, std::move(make)});
+}
+
+void chooseObservations(const EditOptions& o, Chosen& chosen)
+{
+  const RawlogSpan span = spanOf(o);
+  if (!span.isWhole()) add(chosen, "cut", [span](const Header&) { return cutTo(span); });
+  if (!o.keep_label.empty())
+    add(chosen, "--keep-label", [labels = asSet(o.keep_label)](const Header&) { return keepLabels(labels); });
+  if (!o.remove_label.empty())
+    add(chosen, "--remove-label", [labels = asSet(o.remove_label)](const Header&) { return removeLabels(labels); });
+  if (o.split_lidars) add(chosen, "--split-lidars", [](const Header& header) { return splitLidars(required(header)); });
+  if (o.merge_lidars) add(chosen, "--merge-lidars", [](const Header& header) { return mergeLidars(required(header)); });
+  if (!o.keep_lidars.empty())
+    add(chosen, "--keep-lidars",
+        [names = o.keep_lidars](const Header& header) { return keepLidars(names, required(header)); });
+  if (o.keep_every) add(chosen, "--keep-every", [n = *o.keep_every](const Header&) { return keepEvery(n); });
+  if (!o.time_offset.empty())
+    add(chosen, "--time-offset",
+        [shift = parseTimeOffset(o.time_offset)](const Header& header)
+        { return addTimeOffset(shift.label, shift.offset, header ? header->period() : Duration{0}); });
+  if (o.rebatch)
+    add(chosen, "--rebatch", [rate = *o.rebatch](const Header& header) { return rebatch(rate, required(header)); });
+}
+
+void choosePoints(const EditOptions& o, const Path& input, const Notice& notice, Chosen& chosen)
+{
+  if (!o.imu.empty() && o.deskew != "imu") throw UsageError("--imu names the IMU for '--deskew imu'");
+  if (!o.crop_box.empty())
+    add(chosen, "--crop-box", [box = cropBox(o.crop_box)](const Header&) { return cropOut(box); });
+  if (o.min_range || o.max_range)
+    add(chosen, "--min-range/--max-range",
+        [limits = rangesOf(o)](const Header& header) { return limitRanges(limits, header); });
+  if (o.voxel) add(chosen, "--voxel", [edge = *o.voxel](const Header&) { return thinClouds(edge); });
+  if (!o.apply_extrinsics.empty())
+    add(chosen, "--apply-extrinsics",
+        [poses = readSensorPoses(o.apply_extrinsics)](const Header& header)
+        { return applyExtrinsics(poses, required(header)); });
+  if (!o.convert_clouds.empty())
+    add(chosen, "--convert-clouds",
+        [target = cloudClassOf(o.convert_clouds)](const Header&) { return convertClouds(target); });
+  if (!o.deskew.empty()) add(chosen, "--deskew", deskewing(o, input, notice));
+}
+
+void chooseExports(const EditOptions& o, Chosen& chosen)
+{
+  const auto addClouds = [&](const std::string& option, const Path& folder, CloudFormat format)
+  {
+    if (folder.empty()) return;
+    chosen.push_back({option, {}, folder, [=](const Header& header) { return exportClouds(format, folder, header); }});
+  };
+  addClouds("--export-ply", o.export_ply, CloudFormat::Ply);
+  addClouds("--export-pcd", o.export_pcd, CloudFormat::Pcd);
+  addClouds("--export-kitti", o.export_kitti, CloudFormat::Kitti);
+  if (!o.export_csv.empty())
+    chosen.push_back(
+        {"--export-csv", {}, o.export_csv, [folder = o.export_csv](const Header&) { return exportCsv(folder); }});
+  if (!o.export_tum.empty())
+    chosen.push_back(
+        {"--export-tum", {o.export_tum}, {}, [file = o.export_tum](const Header&) { return exportTum(file); }});
+}
+
+void chooseMaps(const EditOptions& o, Chosen& chosen)
+{
+  const auto addMaps = [&](const std::string& option, const std::string& ending, const std::vector<Path>& maps)
+  {
+    if (maps.front().empty()) return;
+    if (maps.front().extension() != ending)
+      throw UsageError(fmt::format("{} {}: the name must end in {}", option, maps.front().string(), ending));
+    if (o.trajectory.empty()) throw UsageError("--to-simplemap and --to-octomap need --trajectory FILE");
+    chosen.push_back({option,
+                      maps,
+                      {},
+                      [maps, preset = octoMapPreset(o.octomap_preset),
+                       keyframes = KeyframeOptions{readTrajectory(o.trajectory), o.keyframe_distance}](
+                          const Header& header) { return toMaps(maps, preset, keyframes, required(header)); }});
+  };
+  addMaps("--to-simplemap", ".simplemap", {o.to_simplemap});
+  addMaps("--to-octomap", ".bt", {o.to_octomap, Path(o.to_octomap).replace_extension(".ot")});
+}
+}  // namespace
+
+std::vector<EditOperation> editOperations(const EditOptions& options, const Path& input, Notice notice)
+{
+  Chosen chosen;
+  chooseObservations(options, chosen);
+  choosePoints(options, input, notice, chosen);
+  chooseExports(options, chosen);
+  chooseMaps(options, chosen);
+  return chosen;
+}
+
+RawlogOperation chained(const std::vector<EditOperation>& operations, const Path& input)
+{
+  const Header header = headerOf(input);
+  RawlogOperation all = operations.front().make(header);
+  for (std::size_t i = 1; i < operations.size(); ++i) all = chained(std::move(all), operations[i].make(header));
+  return all;
+}
+}  // namespace scanloom

@@ -1,0 +1,54 @@
+/** The operations of `scanloom edit` that stream a rawlog, made from the values of the command line. */
+#pragma once
+#include "edit/RawlogEdit.h"
+#include "rig/RecordingHeader.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** One member for each option of the command line, and therefore many; an empty one was not given. */
+struct EditOptions
+{
+  std::string from_time, to_time;
+  std::optional<std::uint64_t> from_index, to_index;
+  std::vector<std::string> keep_label, remove_label, keep_lidars;
+  bool split_lidars = false, merge_lidars = false;
+  std::optional<std::uint64_t> keep_every;
+  std::string time_offset, crop_box;
+  std::optional<double> min_range, max_range, voxel, rebatch;
+  std::filesystem::path apply_extrinsics;
+  std::string convert_clouds;
+  std::filesystem::path export_ply, export_pcd, export_kitti, export_csv, export_tum;
+  std::string deskew, imu;
+  std::filesystem::path to_simplemap, to_octomap, trajectory;
+  double keyframe_distance = 4;
+  std::string octomap_preset = "inventory";
+};
+
+struct EditOperation
+{
+  std::string option;                        // "--split-lidars"; "cut" for --from-... and --to-...
+  std::vector<std::filesystem::path> files;  // that it writes instead of a rawlog
+  std::filesystem::path folder;              // or the folder for files whose names depend on the input
+  std::function<RawlogOperation(const std::optional<RecordingHeader>&)> make;
+
+  bool writesRawlog() const { return files.empty() && folder.empty(); }
+};
+
+/**
+ * The operations that the options ask for, the cut first. Throws UsageError for a value that cannot be used, and what
+ * the readers of the named files throw.
+ * @param notice receives what a person should know, one line each.
+ */
+std::vector<EditOperation> editOperations(const EditOptions&, const std::filesystem::path& input,
+                                          std::function<void(const std::string&)> notice);
+
+/** At least one operation, each one receiving what the one before returns, for the rawlog `input`. */
+RawlogOperation chained(const std::vector<EditOperation>&, const std::filesystem::path& input);
+}  // namespace scanloom

@@ -1,0 +1,95 @@
+#include "formats/CloudFile.h"
+
+#include "core/Bytes.h"
+#include "formats/KittiReader.h"
+#include "formats/PcdReader.h"
+#include "formats/PlyReader.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kLargestUnpacked = std::size_t{4} << 30;  // bytes; a small file may unpack to 1000 times its size
+
+std::vector<std::uint8_t> unpackedContent(const std::filesystem::path& path)
+{
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), &gzclose);
+  if (!file) throw std::invalid_argument("cannot be read");
+  if (gzdirect(file.get())) throw std::invalid_argument("is not compressed, but its name ends in .gz");
+  std::vector<std::uint8_t> content;
+  std::vector<std::uint8_t> chunk(1 << 18);
+  int got = 0;
+  while ((got = gzread(file.get(), chunk.data(), static_cast<unsigned>(chunk.size()))) > 0)
+  {
+    content.insert(content.end(), chunk.begin(), chunk.begin() + got);
+    if (content.size() > kLargestUnpacked) throw std::invalid_argument("unpacks to more than 4 GiB");
+  }
+  int error = Z_OK;
+  gzerror(file.get(), &error);
+  if (error == Z_BUF_ERROR) throw std::invalid_argument("the compressed file is cut short");
+  if (got < 0) throw std::invalid_argument("the compressed data is damaged");
+  return content;
+}
+
+std::vector<std::uint8_t> plainContent(const std::filesystem::path& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::uint8_t> content(std::filesystem::file_size(path));
+  if (!file.read(reinterpret_cast<char*>(content.data()), static_cast<std::streamsize>(content.size())))
+    throw std::invalid_argument("cannot be read");
+  return content;
+}
+
+std::string endingOf(const std::filesystem::path& path)
+{
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+std::vector<Eigen::Vector3f> positionsIn(const std::filesystem::path& path)
+{
+  const bool packed = endingOf(path) == ".gz";
+  const std::string ending = endingOf(packed ? path.stem() : path);
+  const auto positionsOf = ending == ".ply"   ? &plyPositions
+                           : ending == ".pcd" ? &pcdPositions
+                           : ending == ".bin" ? &kittiPositions
+                                              : nullptr;
+  if (!positionsOf)
+    throw std::invalid_argument("is no cloud by its name: .ply, .pcd or .bin (KITTI) can be read, each also with .gz");
+  if (!std::filesystem::is_regular_file(path)) throw std::invalid_argument("is no file");
+  return positionsOf(packed ? unpackedContent(path) : plainContent(path));
+}
+
+CloudFile finiteOf(std::vector<Eigen::Vector3f> points)
+{
+  const auto end = std::remove_if(points.begin(), points.end(), [](const auto& point) { return !point.allFinite(); });
+  const auto dropped = static_cast<std::size_t>(points.end() - end);
+  points.erase(end, points.end());
+  return {std::move(points), dropped};
+}
+}  // namespace
+
+CloudFile readCloud(const std::filesystem::path& path)
+{
+  try
+  {
+    return finiteOf(positionsIn(path));
+  }
+  catch (const std::logic_error& error)  // of the formats, which do not know the file's name
+  {
+    throw std::runtime_error(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+}  // namespace scanloom

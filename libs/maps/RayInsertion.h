@@ -1,0 +1,13 @@
+#pragma once
+#include <octomap/octomap.h>
+
+namespace scanloom
+{
+/**
+ * The same result as OcTree::insertPointCloud(points, origin, max_range, lazy_eval = true, discretize = true), faster:
+ * several threads mark the voxels of the rays in bitmaps (VoxelMarks) instead of hash sets, and the tree is descended
+ * once per block of 32 x 32 x 32 voxels, not once per voxel. Call updateInnerOccupancy() after the last insertion.
+ * Does not support bounding boxes and change detection.
+ */
+void insertRays(octomap::OcTree&, const octomap::Pointcloud& points, const octomap::point3d& origin, double max_range);
+}  // namespace scanloom

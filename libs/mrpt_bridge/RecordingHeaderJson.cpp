@@ -1,0 +1,94 @@
+#include "mrpt_bridge/RecordingHeaderJson.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace scanloom
+{
+namespace
+{
+using nlohmann::json;
+
+constexpr const char* kRecordedRate = "recorded_scan_rate";
+
+json toRows(const Eigen::Matrix4d& m)
+{
+  json rows = json::array();
+  for (int r = 0; r < 4; r++) rows.push_back({m(r, 0), m(r, 1), m(r, 2), m(r, 3)});
+  return rows;
+}
+
+Eigen::Matrix4d fromRows(const json& rows)
+{
+  Eigen::Matrix4d m;
+  for (int r = 0; r < 4; r++)
+    for (int c = 0; c < 4; c++) m(r, c) = rows.at(r).at(c).get<double>();
+  return m;
+}
+
+RecordedLidar lidarFromJson(const json& j)
+{
+  RecordedLidar lidar;
+  lidar.name = j.at("name").get<std::string>();
+  lidar.serial = j.at("serial").get<std::string>();
+  lidar.model = j.at("model").get<std::string>();
+  lidar.body_T_sensor = Rigid::fromMatrix(fromRows(j.at("body_T_sensor")));
+  lidar.beams = j.at("beams").get<int>();
+  lidar.columns = j.at("columns").get<int>();
+  lidar.clock = j.at("clock").get<std::string>();
+  return lidar;
+}
+}  // namespace
+
+std::string toJson(const RecordingHeader& header)
+{
+  json lidars = json::array();
+  for (const auto& lidar : header.lidars)
+    lidars.push_back({{"sensor_id", lidars.size()},
+                      {"name", lidar.name},
+                      {"serial", lidar.serial},
+                      {"model", lidar.model},
+                      {"body_T_sensor", toRows(lidar.body_T_sensor.matrix())},
+                      {"beams", lidar.beams},
+                      {"columns", lidar.columns},
+                      {"clock", lidar.clock}});
+  json content = {{"version", header.version.empty() ? SCANLOOM_VERSION : header.version},
+                  {"scan_rate", header.scan_rate},
+                  {"lidars", lidars}};
+  if (header.recorded_rate > 0) content[kRecordedRate] = header.recorded_rate;
+  return json{{"scanloom", content}}.dump(1);
+}
+
+std::string withScanRate(const std::string& header, double scan_rate)
+{
+  json document = json::parse(header);
+  json& content = document.at("scanloom");
+  const double recorded = content.value(kRecordedRate, content.at("scan_rate").get<double>());
+  content.at("scan_rate") = scan_rate;
+  if (scan_rate == recorded)
+    content.erase(kRecordedRate);
+  else
+    content[kRecordedRate] = recorded;
+  return document.dump(1);
+}
+
+std::optional<RecordingHeader> recordingHeaderFromJson(const std::string& text)
+{
+  const json document = json::parse(text, nullptr, false);
+  if (!document.is_object() || !document.contains("scanloom")) return std::nullopt;
+  try
+  {
+    const json& content = document.at("scanloom");
+    RecordingHeader header;
+    header.version = content.at("version").get<std::string>();
+    header.scan_rate = content.at("scan_rate").get<double>();
+    header.recorded_rate = content.value(kRecordedRate, 0.0);
+    for (const json& lidar : content.at("lidars")) header.lidars.push_back(lidarFromJson(lidar));
+    return header;
+  }
+  catch (const json::exception& e)
+  {
+    throw std::invalid_argument(fmt::format("the rawlog's header (first comment, JSON) is damaged: {}", e.what()));
+  }
+}
+}  // namespace scanloom

@@ -1,0 +1,23 @@
+#pragma once
+#include "rig/RigOptions.h"
+#include "rig/SensorInput.h"
+
+#include <cstdint>
+#include <functional>
+
+namespace scanloom
+{
+class RawlogWriter;
+
+struct Recorded
+{
+  std::uint64_t scans = 0, imu_samples = 0;
+};
+
+/** Asked after each event, and every 100 ms while none comes. False ends the input; what was received is still written.
+ */
+using KeepRecording = std::function<bool(const Recorded&)>;
+
+/** Writes all scans and IMU samples of the input and closes the rawlog. Throws what the input and the writer throw. */
+Recorded recordRig(SensorInput&, const DriverOptions&, RawlogWriter&, const KeepRecording&);
+}  // namespace scanloom

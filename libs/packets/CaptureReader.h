@@ -1,0 +1,69 @@
+#pragma once
+#include "packets/Datagram.h"
+#include "packets/FragmentJoiner.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+struct pcap;
+struct pcap_pkthdr;
+
+namespace scanloom
+{
+/** Counts of the records of a capture. */
+struct CaptureCounters
+{
+  std::uint64_t records = 0;
+  std::uint64_t datagrams = 0;          // delivered
+  std::uint64_t fragments_joined = 0;   // datagrams that were assembled from fragments
+  std::uint64_t fragments_expired = 0;  // datagrams with a missing fragment
+  std::uint64_t not_udp = 0;            // records: ARP, TCP, ICMP, ...
+  std::uint64_t cut_short = 0;          // records that were captured incompletely (snap length)
+  std::uint64_t malformed = 0;          // records with contradicting lengths or an impossible stamp
+  bool truncated = false;               // the file ends inside a record; all before it was delivered
+};
+
+CaptureCounters operator+(const CaptureCounters&, const CaptureCounters&);
+
+/**
+ * The UDP datagrams of a pcap or pcapng file in the file's order, with stamps in nanoseconds. Link types: Ethernet with
+ * or without VLAN tags, Linux cooked, raw IP, loopback. IPv4 and IPv6; fragments are joined.
+ */
+class CaptureReader
+{
+ public:
+  /** Throws std::runtime_error if the file cannot be read or is no capture; the error tells what it is. */
+  explicit CaptureReader(const std::filesystem::path&);
+
+  /**
+   * Replaces `datagram` by the next one, reusing its memory; false at the end of the file. A joined datagram gets the
+   * stamp of the fragment that completed it. Throws std::runtime_error if the file is damaged; a missing end is none.
+   */
+  bool next(Datagram& datagram);
+
+  CaptureCounters counters() const;
+
+  /** Share of the file's bytes that were read, 0 to 1. */
+  double progress() const;
+
+ private:
+  struct Close
+  {
+    void operator()(pcap*) const;
+  };
+
+  bool nextRecord();
+  bool readDatagram(Bytes frame, Datagram&);
+
+  std::filesystem::path path_;
+  std::unique_ptr<pcap, Close> capture_;
+  int link_type_ = 0;
+  double file_size_ = 0;
+  const pcap_pkthdr* record_ = nullptr;  // owned by libpcap, like frame_; valid until the next record is read
+  const std::uint8_t* frame_ = nullptr;
+  FragmentJoiner joiner_;
+  std::vector<std::uint8_t> joined_;
+  CaptureCounters counters_;
+};
+}  // namespace scanloom

@@ -1,0 +1,33 @@
+#pragma once
+#include "packets/CaptureReader.h"
+
+namespace scanloom
+{
+/** Several captures as one stream, ordered by record time; at equal times by the order of the files. */
+class MergedCaptures
+{
+ public:
+  /** Throws as CaptureReader does, and std::invalid_argument if there is no file. */
+  explicit MergedCaptures(const std::vector<std::filesystem::path>&);
+
+  /** Replaces `datagram` by the next one; false at the end of all files. Throws as CaptureReader::next. */
+  bool next(Datagram& datagram);
+
+  CaptureCounters counters() const;
+
+  /** Mean over the files of the share that was read, 0 to 1. */
+  double progress() const;
+
+ private:
+  struct Input
+  {
+    CaptureReader reader;
+    Datagram front;
+    bool has_front = false;
+  };
+  static void readOn(Input&);
+
+  std::vector<Input> inputs_;
+  std::optional<std::size_t> taken_;  // input to read from at the next call: an error then loses no datagram
+};
+}  // namespace scanloom

@@ -1,0 +1,152 @@
+#include "rig/PacketRouter.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kMostOrigins = 1000;
+
+/** How badly a decoder understands a packet: only the candidates that understand it best are kept. */
+int strangeness(PacketKind kind)
+{
+  switch (kind)
+  {
+    case PacketKind::Lidar:
+    case PacketKind::Imu:
+    case PacketKind::Other:
+      return 0;
+    case PacketKind::BadCrc:
+      return 1;
+    case PacketKind::Malformed:
+      return 2;
+    case PacketKind::Foreign:
+      return 3;
+  }
+  return 3;
+}
+
+bool isUnderstood(PacketKind kind) { return strangeness(kind) == 0; }
+
+bool listensTo(const LidarAddress& address, const DatagramView& datagram)
+{
+  if (address.source && *address.source != datagram.source) return false;
+  const std::uint16_t port = datagram.destination_port;
+  return port != 0 && (port == address.lidar_port || port == address.imu_port);
+}
+
+void refuseWithoutPort(const std::string& label, const LidarAddress& address)
+{
+  if (address.lidar_port == 0)
+    throw std::invalid_argument(
+        fmt::format("lidar '{}' has no UDP port: give its key 'port', or metadata that names one", label));
+}
+}  // namespace
+
+PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars) : lidars_(std::move(lidars))
+{
+  for (const RoutedLidar& lidar : lidars_) refuseWithoutPort(lidar.label, lidar.address);
+}
+
+void PacketRouter::replace(LidarIndex lidar, const LidarAddress& address, const PacketDecoder* decoder)
+{
+  refuseWithoutPort(lidars_[lidar].label, address);
+  lidars_[lidar].address = address;
+  lidars_[lidar].decoder = decoder;
+}
+
+std::optional<RoutedPacket> PacketRouter::route(const DatagramView& datagram)
+{
+  if (const std::optional<Candidate> sender = decide(datagram))
+    return readPacket(sender->lidar, *lidars_[sender->lidar].decoder, sender->kind, datagram.payload,
+                      datagram.received);
+  ++unmatched_[countedOrigin(datagram)];
+  return std::nullopt;
+}
+
+/** A network can have more senders than memory should be spent on. */
+Origin PacketRouter::countedOrigin(const DatagramView& datagram) const
+{
+  const Origin origin{datagram.destination_port, datagram.source};
+  return unmatched_.size() < kMostOrigins || unmatched_.count(origin) > 0 ? origin : Origin{};
+}
+
+std::optional<PacketRouter::Candidate> PacketRouter::decide(const DatagramView& datagram)
+{
+  Candidates best = bestOf(listenersTo(datagram), datagram.payload);
+  if (best.size() == 1)
+  {
+    if (best.front().kind == PacketKind::Lidar) lidars_at_[datagram.source].insert(best.front().lidar);
+    return best.front();
+  }
+  if (best.empty()) return std::nullopt;
+
+  best = fromKnownSource(best, datagram.source);
+  if (best.size() == 1) return best.front();
+  if (std::any_of(best.begin(), best.end(), [](const Candidate& c) { return c.kind == PacketKind::Lidar; }))
+    throw ambiguous(datagram, best);
+  return std::nullopt;
+}
+
+/** By port and source address, with what the header says. */
+PacketRouter::Candidates PacketRouter::listenersTo(const DatagramView& datagram) const
+{
+  // Lidars that name this very source do not share it with those that take any.
+  const bool named =
+      std::any_of(lidars_.begin(), lidars_.end(),
+                  [&](const RoutedLidar& lidar) { return lidar.address.source && listensTo(lidar.address, datagram); });
+  Candidates candidates;
+  for (LidarIndex i = 0; i < lidars_.size(); ++i)
+  {
+    const RoutedLidar& lidar = lidars_[i];
+    if (lidar.decoder && listensTo(lidar.address, datagram) && lidar.address.source.has_value() == named)
+      candidates.push_back({i, lidar.decoder->kindByHeader(datagram.payload)});
+  }
+  return candidates;
+}
+
+/** Those that understand the packet best; none if it is foreign to all. */
+PacketRouter::Candidates PacketRouter::bestOf(Candidates candidates, Bytes packet) const
+{
+  // The checksum is computed for whom the header names. If it names nobody, the serial number itself may be damaged.
+  const bool any_understands =
+      std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return isUnderstood(c.kind); });
+  int best = strangeness(PacketKind::Malformed);
+  for (Candidate& c : candidates)
+  {
+    const bool in_question = any_understands ? isUnderstood(c.kind) : c.kind == PacketKind::Foreign;
+    if (in_question && !lidars_[c.lidar].decoder->isIntact(packet)) c.kind = PacketKind::BadCrc;
+    best = std::min(best, strangeness(c.kind));
+  }
+  const auto worse = [best](const Candidate& c) { return strangeness(c.kind) > best; };
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), worse), candidates.end());
+  return candidates;
+}
+
+/** Those that have sent from this address before; all if none has. */
+PacketRouter::Candidates PacketRouter::fromKnownSource(const Candidates& candidates, const IpAddress& source) const
+{
+  const auto known = lidars_at_.find(source);
+  if (known == lidars_at_.end()) return candidates;
+  Candidates from_there;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(from_there),
+               [&](const Candidate& c) { return known->second.count(c.lidar) > 0; });
+  return from_there.empty() ? candidates : from_there;
+}
+
+std::runtime_error PacketRouter::ambiguous(const DatagramView& datagram, const Candidates& candidates) const
+{
+  std::vector<std::string> labels;
+  for (const Candidate& candidate : candidates) labels.push_back(lidars_[candidate.lidar].label);
+  return std::runtime_error(fmt::format(
+      "lidar packet from {} at port {} may be of '{}': it holds no serial number; give each of these lidars its "
+      "key 'address' (the sensor's own IP address) or a 'port' of its own",
+      datagram.source.text(), datagram.destination_port, fmt::join(labels, "' or '")));
+}
+}  // namespace scanloom

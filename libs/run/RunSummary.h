@@ -1,0 +1,43 @@
+/** summary.json: what a run did, how long it took and how it ended. */
+#pragma once
+#include "core/StageTimes.h"
+#include "imu/GyroAgreement.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace scanloom
+{
+struct RunSummary
+{
+  std::string command;                          // the line that repeats the run
+  std::string outcome;                          // "OK", "INITIALISING", "DEGENERATE", "LOST", "INTERRUPTED"
+  std::map<std::string, std::string> versions;  // program or library -> version
+  std::uint64_t seed = 0;                       // 0: no random numbers
+  std::map<std::string, std::uint64_t> counts;  // "scans", "keyframes", "packets.left", ...
+  std::map<std::string, StageTime> stages;
+  std::optional<GyroAgreement> imu;  // compared with the rotations that the lidars saw in the last minute
+  double recorded = 0;               // s of recording that were processed
+  double elapsed = 0;                // s of wall-clock time
+  double waited = 0;                 // s of `elapsed`, live: waiting for the sensors
+  double path_length = 0;            // m
+  std::uint64_t peak_memory = 0;     // bytes
+
+  /** Above 1: faster than real time. 0 if nothing was measured. */
+  double realTimeFactor() const { return elapsed > waited ? recorded / (elapsed - waited) : 0; }
+};
+
+/** The program's largest resident set so far, in bytes. */
+std::uint64_t peakMemory();
+
+void to_json(nlohmann::json&, const StageTime&);
+void to_json(nlohmann::json&, const GyroAgreement&);
+void to_json(nlohmann::json&, const RunSummary&);
+
+void writeSummary(const std::filesystem::path&, const RunSummary&);
+}  // namespace scanloom

@@ -1,0 +1,58 @@
+/** The files of a localisation run, written during the run: an interrupted run keeps what it has written. */
+#pragma once
+#include "core/OutputFile.h"
+#include "formats/Trajectory.h"
+#include "run/RunSummary.h"
+#include "run/SlamMaps.h"
+#include "slam/StateEstimate.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+struct OutputOptions
+{
+  bool maps = true;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.maps,
+          Field{"maps", "", "false: write trajectories and summary only, no keyframes, clouds, occupancy or picture"});
+  }
+};
+
+/**
+ * trajectory.tum (a pose per processed scan), trajectory_imu.tum (poses at the IMU's rate), trajectory.csv (health and
+ * registration per pose), summary.json and the maps, all in the map frame.
+ */
+class SlamFiles
+{
+ public:
+  /** All files that close() completes in the folder. */
+  static std::vector<std::string> names();
+
+  /** Creates the folder. Without options of an OctoMap no map is written. Throws std::runtime_error on failure. */
+  SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&,
+            const std::optional<OctoMapOptions>&);
+
+  /** Writes the poses at once. */
+  void add(const StateEstimate&);
+
+  /** Writes the maps, adds the path length and the memory to the summary, and renames every file to its name. */
+  void close(RunSummary);
+
+ private:
+  void extendPath(const StampedPose&);
+
+  std::filesystem::path folder_;
+  TumWriter trajectory_, trajectory_imu_;
+  OutputFile csv_;
+  Trajectory path_;  // the newest pose and earlier ones at least 0.05 m apart, so that a rest does not fill the memory
+  double path_length_ = 0;
+  std::optional<SlamMaps> maps_;
+};
+}  // namespace scanloom

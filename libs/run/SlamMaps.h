@@ -1,0 +1,55 @@
+/** The maps of a localisation run, drawn from its keyframes during the run. */
+#pragma once
+#include "core/BoundedQueue.h"
+#include "formats/PlyWriter.h"
+#include "formats/Trajectory.h"
+#include "maps/MapPicture.h"
+#include "maps/OctoMapExport.h"
+#include "maps/SimpleMapFile.h"
+#include "rig/RecordingHeader.h"
+#include "run/RunSummary.h"
+
+#include <filesystem>
+#include <future>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** keyframes.simplemap, map.ply, map.bt, map.ot and map.png, all in the map frame. */
+class SlamMaps
+{
+ public:
+  /** All files that close() completes in the folder. */
+  static std::vector<std::string> names();
+
+  /** Throws std::runtime_error if the folder cannot be written. */
+  SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OctoMapOptions&);
+  SlamMaps(const SlamMaps&) = delete;
+  SlamMaps& operator=(const SlamMaps&) = delete;
+  ~SlamMaps();
+
+  /**
+   * Keyframes are drawn by a thread of their own, in order, because an occupancy map takes seconds for one. Waits while
+   * eight of them wait. Throws what the drawing threw.
+   */
+  void add(Keyframe);
+
+  /** Waits for the last keyframe, renames every file to its name, and adds map points and stages to the summary. */
+  void close(const Trajectory&, RunSummary&);
+
+ private:
+  void draw();
+  void addToAll(const Keyframe&);
+
+  std::filesystem::path folder_;
+  PlyWriter ply_;
+  SimpleMapBuilder simple_map_;
+  OctoMapBuilder octomap_;
+  MapPicture picture_;
+  StageTimes times_;  // of the thread
+
+  BoundedQueue<Keyframe> queue_;
+  std::shared_future<void> drawn_;  // last: its thread uses all of the above, and it waits for that thread
+};
+}  // namespace scanloom

@@ -1,0 +1,159 @@
+#include "run/SlamRun.h"
+
+#include "run/CropReport.h"
+#include "run/ImuCheck.h"
+#include "run/ImuInUse.h"
+#include "run/RunCounts.h"
+#include "slam/ConstantMotion.h"
+
+#include <fmt/format.h>
+
+namespace scanloom
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/** One run, event by event. */
+class SlamRun
+{
+ public:
+  SlamRun(SensorInput& input, const SlamSettings& settings, SlamFiles& files, const Warn& warn)
+    : input_(input),
+      files_(files),
+      warn_(warn),
+      settings_(settings),
+      imu_(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms)),
+      slam_(settingsInUse(), imu_.body_T_imu(), mountedLidars(lidars())),
+      motion_(imu_.body_T_imu()),
+      check_(imu_.body_T_imu(), warn)
+  {
+  }
+
+  /** Waits for an event no longer than a person who wants to stop it would. */
+  void step()
+  {
+    constexpr Duration kPatience = 100ms;
+    std::optional<SensorEvent> event = times_.measure("input", [&] { return input_.next(kPatience); });
+    if (!event) return;
+    if (const auto* sample = std::get_if<SensorImu>(&*event)) take(*sample);
+    if (auto* scan = std::get_if<Scan>(&*event)) take(std::move(*scan));
+  }
+
+  void finish()
+  {
+    keep(slam_.finish());
+    check_.check();
+    for (const std::string& warning : cropWarnings(slam_.cropped(), lidars())) warn_(warning);
+  }
+
+  RunProgress progress() const
+  {
+    const double waited = 1e-3 * times_.stages().at("input").total_ms;
+    return {input_.progress(), counts_.scans, counts_.recorded(), secondsSince(start_) - waited};
+  }
+
+  SlamRunResult result(bool interrupted) const
+  {
+    SlamRunResult result;
+    RunSummary& summary = result.summary;
+    const bool whole = slam_.mapRestarts() == 0;
+    result.passed = counts_.passed() && whole && !check_.warned();
+    summary.imu = check_.agreement();
+    summary.outcome = interrupted ? "INTERRUPTED" : whole ? counts_.outcome() : "LOST";
+    summary.counts = countsOf(input_.account());
+    summary.counts["scans_skipped"] = slam_.skippedScans();
+    summary.counts["recoveries"] = slam_.recoveries();
+    summary.counts["map_restarts"] = slam_.mapRestarts();
+    summary.counts["imu_samples_refused"] = slam_.refusedImuSamples();
+    counts_.addTo(summary.counts);
+    addCounts(slam_.cropped(), lidars(), summary.counts);
+    summary.stages = slam_.times().stages();
+    for (const auto& [stage, time] : times_.stages()) summary.stages[stage] = time;
+    for (const auto& [stage, time] : input_.stages()) summary.stages[stage] = time;
+    summary.recorded = counts_.recorded();
+    summary.elapsed = secondsSince(start_);
+    return result;
+  }
+
+ private:
+  std::vector<RecordedLidar> lidars() const { return input_.setup().header.lidars; }
+
+  const ImuNoise& noise() const { return imu_.insideLidar() ? settings_.lidar_imu : settings_.imu; }
+
+  SlamSettings settingsInUse() const
+  {
+    SlamSettings in_use = settings_;
+    in_use.imu = noise();
+    in_use.slam.imu_wait_ms = 1e3 * seconds(imu_.patience(fromSeconds(1e-3 * settings_.slam.imu_wait_ms)));
+    return in_use;
+  }
+
+  void take(const SensorImu& read)
+  {
+    const std::optional<ImuSample> sample = imu_.take(read);
+    if (!sample) return;
+    check_.add(*sample);
+    if (motion_.known()) return;
+    slam_.addImu(*sample);
+    if (!settings_.slam.constant_motion) keep(slam_.process());
+  }
+
+  void take(Scan scan)
+  {
+    ++counts_.scans;
+    if (!settings_.slam.constant_motion) changeImuIfSilent(scan.end());
+    for (const ImuSample& imagined : motion_.samplesUntil(scan.end())) slam_.addImu(imagined);
+    keep(slam_.addScan(std::move(scan)));
+  }
+
+  void changeImuIfSilent(Timestamp now)
+  {
+    if (!imu_.changeIfSilent(now)) return;
+    ++counts_.imu_changes;
+    warn_(fmt::format("the IMU '{}' is silent: '{}' goes on", imu_.previousName(), imu_.name()));
+    check_.change(imu_.body_T_imu());
+    slam_.changeImu({{imu_.body_T_imu(), noise()}, imu_.recent(), imu_.previous()});
+  }
+
+  void keep(const std::vector<StateEstimate>& estimates)
+  {
+    for (const StateEstimate& estimate : estimates)
+    {
+      counts_.add(estimate);
+      if (settings_.slam.constant_motion) motion_.update(estimate);
+      check_.add(estimate);
+      files_.add(estimate);
+    }
+  }
+
+  Clock::time_point start_ = Clock::now();
+  SensorInput& input_;
+  SlamFiles& files_;
+  const Warn& warn_;
+  SlamSettings settings_;
+  ImuInUse imu_;
+  LidarInertialSlam slam_;
+  ConstantMotion motion_;  // in place of the IMU, with [slam] constant_motion
+  ImuCheck check_;
+  StageTimes times_;
+  RunCounts counts_;
+};
+}  // namespace
+
+SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFiles& files, const KeepGoing& keepGoing,
+                      const Warn& warn)
+{
+  SlamRun run(input, settings, files, warn);
+  bool going = true;
+  while (going && !input.ended())
+  {
+    run.step();
+    going = keepGoing(run.progress());
+  }
+  run.finish();
+  return run.result(!going);
+}
+}  // namespace scanloom

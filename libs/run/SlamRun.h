@@ -1,0 +1,42 @@
+/** Sensor input through localisation into files. */
+#pragma once
+#include "rig/SensorInput.h"
+#include "run/ImuCheck.h"
+#include "run/SlamFiles.h"
+#include "slam/LidarInertialSlam.h"
+
+#include <functional>
+
+namespace scanloom
+{
+struct RunProgress
+{
+  double share = 0;  // of the input that was read, 0 to 1
+  std::uint64_t scans = 0;
+  double recorded = 0;  // s, from the first pose to the newest
+  double busy = 0;      // s, without waiting for input
+};
+
+/** Called after each event, and when none came for 0.1 s; false stops the run and keeps what was processed. */
+using KeepGoing = std::function<bool(const RunProgress&)>;
+
+struct SlamRunResult
+{
+  RunSummary summary;  // counts, stages, outcome: OK, INITIALISING, DEGENERATE, LOST, NOTHING or INTERRUPTED
+  /**
+   * False if there is no pose, if the state was LOST at the end or for more than 5 % of the poses, if the local map was
+   * started anew (the trajectory has a break), or if the IMU is at fault.
+   */
+  bool passed = true;
+};
+
+/**
+ * Runs to the end of the input and writes every estimate to `files`, which the caller closes with the summary. Throws
+ * ConfigError if settings.slam.imu names an IMU that the input does not have, and what requireGravity() throws.
+ *
+ * A scan waits in LidarInertialSlam and nowhere else, by one rule: it is processed as soon as the IMU in use covers it,
+ * or when a scan arrives that ends ImuInUse::patience() later. By then, if the IMU is silent and another one is not,
+ * that one has taken over, and the scan is processed with its samples.
+ */
+SlamRunResult runSlam(SensorInput&, const SlamSettings&, SlamFiles& files, const KeepGoing&, const Warn&);
+}  // namespace scanloom

@@ -1,0 +1,65 @@
+/** Finds a lost body again. */
+#pragma once
+#include "core/StageTimes.h"
+#include "imu/NavState.h"
+#include "slam/ScanRegistration.h"
+
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/** The state at the last trusted registration, before a faulty IMU could change it. */
+struct LastSeen
+{
+  Rigid local_T_body;  // in the local map
+  double score = 0;    // RegistrationResult::score
+  Rigid map_T_local;
+  ImuBias bias;
+};
+
+/** Where the IMU alone says that the body is. */
+struct LostBody
+{
+  Timestamp stamp;
+  Eigen::Quaterniond local_R_body;
+  Duration since_trusted;
+};
+
+struct FoundBody
+{
+  RegistrationResult registration;
+  Matrix6d covariance;  // of the body in the local map, tangent of boxPlus
+};
+
+class Recovery
+{
+ public:
+  void remember(const LastSeen& seen) { last_seen_ = seen; }
+  const std::optional<LastSeen>& lastSeen() const { return last_seen_; }
+
+  /** When another IMU takes over. */
+  void changeBias(const ImuBias&);
+
+  /** When the local map in which the body was seen is given up. */
+  void forget() { *this = {}; }
+
+  /**
+   * Searches around the place where the body was last seen, as far as a machine can drive since then; at most once a
+   * second. The tilt is the IMU's. So is the heading, every other time; in between all headings are tried, because the
+   * IMU may be wrong.
+   */
+  std::optional<FoundBody> search(const NdtMap& local_map, const std::vector<View>& seen_from_body, const LostBody&,
+                                  const ScanRegistrationOptions&, StageTimes&);
+
+ private:
+  struct Search
+  {
+    Timestamp stamp;
+    bool all_headings;
+  };
+
+  std::optional<LastSeen> last_seen_;
+  std::optional<Search> last_search_;  // since the body was last found
+};
+}  // namespace scanloom

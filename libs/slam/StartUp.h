@@ -1,0 +1,19 @@
+/** The first state: attitude, biases and velocity. */
+#pragma once
+#include "imu/ImuInitialisation.h"
+#include "slam/Tracker.h"
+#include "slam/WaitingScans.h"
+
+#include <optional>
+
+namespace scanloom
+{
+/**
+ * At the start of the first scan; none until the IMU covers the time that a standstill takes, or the input has ended.
+ * At rest, attitude and biases come from the IMU. Otherwise the attitude is that of the mean specific force, and the
+ * velocity comes from a trial: the first scans are tracked as if the machine had started from rest. Throws what
+ * requireGravity() does.
+ */
+std::optional<TrackerState> startUp(const WaitingScans&, const ImuBuffer&, const PlacedImu&, const StandstillOptions&,
+                                    const Tracker&);
+}  // namespace scanloom

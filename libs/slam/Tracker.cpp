@@ -1,0 +1,272 @@
+#include "slam/Tracker.h"
+
+#include "core/Matrix6.h"
+#include "ndt/Rivals.h"
+#include "preprocessing/Deskew.h"
+#include "slam/BodyPoses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace scanloom
+{
+namespace
+{
+std::vector<Eigen::Vector3d> positionsOf(const std::vector<MountedLidar>& lidars)
+{
+  std::vector<Eigen::Vector3d> positions;
+  for (const MountedLidar& lidar : lidars) positions.push_back(lidar.body_T_sensor.translation);
+  return positions;
+}
+
+/**
+ * How many registrations count as one. Errors of the map's cells, leaves seen from one side and occlusions stay the
+ * same from scan to scan until the machine has moved by `correlation` m: as independent measurements the registrations
+ * would outvote the IMU by their number.
+ */
+double registrationsPerMeasurement(const TrackerState& state, const Rigid& local_T_body, double correlation)
+{
+  constexpr double kLeastTravel = 0.02;  // m: at rest many scans count as one, but not as none
+  const double travel =
+      state.last_registered ? (local_T_body.translation - state.last_registered->translation).norm() : 0;
+  return std::max(1.0, correlation / std::max(travel, kLeastTravel));
+}
+
+NavEstimate newestOf(const FixedLagSmoother& smoother) { return {smoother.newest(), smoother.newestCovariance()}; }
+}  // namespace
+
+Rigid TrackerState::map_T_local() const
+{
+  return smoother.hasAnchor() ? smoother.anchorBody() * local_T_anchor.inverse() : Rigid::identity();
+}
+
+Tracker::Tracker(const SlamSettings& settings, const std::vector<MountedLidar>& lidars)
+  : settings_(settings), crop_(cropOf(settings.crop, lidars))
+{
+  if (settings.slam.tracking.stem_axes) viewpoints_ = positionsOf(lidars);
+}
+
+FixedLagSmoother Tracker::windowFrom(const NavEstimate& start, const PlacedImu& imu) const
+{
+  return {start.state, start.covariance, imu.body_T_imu, imu.noise, settings_.smoother};
+}
+
+TrackerState Tracker::begin(const NavEstimate& start, const PlacedImu& imu) const
+{
+  TrackerState state{windowFrom(start, imu), LocalMap(settings_.local_map, settings_.map_cells), {}, {}, {}, {}, {}};
+  state.trust.last_trusted = start.state.stamp;
+  return state;
+}
+
+TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSample>& samples, StageTimes& times) const
+{
+  StateEstimate estimate;
+  estimate.stamp = scan.end();
+  estimate.scan_complete = scan.complete();
+  const NavState before = state.smoother.newest();
+
+  const Prediction predicted = predict(samples, state, times);
+  Seen seen = preprocess(std::move(scan), before, samples, state, times);
+  locate(seen, predicted, state, estimate, times);
+  smooth(before, samples, predicted, state, estimate, times);
+  const bool contradicted = judgeAndRecover(seen, state, estimate, times);
+  estimate.correction = boxMinus(estimate.map_T_body, predicted.map_T_body);
+  state.motion_since_last = estimate.recovered ? Trajectory{} : estimate.since_last;
+  updateMap(seen, contradicted, state, estimate, times);
+  return {std::move(state), std::move(estimate), std::move(seen.cropped)};
+}
+
+/** The newest state becomes the one at the end of the samples, as the IMU predicts it. */
+Tracker::Prediction Tracker::predict(const std::vector<ImuSample>& samples, TrackerState& state,
+                                     StageTimes& times) const
+{
+  FixedLagSmoother& smoother = state.smoother;
+  const ImuBias bias = smoother.newest().bias;
+  smoother.addState(times.measure("preintegration", [&] { return preintegrate(samples, bias, smoother.noise()); }));
+  return {smoother.newestBody(), times.measure("smoother", [&] { return smoother.newestBodyCovariance(); })};
+}
+
+/** Cropped, and moved to where each point is seen from the body at the end of the scan. */
+Tracker::Seen Tracker::preprocess(Scan scan, const NavState& before, const std::vector<ImuSample>& samples,
+                                  const TrackerState& state, StageTimes& times) const
+{
+  Seen seen;
+  seen.cloud = times.measure(
+      "preprocessing",
+      [&]
+      {
+        const Rigid imu_T_body = state.smoother.body_T_imu().inverse();
+        const Rigid end_T_map = (predictAt(before, samples, {scan.end()}).front().map_T_imu * imu_T_body).inverse();
+        std::vector<Rigid> end_T_column;
+        for (const Rigid& map_T_body : bodyAtColumns(scan, before, samples, imu_T_body, state.motion_since_last))
+          end_T_column.push_back(end_T_map * map_T_body);
+        CroppedScan cropped = cropOut(std::move(scan), crop_);
+        seen.cropped = std::move(cropped.counts);
+        return deskew(std::move(cropped.scan), end_T_column);
+      });
+  seen.views = times.measure("preprocessing", [&] { return viewsOf(seen.cloud, viewpoints_); });
+  return seen;
+}
+
+/** Registers the scan to the local map, and hands the result to the smoother. */
+void Tracker::locate(const Seen& seen, const Prediction& predicted, TrackerState& state, StateEstimate& estimate,
+                     StageTimes& times) const
+{
+  estimate.points = seen.cloud.size();
+  if (state.local_map.empty() || seen.cloud.empty() || !isPositiveDefinite(predicted.covariance)) return;
+  const NdtMap& map = state.local_map.ndt();
+  const PoseGuess guess(state.map_T_local().inverse() * predicted.map_T_body, predicted.covariance);
+  estimate.registration = registerRoughly(map, seen.views, guess, settings_.registration, times);
+  if (settings_.slam.tracking.refine)
+  {
+    const RegistrationResult& rough = *estimate.registration;
+    const Rigid start = rough.trustworthy() ? rough.target_T_source : guess.target_T_source;
+    estimate.registration = registerFinely(map, seen.views, start, settings_.registration, times);
+  }
+  if (estimate.registration->outcome != Outcome::LowOverlap) addRegistration(guess, state, estimate);
+}
+
+/** The smoother's robust loss follows a registration that contradicts the IMU only slowly; such a one is not trusted.
+ */
+void Tracker::addRegistration(const PoseGuess& predicted, TrackerState& state, StateEstimate& estimate) const
+{
+  const TrackingOptions& options = settings_.slam.tracking;
+  const RegistrationResult& registration = *estimate.registration;
+  const Rigid& local_T_body = registration.target_T_source;
+  const PoseGuess both(predicted.target_T_source, *predicted.covariance + registration.covariance);
+  estimate.surprise = std::sqrt(surprise(both, local_T_body));
+  estimate.trusted = registration.trustworthy() && (options.gate == 0 || estimate.surprise <= options.gate);
+  state.trust.contradiction.add(estimate.stamp, estimate.surprise);
+
+  const Matrix6d information =
+      registration.information / registrationsPerMeasurement(state, local_T_body, options.correlation);
+  state.last_registered = local_T_body;
+  FixedLagSmoother& smoother = state.smoother;
+  if (smoother.hasAnchor())
+    smoother.addRelativePose(smoother.anchor().stamp, state.local_T_anchor.inverse() * local_T_body, information);
+  else
+    smoother.addPosePrior(local_T_body, information);
+}
+
+void Tracker::smooth(const NavState& before, const std::vector<ImuSample>& samples, const Prediction& predicted,
+                     TrackerState& state, StateEstimate& estimate, StageTimes& times) const
+{
+  FixedLagSmoother& smoother = state.smoother;
+  const NavState after = times.measure("smoother", [&] { return smoother.optimise(); });
+  estimate.map_T_body = smoother.newestBody();
+  estimate.covariance = smoother.bodyCovarianceAfter(predicted.covariance);
+  estimate.velocity = after.velocity;
+  estimate.since_last = posesBetween(before, after, samples, smoother.body_T_imu().inverse());
+}
+
+/** Searches the body where it is lost and the lidar does not contradict that. Returns Assessment::contradicted. */
+bool Tracker::judgeAndRecover(const Seen& seen, TrackerState& state, StateEstimate& estimate, StageTimes& times) const
+{
+  const Assessment assessed = judge(state, estimate);
+  const bool blind = assessed.health == Health::Lost && !assessed.contradicted;
+  return blind && recover(seen.views, state, estimate, times) ? judge(state, estimate).contradicted
+                                                              : assessed.contradicted;
+}
+
+/** Sets the estimate's health, and remembers what the next scans are judged by. */
+Assessment Tracker::judge(TrackerState& state, StateEstimate& estimate) const
+{
+  const bool opens_map = state.local_map.empty() && estimate.points > 0;
+  const Assessment assessed = assess(estimate, opens_map, state.trust, settings_.slam.trust);
+  estimate.health = assessed.health;
+  state.trust.last_trusted = assessed.last_trusted;
+  if (estimate.trusted)
+    state.recovery.remember({estimate.registration->target_T_source, estimate.registration->score, state.map_T_local(),
+                             state.smoother.newest().bias});
+  return assessed;
+}
+
+/**
+ * Begins a new window where the body is found. The map frame and the biases are those of the last trusted scan: what
+ * the IMU read since then, and registrations that contradicted it, would tilt them.
+ */
+bool Tracker::recover(const std::vector<View>& views, TrackerState& state, StateEstimate& estimate,
+                      StageTimes& times) const
+{
+  if (state.local_map.empty() || estimate.points == 0) return false;
+  const LostBody lost{estimate.stamp, (state.map_T_local().inverse() * estimate.map_T_body).rotation,
+                      estimate.stamp - state.trust.last_trusted};
+  const std::optional<FoundBody> found =
+      state.recovery.search(state.local_map.ndt(), views, lost, settings_.registration, times);
+  if (!found) return false;
+
+  const Rigid& local_T_body = found->registration.target_T_source;
+  const LastSeen& seen = *state.recovery.lastSeen();
+  const PlacedImu imu{state.smoother.body_T_imu(), state.smoother.noise()};
+  state.smoother = windowFrom(
+      foundAt(seen.map_T_local * local_T_body, found->covariance, newestOf(state.smoother), seen.bias, imu), imu);
+  state.last_registered.reset();
+  state.trust.contradiction.clear();
+  anchorAt(local_T_body, state);
+
+  estimate.registration = found->registration;
+  estimate.map_T_body = state.smoother.newestBody();
+  estimate.covariance = state.smoother.newestBodyCovariance();
+  estimate.velocity = state.smoother.newest().velocity;
+  estimate.trusted = estimate.recovered = true;
+  return true;
+}
+
+/** Registrations from now on are relative to the newest body, which is there in the local map. */
+void Tracker::anchorAt(const Rigid& local_T_body, TrackerState& state) const
+{
+  if (!settings_.slam.tracking.relative) return;
+  state.smoother.anchorNewest();
+  state.local_T_anchor = local_T_body;
+}
+
+void Tracker::updateMap(Seen& seen, bool contradicted, TrackerState& state, StateEstimate& estimate,
+                        StageTimes& times) const
+{
+  if (seen.cloud.empty()) return;
+  const TrustOptions& trust = settings_.slam.trust;
+  const bool lost_for_good = estimate.health == Health::Lost && estimate.stamp - state.trust.last_trusted >
+                                                                    fromSeconds(trust.lost_after + trust.restart_after);
+  if (lost_for_good && !state.local_map.empty())
+  {
+    estimate.map_restarted = true;
+    state.local_map.clear();
+    state.recovery.forget();
+    state.trust.contradiction.clear();
+    state.trust.last_trusted = estimate.stamp;
+  }
+  const bool sure = estimate.trusted && !contradicted && estimate.registration->outcome == Outcome::Converged;
+  if (state.local_map.empty() || (sure && state.local_map.wants(state.map_T_local().inverse() * estimate.map_T_body)))
+    times.measure("keyframe", [&] { addKeyframe(seen, state, estimate); });
+}
+
+/** Aligns the scan again with finer cells, within the covariance of the estimate, and adds it to the local map. */
+void Tracker::addKeyframe(Seen& seen, TrackerState& state, StateEstimate& estimate) const
+{
+  const Rigid map_T_local = state.map_T_local();
+  const Rigid estimated = map_T_local.inverse() * estimate.map_T_body;
+  Rigid local_T_body = estimated;
+  if (!state.local_map.empty())
+  {
+    const NdtMap source(seen.views, settings_.keyframe_cells);
+    const PoseGuess guess(estimated, state.smoother.newestBodyCovariance());
+    const RegistrationResult fine = align(state.local_map.ndt(), source, guess, settings_.registration.fine);
+    if (fine.trustworthy()) local_T_body = fine.target_T_source;
+  }
+  state.local_map.add(seen.views, local_T_body);
+  estimate.keyframe = Keyframe{estimate.stamp, map_T_local * local_T_body, std::move(seen.cloud)};
+  if (!state.smoother.hasAnchor()) anchorAt(estimated, state);
+}
+
+TrackerState Tracker::changeImu(TrackerState state, const ImuChange& change) const
+{
+  const Rigid map_T_local = state.map_T_local();
+  const bool anchored = state.smoother.hasAnchor();
+  const NavEstimate start = continuedBy(change, newestOf(state.smoother), state.smoother.body_T_imu());
+  state.smoother = windowFrom(start, change.imu);
+  if (anchored) anchorAt(map_T_local.inverse() * state.smoother.newestBody(), state);
+  state.recovery.changeBias(start.state.bias);
+  return state;
+}
+}  // namespace scanloom

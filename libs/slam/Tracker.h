@@ -1,0 +1,85 @@
+/** Follows the machine from scan to scan (paper, section 2.2): Tracker::step() is the algorithm on one page. */
+#pragma once
+#include "core/MountedLidar.h"
+#include "core/StageTimes.h"
+#include "graph/FixedLagSmoother.h"
+#include "ndt/View.h"
+#include "preprocessing/Crop.h"
+#include "slam/Assessment.h"
+#include "slam/LocalMap.h"
+#include "slam/Recovery.h"
+#include "slam/SlamSettings.h"
+#include "slam/WindowStart.h"
+
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/** What is remembered from one scan to the next. */
+struct TrackerState
+{
+  FixedLagSmoother smoother;
+  LocalMap local_map;                    // rigid, in a frame of its own
+  Rigid local_T_anchor;                  // the body at the smoother's anchor
+  std::optional<Rigid> last_registered;  // local_T_body
+  Trajectory motion_since_last;          // body poses from the state before the newest up to it
+  TrustHistory trust;
+  Recovery recovery;
+
+  Rigid map_T_local() const;
+};
+
+struct TrackedScan
+{
+  TrackerState state;
+  StateEstimate estimate;
+  std::vector<CropCounts> cropped;  // by sensor id
+};
+
+class Tracker
+{
+ public:
+  /** `lidars` by sensor id. Throws ConfigError for a [crop] lidar_boxes that does not fit them. */
+  Tracker(const SlamSettings&, const std::vector<MountedLidar>& lidars);
+
+  TrackerState begin(const NavEstimate&, const PlacedImu&) const;
+
+  /** The state after a scan. The samples are the IMU's from the newest state to the scan's end (ImuBuffer::between). */
+  TrackedScan step(TrackerState, Scan, const std::vector<ImuSample>&, StageTimes&) const;
+
+  /** The same state, as another IMU of the same body continues it. */
+  TrackerState changeImu(TrackerState, const ImuChange&) const;
+
+ private:
+  struct Prediction
+  {
+    Rigid map_T_body;
+    Matrix6d covariance;  // see FixedLagSmoother::newestBodyCovariance()
+  };
+  struct Seen
+  {
+    PointCloud cloud;  // in the body frame at the scan's end
+    std::vector<View> views;
+    std::vector<CropCounts> cropped;
+  };
+
+  FixedLagSmoother windowFrom(const NavEstimate&, const PlacedImu&) const;
+  Prediction predict(const std::vector<ImuSample>&, TrackerState&, StageTimes&) const;
+  Seen preprocess(Scan, const NavState& before, const std::vector<ImuSample>&, const TrackerState&, StageTimes&) const;
+  void locate(const Seen&, const Prediction&, TrackerState&, StateEstimate&, StageTimes&) const;
+  void addRegistration(const PoseGuess& predicted, TrackerState&, StateEstimate&) const;
+  void smooth(const NavState& before, const std::vector<ImuSample>&, const Prediction&, TrackerState&, StateEstimate&,
+              StageTimes&) const;
+  bool judgeAndRecover(const Seen&, TrackerState&, StateEstimate&, StageTimes&) const;
+  Assessment judge(TrackerState&, StateEstimate&) const;
+  bool recover(const std::vector<View>&, TrackerState&, StateEstimate&, StageTimes&) const;
+  void anchorAt(const Rigid& local_T_body, TrackerState&) const;
+  void updateMap(Seen&, bool contradicted, TrackerState&, StateEstimate&, StageTimes&) const;
+  void addKeyframe(Seen&, TrackerState&, StateEstimate&) const;
+
+  SlamSettings settings_;
+  Crop crop_;
+  std::vector<Eigen::Vector3d> viewpoints_;  // of the lidars in the body frame; empty: stems stay where they are seen
+};
+}  // namespace scanloom

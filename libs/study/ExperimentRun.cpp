@@ -1,0 +1,178 @@
+#include "study/ExperimentRun.h"
+
+#include "core/AtomicFile.h"
+#include "core/Interruption.h"
+#include "evaluation/Evaluation.h"
+#include "formats/Trajectory.h"
+#include "rig/Extrinsics.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <fstream>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+constexpr const char* kRecord = "record.json";
+constexpr std::size_t kHashDigits = 8;
+
+/** With _ for characters that are awkward in a file name. */
+std::string fileName(std::string label)
+{
+  std::replace_if(
+      label.begin(), label.end(),
+      [](unsigned char c) { return !std::isalnum(c) && c != '+' && c != '-' && c != '.' && c != '='; }, '_');
+  return label;
+}
+
+nlohmann::json readJson(const std::filesystem::path& path)
+{
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(fmt::format("{} is missing", path.string()));
+  return nlohmann::json::parse(file);
+}
+
+Eigen::Vector3d prismOf(const std::filesystem::path& truth)
+{
+  const auto poses = readExtrinsics(truth / "extrinsics.txt");
+  const auto prism = poses.find("T_body_prism");
+  if (prism == poses.end())
+    throw std::runtime_error(fmt::format("{}/extrinsics.txt has no T_body_prism", truth.string()));
+  return prism->second.translation;
+}
+
+RunFigures figuresOf(const std::filesystem::path& out, const std::filesystem::path& truth)
+{
+  EvaluationInput input;
+  input.scans = readTum(out / "trajectory.tum");
+  input.imu_rate = readTum(out / "trajectory_imu.tum");
+  input.reference = readTotalStation(truth / "total_station.csv");
+  input.truth = readTum(truth / "groundtruth.tum");
+  EvaluationOptions options;
+  options.body_p_point = prismOf(truth);
+  const Evaluation e = evaluate(input, options);
+  const std::vector<PosePair> poses = posePairs(input.scans, Eigen::Vector3d::Zero(), *input.truth);
+  const PoseErrors ape = absoluteErrors(poses, options.alignment), rpe = relativeErrors(poses, options.delta);
+
+  RunFigures figures;
+  figures.drift = e.drift.largest;
+  figures.path = e.drift.path_length;
+  figures.final = e.drift.final;
+  figures.samples = e.drift.samples;
+  figures.drift_percent = e.drift.percent();
+  figures.imu_rate_drift = e.imu_rate_drift->largest;
+  figures.floor = e.floor->largest;
+  figures.ape = ape.metres.rmse;
+  if (rpe.compared > 0)
+  {
+    figures.rpe = rpe.metres.rmse;
+    figures.rpe_deg = rpe.degrees->rmse;
+  }
+  figures.over_distance = e.imu_rate_drift->over_distance;
+  return figures;
+}
+
+RunCosts costsOf(const nlohmann::json& summary)
+{
+  RunCosts costs;
+  for (const auto& [stage, time] : summary.at("stages").items()) costs.stage_ms[stage] = time.at("mean_ms");
+  costs.real_time_factor = summary.at("real_time_factor");
+  costs.peak_memory_mb = 1e-6 * summary.at("peak_memory_bytes").get<double>();
+  return costs;
+}
+
+void runAndEvaluate(RunRecord& record, const ExperimentFolder& folder, const DriveFolder& drive,
+                    const std::filesystem::path& out)
+{
+  std::filesystem::remove_all(out);  // results of a failed or interrupted run
+  std::filesystem::create_directories(out);
+  if (!drive.error.empty()) throw std::runtime_error(drive.error);
+
+  const auto start = std::chrono::steady_clock::now();
+  runVerb(slamCommand(record.run, folder, drive.path, out), out / "log.txt");
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const nlohmann::json summary = readJson(out / "summary.json");
+  record.outcome = summary.at("outcome");
+  record.costs = costsOf(summary);
+  record.costs->elapsed = elapsed.count();
+  record.figures = figuresOf(out, drive.path);
+}
+}  // namespace
+
+std::filesystem::path ExperimentFolder::of(const RunRecord& record) const
+{
+  return root / "runs" /
+         fmt::format("{}_{}", fileName(record.run.label()), record.configuration_hash.substr(0, kHashDigits));
+}
+
+std::filesystem::path ExperimentFolder::of(const PlannedDrive& drive) const
+{
+  if (!drive.simulated()) return drive.recording;
+  return root / "drives" / fmt::format("{}_{}", fileName(drive.label()), drive.hash.substr(0, kHashDigits));
+}
+
+Command slamCommand(const PlannedRun& run, const ExperimentFolder& folder, const std::filesystem::path& drive,
+                    const std::filesystem::path& out)
+{
+  std::vector<std::string> words{ownExecutable(), "slam"};
+  for (const auto& file : folder.configurations) words.insert(words.end(), {"-c", file});
+  if (!run.simulation.empty()) words.insert(words.end(), {"-c", run.simulation});  // it may have sections of slam
+  words.insert(words.end(), {"--lidars", run.lidars, "--every-nth", std::to_string(run.every_nth)});
+  auto settings = run.settings;
+  settings.erase(std::remove_if(settings.begin(), settings.end(),
+                                [](const auto& setting) { return changesTheDrive(setting.first); }),
+                 settings.end());
+  addSettings(words, settings);
+  if (!folder.keep_maps) words.insert(words.end(), {"--set", "output.maps=false"});
+  words.insert(words.end(), {"-w", "--out-dir", out});
+  return {words, {"SCANLOOM_RECORDING=" + drive.string()}};
+}
+
+RunRecord execute(RunRecord record, const ExperimentFolder& folder, const DriveFolder& drive)
+{
+  const auto out = folder.of(record);
+  try
+  {
+    runAndEvaluate(record, folder, drive, out);
+  }
+  catch (const std::exception& e)
+  {
+    record.outcome = "FAILED";
+    record.error = e.what();
+  }
+  if (interrupted()) return record;
+  writeAtomically(out / kRecord, [&](std::ostream& file) { file << nlohmann::json(record).dump(2) << '\n'; });
+  return record;
+}
+
+void removeRecord(const RunRecord& planned, const ExperimentFolder& folder)
+{
+  std::filesystem::remove(folder.of(planned) / kRecord);
+}
+
+std::optional<RunRecord> recordOf(const RunRecord& planned, const ExperimentFolder& folder)
+{
+  const auto path = folder.of(planned) / kRecord;
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  auto record = readJson(path).get<RunRecord>();
+  if (record.configuration_hash != planned.configuration_hash) return std::nullopt;
+  return record;
+}
+
+FinishedRuns finishedBefore(const std::vector<RunRecord>& planned, const ExperimentFolder& folder)
+{
+  FinishedRuns finished;
+  for (const RunRecord& run : planned)
+  {
+    finished.push_back(recordOf(run, folder));
+    if (finished.back() && !finished.back()->finished()) finished.back().reset();
+  }
+  return finished;
+}
+}  // namespace scanloom

@@ -1,0 +1,28 @@
+/** Draws gnuplot scripts. */
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace scanloom
+{
+/** Keeps its files in a temporary folder, which its destructor removes. */
+class Gnuplot
+{
+ public:
+  /** Throws std::runtime_error if no folder can be created in `parent`. */
+  explicit Gnuplot(const std::filesystem::path& parent);
+  Gnuplot(const Gnuplot&) = delete;
+  Gnuplot& operator=(const Gnuplot&) = delete;
+  ~Gnuplot();
+
+  /**
+   * An <svg> element whose ids differ from those of all earlier ones, so that several can be on one page.
+   * Throws std::runtime_error with the messages of gnuplot if it fails.
+   */
+  std::string draw(const std::string& script);
+
+ private:
+  std::filesystem::path folder_;
+  int figures_ = 0;
+};
+}  // namespace scanloom

@@ -1,0 +1,69 @@
+/**
+ * Batching by time beside the paper's approach A (section 1.1): two lidars of 10 Hz amid panels that move away at 10
+ * km/h. The counters are what counts, on a virtual clock; the times are those of the whole drive.
+ *
+ *   <approach>/<mounting>/<phase in ms>   approach: time, nearest, one_of_each; mounting: in_step, alike
+ */
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "support/MovingPanels.h"
+#include "whole_turns/WholeTurns.h"
+
+using namespace scanloom;
+using namespace scanloom::panels;
+
+namespace
+{
+enum class Approach
+{
+  Time,
+  Nearest,
+  OneOfEach,
+};
+
+Figures figuresOf(Approach approach, const Mounting& mounting, const std::vector<Arrival>& arrivals)
+{
+  switch (approach)
+  {
+    case Approach::Nearest:
+      return measure(WholeTurns(lidarsOf(mounting), TurnGrouping::Nearest), arrivals);
+    case Approach::OneOfEach:
+      return measure(WholeTurns(lidarsOf(mounting), TurnGrouping::OneOfEach), arrivals);
+    case Approach::Time:
+      break;
+  }
+  return measure(TimeBatcher(lidarsOf(mounting), {}), arrivals);
+}
+
+void drive(benchmark::State& state, Approach approach, const Mounting& mounting)
+{
+  const std::vector<Arrival> arrivals = arrivalsOf(mounting);
+  Figures figures;
+  for (auto _ : state) figures = figuresOf(approach, mounting, arrivals);
+  state.counters["span_ms"] = 1e3 * seconds(figures.longest_span);
+  state.counters["held_ms"] = 1e3 * seconds(figures.longest_held);
+  state.counters["oldest_ms"] = 1e3 * seconds(figures.oldest_point);
+  state.counters["smear_mean_cm"] = 1e2 * figures.meanSmear();
+  state.counters["smear_p50_cm"] = 1e2 * figures.smear(0.5);
+  state.counters["smear_p90_cm"] = 1e2 * figures.smear(0.9);
+  state.counters["smear_max_cm"] = 1e2 * figures.smear(1);
+  state.counters["doubled_share"] = figures.shareAbove(kDoubled);
+  state.counters["sightings"] = static_cast<double>(figures.smears.size());
+}
+
+const bool kRegistered = []
+{
+  const std::pair<const char*, Approach> approaches[] = {
+      {"time", Approach::Time}, {"nearest", Approach::Nearest}, {"one_of_each", Approach::OneOfEach}};
+  const std::pair<const char*, Mounting (*)(Duration)> mountings[] = {{"in_step", inStep}, {"alike", alike}};
+  for (const auto& [approach, value] : approaches)
+    for (const auto& [name, mounting] : mountings)
+      for (Duration phase = 0ms; phase < kTurn; phase += 10ms)
+        benchmark::RegisterBenchmark(fmt::format("{}/{}/{}", approach, name, phase / 1ms).c_str(), drive, value,
+                                     mounting(phase))
+            ->Iterations(1)
+            ->Unit(benchmark::kMillisecond);
+  return true;
+}();
+}  // namespace

@@ -1,0 +1,82 @@
+#include "core/Progress.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace scanloom
+{
+namespace
+{
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+std::vector<std::string> linesOf(const std::string& text)
+{
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Progress, writesALinePerTenPercentWhereThereIsNoTerminal)
+{
+  std::ostringstream out;
+  {
+    Progress progress("slam", 250, "scans", out, false);
+    for (int i = 0; i <= 250; ++i) progress.update(i);
+  }
+  const auto lines = linesOf(out.str());
+
+  ASSERT_EQ(lines.size(), 10U);
+  EXPECT_THAT(lines[0], MatchesRegex("slam: 10 %, 25/250 scans, .* scans/s, .* left"));
+  EXPECT_THAT(lines[9], MatchesRegex("slam: 100 %, 250/250 scans, .* scans/s, took 0 s"));
+}
+
+TEST(Progress, saysHowFarAnInterruptedRunCame)
+{
+  std::ostringstream out;
+  {
+    Progress progress("slam", 100, "scans", out, false);
+    progress.update(15);
+    progress.update(17);
+  }
+  const auto lines = linesOf(out.str());
+
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_THAT(lines[1], HasSubstr("17 %, 17/100 scans"));
+}
+
+TEST(Progress, drawsABarOnOneLineOfATerminal)
+{
+  std::ostringstream out;
+  {
+    Progress progress("slam", 4, "scans", out, true);
+    progress.update(2);
+  }
+  ASSERT_EQ(linesOf(out.str()).size(), 1U);
+  EXPECT_THAT(out.str(), HasSubstr("\r\033[Kslam: [==========          ] 50 %, 2/4 scans, "));
+  EXPECT_EQ(out.str().back(), '\n');
+}
+
+TEST(Progress, countsWithoutAnEnd)
+{
+  std::ostringstream out;
+  {
+    Progress progress("record", 0, "scans", out, false);
+    progress.update(7);
+  }
+  EXPECT_THAT(out.str(), MatchesRegex("record: 7 scans, .* scans/s\n"));
+}
+
+TEST(TimeText, isShort)
+{
+  EXPECT_EQ(timeText(-1), "0 s");
+  EXPECT_EQ(timeText(59.4), "59 s");
+  EXPECT_EQ(timeText(59.6), "1:00 min");
+  EXPECT_EQ(timeText(247), "4:07 min");
+  EXPECT_EQ(timeText(7500), "2:05 h");
+}
+}  // namespace
+}  // namespace scanloom

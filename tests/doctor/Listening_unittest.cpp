@@ -1,0 +1,59 @@
+#include "doctor/Listening.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "doctor/RigExamination.h"
+#include "rig/liveRig.h"
+
+using namespace scanloom;
+
+namespace
+{
+/** Sends while the listener listens. */
+RigEvidence heard(const Rig& rig, const std::vector<Datagram>& datagrams, Duration longest)
+{
+  RigListener listener(rig, true);
+  std::atomic<bool> over{false};
+  std::thread sender(
+      [&]
+      {
+        while (!over && !isReceivedOn(rig.addresses.back().lidar_port)) std::this_thread::sleep_for(1ms);
+        UdpSender().replay(datagrams);
+      });
+  listenLive(rig, longest, listener, [] { return true; });
+  over = true;
+  sender.join();
+  return listener.finish();
+}
+}  // namespace
+
+TEST(Listening, hearsWhatIsSentAndMissesWhatIsNot)
+{
+  const LiveRig live(2);
+  std::vector<Datagram> datagrams = live.drive(1s);
+  const std::size_t of_one = datagrams.size() / 2;
+  const auto lost =
+      std::find_if(datagrams.begin() + 50, datagrams.end(),
+                   [&](const Datagram& d) { return d.destination_port == live.rig.addresses[1].lidar_port; });
+  datagrams.erase(lost);
+
+  const RigExamination seen = examine(heard(live.rig, datagrams, 2s), {});
+  EXPECT_EQ(seen.lidars[0].delivery.packets, of_one);
+  EXPECT_EQ(seen.lidars[0].delivery.loss.packets, 0u);
+  EXPECT_EQ(seen.lidars[1].delivery.packets, of_one - 1);
+  EXPECT_EQ(seen.lidars[1].delivery.loss.packets, 1u);
+  ASSERT_TRUE(seen.sockets);
+  EXPECT_EQ(seen.sockets->counters.datagrams, datagrams.size());
+  EXPECT_EQ(seen.sockets->counters.kernel_drops, 0u);
+}
+
+TEST(Listening, endsWhenToldTo)
+{
+  const LiveRig live(1);
+  RigListener listener(live.rig, true);
+  listenLive(live.rig, 1h, listener, [] { return false; });
+  EXPECT_TRUE(listener.finish().lidars.front().packets.empty());
+}
