@@ -57,7 +57,7 @@ int run(const ConfigArguments& arguments)
   return kDone;
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addConfigOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<ConfigArguments>();
   addOption(app, "--default", arguments->default_of,
@@ -71,6 +71,6 @@ std::function<int()> addOptions(CLI::App& app)
 
 Verb configVerb()
 {
-  return {"config", "default configuration files, and the manual of all parameters", {}, &addOptions};
+  return {"config", "default configuration files, and the manual of all parameters", {}, &addConfigOptions};
 }
 }  // namespace scanloom

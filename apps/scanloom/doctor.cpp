@@ -44,6 +44,7 @@ struct DoctorSettings : DoctorLimits
     visit(s.clocks, Section{"doctor", meaning});
     visit(s.imu, Section{"doctor", meaning});
     visit(s.geometry, Section{"doctor", meaning});
+    visit(s.pose, Section{"doctor", meaning});
   }
 };
 
@@ -125,7 +126,7 @@ int run(const DoctorArguments& arguments)
   return worstOf(findings) == Verdict::NotFit ? kQualityGate : kDone;
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addDoctorOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<DoctorArguments>();
   addOption(app, "SOURCE", arguments->sources, "captures (pcap, pcapng) or one rawlog; default: the lidars of -c");
@@ -143,6 +144,6 @@ Verb doctorVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<DoctorSettings>());
-  return {"doctor", "faults of a rig's lidars, clocks, IMUs and poses, and how to mend them", schema, &addOptions};
+  return {"doctor", "faults of a rig's lidars, clocks, IMUs and poses, and how to mend them", schema, &addDoctorOptions};
 }
 }  // namespace scanloom

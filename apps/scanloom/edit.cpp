@@ -241,7 +241,7 @@ void addFiles(CLI::App& app, OptionGroup& group, EditOptions& o)
       .showDefault();
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addEditOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<EditArguments>();
   addOption(app, "-i,--input", arguments->input, "the rawlog to read").typeName("FILE");
@@ -270,6 +270,6 @@ std::function<int()> addOptions(CLI::App& app)
 Verb editVerb()
 {
   return {"edit", "one operation on a rawlog: cut, split, thin, convert, export, check", rigSchema("lidars"),
-          &addOptions};
+          &addEditOptions};
 }
 }  // namespace scanloom

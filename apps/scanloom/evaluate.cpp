@@ -131,7 +131,7 @@ void addComparison(CLI::App& app, EvaluateArguments& arguments)
       .typeName("m|f");
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addEvaluateOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<EvaluateArguments>();
   addOption(app, "--trajectory", arguments->trajectory,
@@ -161,6 +161,6 @@ std::function<int()> addOptions(CLI::App& app)
 Verb evaluateVerb()
 {
   return {
-      "evaluate", "drift, APE and RPE of a trajectory, compared with a total station or true poses", {}, &addOptions};
+      "evaluate", "drift, APE and RPE of a trajectory, compared with a total station or true poses", {}, &addEvaluateOptions};
 }
 }  // namespace scanloom

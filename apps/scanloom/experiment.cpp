@@ -146,7 +146,7 @@ int run(const ExperimentArguments& arguments)
   return report(runAll(std::move(sweep), arguments, jobs), plan.runs.size(), output.folder);
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addExperimentOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<ExperimentArguments>();
   addConfiguration(app, arguments->configuration).required();
@@ -169,6 +169,6 @@ std::function<int()> addOptions(CLI::App& app)
 Verb experimentVerb()
 {
   return {"experiment", "slam on every combination of drives, lidars, N, seeds and parameters, with evaluation",
-          schemaOf<ExperimentSettings>(), &addOptions};
+          schemaOf<ExperimentSettings>(), &addExperimentOptions};
 }
 }  // namespace scanloom

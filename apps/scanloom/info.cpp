@@ -42,7 +42,7 @@ int run(const InfoArguments& arguments)
   return printRawlogInfo(arguments.file, arguments.json);
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addInfoOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<InfoArguments>();
   addOption(app, "FILE", arguments->file, "capture (pcap, pcapng) or rawlog").required();
@@ -60,5 +60,5 @@ int printRawlogInfo(const std::filesystem::path& rawlog, bool json)
   return info.damage.empty() ? kDone : kQualityGate;
 }
 
-Verb infoVerb() { return {"info", "what a capture or a rawlog holds", {}, &addOptions}; }
+Verb infoVerb() { return {"info", "what a capture or a rawlog holds", {}, &addInfoOptions}; }
 }  // namespace scanloom

@@ -173,7 +173,7 @@ int run(const MapArguments& arguments)
       fmt::format("-i {}: must be a .rawlog, .simplemap, .bt, .ot or a trajectory", arguments.input.string()));
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addMapOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<MapArguments>();
   addOption(app, "-i,--input", arguments->input,
@@ -210,6 +210,6 @@ std::function<int()> addOptions(CLI::App& app)
 
 Verb mapVerb()
 {
-  return {"map", "maps of a recording whose poses are known; maps and trajectories in other formats", {}, &addOptions};
+  return {"map", "maps of a recording whose poses are known; maps and trajectories in other formats", {}, &addMapOptions};
 }
 }  // namespace scanloom

@@ -130,7 +130,7 @@ RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& dr
   return options;
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addRecordOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<RecordArguments>();
   addConfiguration(app, arguments->configuration);
@@ -178,6 +178,6 @@ Verb recordVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<RecordSettings>());
-  return {"record", "a rawlog of merged scans, from live lidars, captures or a simulated drive", schema, &addOptions};
+  return {"record", "a rawlog of merged scans, from live lidars, captures or a simulated drive", schema, &addRecordOptions};
 }
 }  // namespace scanloom

@@ -149,7 +149,7 @@ void addTrials(CLI::App& app, RegisterArguments& arguments, const Option& truth,
   addSeed(app, options.seed).needs(trials);
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addRegisterOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<RegisterArguments>();
   addOption(app, "TARGET", arguments->target,
@@ -182,6 +182,6 @@ std::function<int()> addOptions(CLI::App& app)
 
 Verb registerVerb()
 {
-  return {"register", "pose of one point cloud in another, by registration", schemaOf<RegisterSettings>(), &addOptions};
+  return {"register", "pose of one point cloud in another, by registration", schemaOf<RegisterSettings>(), &addRegisterOptions};
 }
 }  // namespace scanloom

@@ -35,7 +35,7 @@ int run(const ReportArguments& arguments)
   return kDone;
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addReportOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<ReportArguments>();
   addOption(app, "DIR", arguments->folder, "folder of an experiment, as --out-dir of 'experiment' wrote it")
@@ -46,5 +46,5 @@ std::function<int()> addOptions(CLI::App& app)
 }
 }  // namespace
 
-Verb reportVerb() { return {"report", "the results of an experiment as one HTML page", {}, &addOptions}; }
+Verb reportVerb() { return {"report", "the results of an experiment as one HTML page", {}, &addReportOptions}; }
 }  // namespace scanloom

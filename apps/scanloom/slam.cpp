@@ -193,7 +193,7 @@ int run(SlamArguments arguments)
   return result.passed ? kDone : kQualityGate;
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addSlamOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<SlamArguments>();
   addConfiguration(app, arguments->configuration);
@@ -215,6 +215,6 @@ Verb slamVerb()
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<SlamVerbSettings>());
   return {"slam", "trajectory, keyframes and maps from a recording, a simulated drive or live lidars", schema,
-          &addOptions};
+          &addSlamOptions};
 }
 }  // namespace scanloom

@@ -116,7 +116,7 @@ int run(const ViewArguments& arguments)
   return kDone;
 }
 
-std::function<int()> addOptions(CLI::App& app)
+std::function<int()> addViewOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<ViewArguments>();
   addOption(app, "file", arguments->file, "a .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin (KITTI) or .tum")
@@ -134,6 +134,6 @@ std::function<int()> addOptions(CLI::App& app)
 
 Verb viewVerb()
 {
-  return {"view", "a rawlog, map, point cloud or trajectory in a window or as a picture", {}, &addOptions};
+  return {"view", "a rawlog, map, point cloud or trajectory in a window or as a picture", {}, &addViewOptions};
 }
 }  // namespace scanloom

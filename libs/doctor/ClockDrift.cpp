@@ -12,7 +12,7 @@ namespace
 constexpr int kWindows = 30;
 constexpr Duration kShortestWindow = 250ms;  // enough packets that one of them arrives without delay
 constexpr int kFewestMinima = 8;
-constexpr double kStampResolution = 1e-6;  // s, of arrival stamps in ordinary captures
+constexpr double kArrivalResolution = 1e-6;  // s, of arrival stamps in ordinary captures
 
 std::vector<Sample2d> leastDelays(const std::vector<Arrival>& arrivals)
 {
@@ -56,7 +56,7 @@ std::optional<ClockDrift> clockDrift(const std::vector<Arrival>& arrivals, Durat
   if (arrivals.empty() || arrivals.back().received - arrivals.front().received < shortest) return std::nullopt;
   const std::vector<Sample2d> minima = leastDelays(arrivals);
   if (minima.size() < kFewestMinima) return std::nullopt;
-  const RobustLine line = theilSen(minima, kStampResolution);
+  const RobustLine line = theilSen(minima, kArrivalResolution);
   return ClockDrift{-1e6 * line.slope, 1e6 * line.slope_sigma};
 }
 

@@ -43,7 +43,9 @@ Findings findingsOf(const RigExamination& rig, const DoctorLimits& limits)
     append(findings, clockFindings(rig, i, limits.clocks));
     append(findings, groundFindings(rig, i, limits.geometry));
     for (const PairExamination& pair : rig.pairs)
-      if (pair.lidar == i) findings.push_back(poseFinding(rig, pair, limits.geometry));
+      if (pair.lidar == i)
+        findings.push_back(
+            poseFinding(rig.lidars[i].name, rig.lidars[pair.reference].name, pair.agreement, limits.pose));
   }
   for (std::size_t i = 0; i < rig.imus.size(); ++i) append(findings, imuFindings(rig, i, limits.imu));
   if (rig.sockets) findings.push_back(socketFinding(*rig.sockets));

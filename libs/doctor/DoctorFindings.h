@@ -1,6 +1,6 @@
 /** Verdicts on the measures, with remedies. */
 #pragma once
-#include "doctor/Finding.h"
+#include "core/Finding.h"
 #include "doctor/RigExamination.h"
 
 namespace scanloom
@@ -13,6 +13,5 @@ Findings deliveryFindings(const LidarExamination&, const DeliveryLimits&);
 Findings clockFindings(const RigExamination&, std::size_t lidar, const ClockLimits&);
 Findings imuFindings(const RigExamination&, std::size_t imu, const ImuLimits&);
 Findings groundFindings(const RigExamination&, std::size_t lidar, const GeometryLimits&);
-Finding poseFinding(const RigExamination&, const PairExamination&, const GeometryLimits&);
 Finding jitterFinding(const LidarExamination&, Duration deadline, const DeliveryLimits&);
 }  // namespace scanloom

@@ -1,5 +1,5 @@
 #pragma once
-#include "doctor/Finding.h"
+#include "core/Finding.h"
 #include "doctor/RigExamination.h"
 
 #include <string>

@@ -117,11 +117,6 @@ struct GeometryLimits
   double ground_tilt_not_fit_deg = 45;
   double ground_angle_warning_deg = 3;
   double ground_height_warning = 0.15;
-  double near_share_warning = 0.5;
-  double pose_offset_warning = 0.1;
-  double pose_offset_not_fit = 0.25;
-  double pose_angle_warning_deg = 1;
-  double pose_angle_not_fit_deg = 3;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -137,18 +132,6 @@ struct GeometryLimits
                 above(0)});
     visit(o.ground_height_warning,
           Field{"ground_height_warning", "m", "height between two lidars' ground planes; z is wrong", above(0)});
-    visit(o.near_share_warning,
-          Field{"near_share_warning", "", "share of the points that another lidar should see and sees within 0.3 m",
-                between(0, 1)});
-    visit(o.pose_offset_warning, Field{"pose_offset_warning", "m",
-                                       "error by registration to the first lidar; a stem is seen twice", above(0)});
-    visit(o.pose_offset_not_fit,
-          Field{"pose_offset_not_fit", "m",
-                "error by registration to the first lidar; more than the width of most stems", above(0)});
-    visit(o.pose_angle_warning_deg,
-          Field{"pose_angle_warning_deg", "deg", "error by registration to the first lidar; 17 cm at 10 m", above(0)});
-    visit(o.pose_angle_not_fit_deg, Field{"pose_angle_not_fit_deg", "deg",
-                                          "error by registration to the first lidar; half a metre at 10 m", above(0)});
   }
 };
 }  // namespace scanloom

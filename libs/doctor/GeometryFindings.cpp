@@ -1,18 +1,14 @@
+#include "core/Angle.h"
+#include "doctor/DoctorFindings.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
-
-#include "doctor/DoctorFindings.h"
 
 namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
-constexpr double kFarthest = 1, kLargestTurn = 15;  // m, deg: what registration with cells of 2 m can correct
-constexpr const char* kMeasureAgain =
-    "measure both poses again: x y z in m, yaw pitch roll in deg, of the sensor frame in the body";
-
 Finding groundFinding(const LidarExamination& seen, bool poses_known, const GeometryLimits& limits)
 {
   Finding finding{seen.name, "ground", Verdict::NotMeasured, "no plane among the points within 12 m"};
@@ -78,41 +74,5 @@ Findings groundFindings(const RigExamination& rig, std::size_t lidar, const Geom
   if (lidar > 0 && rig.poses_known && seen.ground && first.ground)
     findings.push_back(groundsFinding(seen, first, limits));
   return findings;
-}
-
-Finding poseFinding(const RigExamination& rig, const PairExamination& pair, const GeometryLimits& limits)
-{
-  const std::string& other = rig.lidars[pair.reference].name;
-  Finding finding{rig.lidars[pair.lidar].name, "pose", Verdict::NotMeasured,
-                  fmt::format("too few points that '{}' sees as well", other)};
-  if (!pair.agreement) return finding;
-  const CloudAgreement& a = *pair.agreement;
-  finding.says = fmt::format("{:.0f} % of {} common points agree with '{}'", 100 * a.near_share, a.common, other);
-  finding.verdict = a.near_share < limits.near_share_warning ? Verdict::Warning : Verdict::Ok;
-  if (finding.verdict != Verdict::Ok) finding.mend = kMeasureAgain;
-  if (!a.correction)
-  {
-    finding.says += "; registration found no better pose";
-    return finding;
-  }
-  const CloudAgreement::Correction& c = *a.correction;
-  const Eigen::Vector3d degrees = c.rotation / kDegree;
-  finding.says += fmt::format("; best fit of {} turns {:.3f} m (+-{:.3f}) and {:.2f} deg (+-{:.2f}) off", a.turns,
-                              c.offset.norm(), c.offset_sigma, degrees.norm(), c.rotation_sigma / kDegree);
-  const Verdict fit =
-      std::max(grade(c.offset.norm() - 3 * c.offset_sigma, limits.pose_offset_warning, limits.pose_offset_not_fit),
-               grade(degrees.norm() - 3 * c.rotation_sigma / kDegree, limits.pose_angle_warning_deg,
-                     limits.pose_angle_not_fit_deg));
-  if (fit == Verdict::Ok) return finding;
-  finding.verdict = std::max(finding.verdict, fit);
-  if (c.offset.norm() > kFarthest || degrees.norm() > kLargestTurn)
-    finding.mend = fmt::format(
-        "{}; registration cannot measure so large an error: compare 'turns' and 'up' of the IMUs", kMeasureAgain);
-  else
-    finding.mend = fmt::format(
-        "if '{}' is right, move the sensor by ({:.2f} {:.2f} {:.2f}) m and turn it by ({:.1f} {:.1f} {:.1f}) deg about "
-        "the body's x y z: then {:.0f} % agree",
-        other, c.offset.x(), c.offset.y(), c.offset.z(), degrees.x(), degrees.y(), degrees.z(), 100 * c.near_share);
-  return finding;
 }
 }  // namespace scanloom

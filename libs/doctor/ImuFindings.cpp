@@ -4,11 +4,12 @@
 
 #include "doctor/DoctorFindings.h"
 
+#include "core/Angle.h"
+
 namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 constexpr double kStandardGravity = 9.80665;
 constexpr Duration kMotionAveragesOut = 2s;
 

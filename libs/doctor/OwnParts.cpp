@@ -9,9 +9,9 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kCube = 0.25;          // m
+constexpr double kPartCube = 0.25;      // m
 constexpr double kFarFromGround = 0.4;  // m
-constexpr double kReach = 12;           // m from the body's origin: longer than a harvester's boom
+constexpr double kLongestBoom = 12;     // m from the body's origin: longer than a harvester's boom
 constexpr double kAlmostAlways = 0.75;  // of the snapshots
 constexpr std::size_t kFewestSnapshots = 4;
 constexpr double kMost = 0.8;  // share of the points above the ground; a machine has fewer
@@ -24,13 +24,13 @@ class Occupancy
   {
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      Cube& cube = cubes_[voxelKey(points.position(i), kCube)];
+      Cube& cube = cubes_[voxelKey(points.position(i), kPartCube)];
       if (cube.last != snapshot) ++cube.snapshots;
       cube.last = snapshot;
     }
   }
 
-  int snapshotsAt(const Eigen::Vector3f& p) const { return cubes_.at(voxelKey(p, kCube)).snapshots; }
+  int snapshotsAt(const Eigen::Vector3f& p) const { return cubes_.at(voxelKey(p, kPartCube)).snapshots; }
 
  private:
   struct Cube
@@ -62,7 +62,7 @@ OwnParts markOwnParts(std::vector<RigSnapshot>& snapshots, std::size_t lidar, co
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       const Eigen::Vector3f p = points.position(i);
-      if (p.norm() > kReach || onGround(p)) continue;
+      if (p.norm() > kLongestBoom || onGround(p)) continue;
       ++standing;
       if (occupancy.snapshotsAt(p) < often) continue;
       ++own;

@@ -1,7 +1,7 @@
 /** Checks a rawlog: order, completeness and times of its observations, and the rig behind it. */
 #pragma once
+#include "core/Finding.h"
 #include "core/Time.h"
-#include "doctor/Finding.h"
 #include "doctor/RigExamination.h"
 #include "edit/RawlogEdit.h"
 #include "rig/RecordingHeader.h"

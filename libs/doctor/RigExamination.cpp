@@ -112,7 +112,7 @@ std::optional<GroundPlane> groundOf(const std::vector<RigSnapshot>& snapshots, s
 
 PairExamination examinePair(const RigEvidence& evidence, std::size_t lidar, std::size_t reference)
 {
-  std::vector<SnapshotPair> pairs;
+  std::vector<SeenByBoth> pairs;
   for (const RigSnapshot& snapshot : evidence.snapshots) pairs.push_back({&snapshot[lidar], &snapshot[reference]});
   return {lidar, reference,
           cloudAgreement(pairs, evidence.lidars[lidar].lidar.body_T_sensor,

@@ -1,8 +1,8 @@
 /** All measures of `scanloom doctor`, taken on one rig. */
 #pragma once
+#include "calibration/PoseFinding.h"
 #include "doctor/ClockDrift.h"
 #include "doctor/ClockKind.h"
-#include "doctor/CloudAgreement.h"
 #include "doctor/Delivery.h"
 #include "doctor/DoctorLimits.h"
 #include "doctor/GroundPlane.h"
@@ -80,6 +80,7 @@ struct DoctorLimits
   ClockLimits clocks;
   ImuLimits imu;
   GeometryLimits geometry;
+  PoseLimits pose;
 };
 
 RigExamination examine(RigEvidence, const DoctorLimits&);

@@ -10,16 +10,6 @@ constexpr int kTurnsApart = 10;               // at first: 1 s
 constexpr std::uint32_t kNearestRange = 500;  // mm: anything nearer is dirt or the sensor's cover
 }  // namespace
 
-PointCloud surroundings(const Snapshot& snapshot)
-{
-  PointCloud points = snapshot.points;
-  if (snapshot.own.empty()) return points;
-  std::vector<std::uint8_t> keep;
-  for (const std::uint8_t own : snapshot.own) keep.push_back(own ? 0 : 1);
-  points.keep(keep);
-  return points;
-}
-
 SnapshotTaker::SnapshotTaker(std::size_t lidars, Duration turn) : lidars_(lidars), turn_(turn) {}
 
 void SnapshotTaker::add(std::size_t lidar, const PacketDecoder& decoder, Bytes packet,

@@ -1,6 +1,6 @@
 /** Points of single turns of the lidars, taken at a few instants of a recording of any length. */
 #pragma once
-#include "core/PointCloud.h"
+#include "calibration/CloudAgreement.h"
 #include "doctor/EvenSelection.h"
 #include "lidar/PacketDecoder.h"
 
@@ -9,17 +9,12 @@
 
 namespace scanloom
 {
-/** One lidar's points of one turn in the body frame, without those nearer than half a metre. */
-struct Snapshot
+/** One lidar's points of one turn, without those nearer than half a metre. `own` is known from OwnParts.h on. */
+struct Snapshot : SeenPoints
 {
-  PointCloud points;
-  std::vector<std::uint8_t> own;  // 1 where a point is on the machine itself (OwnParts.h); empty: not known
-  std::uint64_t readings = 0;     // shots: channels times valid blocks
+  std::uint64_t readings = 0;  // shots: channels times valid blocks
   std::uint64_t returns = 0;
 };
-
-/** The points without those known to be on the machine itself. */
-PointCloud surroundings(const Snapshot&);
 
 /** Snapshots of all lidars from the same time, by the lidar's index. */
 using RigSnapshot = std::vector<Snapshot>;

@@ -37,7 +37,7 @@ namespace
 {
 using Header = std::optional<RecordingHeader>;
 using Path = std::filesystem::path;
-using Notice = std::function<void(const std::string&)>;
+using Notify = std::function<void(const std::string&)>;
 
 std::optional<Timestamp> parseTime(const std::string& option, const std::string& text)
 {
@@ -100,7 +100,7 @@ CloudClass cloudClassOf(const std::string& name)
   }
 }
 
-RawlogOperation deskewingByGyro(const Path& input, const std::string& label, const Header& header, const Notice& notice)
+RawlogOperation deskewingByGyro(const Path& input, const std::string& label, const Header& header, const Notify& notice)
 {
   const auto rest = gyroBiasIn(input, label);
   if (!rest)
@@ -117,7 +117,7 @@ RawlogOperation deskewingByGyro(const Path& input, const std::string& label, con
 }
 
 /** By a trajectory, or by the rawlog's own IMU if the option's value is `imu`. */
-std::function<RawlogOperation(const Header&)> deskewing(const EditOptions& options, const Path& input, Notice notice)
+std::function<RawlogOperation(const Header&)> deskewing(const EditOptions& options, const Path& input, Notify notice)
 {
   if (options.deskew == "imu")
     return [input, label = options.imu.empty() ? kImuLabel : options.imu,
@@ -157,7 +157,7 @@ void chooseObservations(const EditOptions& o, Chosen& chosen)
     add(chosen, "--rebatch", [rate = *o.rebatch](const Header& header) { return rebatch(rate, required(header)); });
 }
 
-void choosePoints(const EditOptions& o, const Path& input, const Notice& notice, Chosen& chosen)
+void choosePoints(const EditOptions& o, const Path& input, const Notify& notice, Chosen& chosen)
 {
   if (!o.imu.empty() && o.deskew != "imu") throw UsageError("--imu names the IMU for '--deskew imu'");
   if (!o.crop_box.empty())
@@ -214,7 +214,7 @@ void chooseMaps(const EditOptions& o, Chosen& chosen)
 }
 }  // namespace
 
-std::vector<EditOperation> editOperations(const EditOptions& options, const Path& input, Notice notice)
+std::vector<EditOperation> editOperations(const EditOptions& options, const Path& input, Notify notice)
 {
   Chosen chosen;
   chooseObservations(options, chosen);

@@ -10,17 +10,17 @@ namespace scanloom
 {
 namespace
 {
-struct Moments
+struct PairMoments
 {
   Eigen::Vector3d map_mean = Eigen::Vector3d::Zero(), reference_mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d cross = Eigen::Matrix3d::Zero();   // reference by map
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  // of the reference
 };
 
-Moments momentsOf(const std::vector<PositionPair>& pairs)
+PairMoments momentsOf(const std::vector<PositionPair>& pairs)
 {
   const double share = 1 / static_cast<double>(pairs.size());
-  Moments m;
+  PairMoments m;
   for (const PositionPair& pair : pairs)
   {
     m.map_mean += share * pair.map_p;
@@ -35,14 +35,14 @@ Moments momentsOf(const std::vector<PositionPair>& pairs)
   return m;
 }
 
-Eigen::Quaterniond yawOf(const Moments& m)
+Eigen::Quaterniond yawOf(const PairMoments& m)
 {
   const double yaw = std::atan2(m.cross(1, 0) - m.cross(0, 1), m.cross(0, 0) + m.cross(1, 1));
   return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
 }
 
 /** Umeyama 1991, eq. (40) and (43). */
-Eigen::Quaterniond rotationOf(const Moments& m)
+Eigen::Quaterniond rotationOf(const PairMoments& m)
 {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
@@ -53,7 +53,7 @@ Eigen::Quaterniond rotationOf(const Moments& m)
 Alignment align(const std::vector<PositionPair>& pairs, AlignmentKind kind)
 {
   if (pairs.empty()) throw std::invalid_argument("align: no pairs of positions");
-  const Moments m = momentsOf(pairs);
+  const PairMoments m = momentsOf(pairs);
 
   Alignment alignment;
   alignment.reference_T_map.rotation = kind == AlignmentKind::Yaw ? yawOf(m) : rotationOf(m);

@@ -8,7 +8,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr Duration kRange = 2s, kStep = 50ms, kPrecision = 100us;
+constexpr Duration kRange = 2s, kOffsetStep = 50ms, kPrecision = 100us;
 constexpr double kLeastSpeed = 0.05;          // m/s: error in position per second of offset
 constexpr std::size_t kEnoughSamples = 2000;  // for speed: true poses of an hour at 100 Hz are 360000
 
@@ -53,15 +53,15 @@ std::optional<Duration> clockOffset(const Trajectory& estimate, const Eigen::Vec
     least = found;
     best = offset;
   };
-  for (Duration offset = -kRange; offset <= kRange; offset += kStep) consider(offset);
+  for (Duration offset = -kRange; offset <= kRange; offset += kOffsetStep) consider(offset);
   if (best <= -kRange || best >= kRange) return std::nullopt;
 
   // Near its minimum the cost is least + (speed * offset)^2.
-  const double rise = cost(best - kStep) + cost(best + kStep) - 2 * least;
-  const double step = seconds(kStep);
+  const double rise = cost(best - kOffsetStep) + cost(best + kOffsetStep) - 2 * least;
+  const double step = seconds(kOffsetStep);
   if (!(rise > 2 * kLeastSpeed * kLeastSpeed * step * step)) return std::nullopt;
 
-  for (Duration step_size = kStep / 2; step_size >= kPrecision / 2; step_size /= 2)
+  for (Duration step_size = kOffsetStep / 2; step_size >= kPrecision / 2; step_size /= 2)
   {
     const Duration middle = best;
     consider(middle - step_size);

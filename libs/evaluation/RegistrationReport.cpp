@@ -1,5 +1,7 @@
 #include "evaluation/RegistrationReport.h"
 
+#include "core/Angle.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -10,7 +12,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 constexpr double kSmallestNamed = 0.2;  // component of a unit vector
 
 constexpr std::array<const char*, 6> kSteps{"x", "y", "z", "about x", "about y", "about z"};

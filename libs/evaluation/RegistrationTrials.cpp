@@ -1,5 +1,6 @@
 #include "evaluation/RegistrationTrials.h"
 
+#include "core/Angle.h"
 #include "core/Statistics.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 constexpr PoseError kSuccess{0.1, 1};
 
 using Generator = std::mt19937_64;

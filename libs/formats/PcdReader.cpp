@@ -93,7 +93,7 @@ std::string readHeaderLine(PcdHeader& header, const std::string& line)
   return keyword;
 }
 
-PcdHeader readHeader(CloudText& file)
+PcdHeader readPcdHeader(CloudText& file)
 {
   PcdHeader header;
   bool has_points = false;
@@ -235,7 +235,7 @@ std::vector<Eigen::Vector3f> pcdPositions(Bytes file)
   try
   {
     CloudText text(file);
-    const PcdHeader header = readHeader(text);
+    const PcdHeader header = readPcdHeader(text);
     return positionsAfter(header, text);
   }
   catch (const std::logic_error& error)

@@ -61,7 +61,7 @@ enum class Encoding
   BigEndian,
 };
 
-struct Header
+struct PlyHeader
 {
   Encoding encoding = Encoding::LittleEndian;
   std::size_t vertices = 0;
@@ -92,9 +92,9 @@ Encoding encodingOf(const std::string& format)
 }
 
 /** Reads up to and including "end_header". */
-Header readHeader(CloudText& file)
+PlyHeader readPlyHeader(CloudText& file)
 {
-  Header header;
+  PlyHeader header;
   std::string element;
   auto line = file.line();
   if (!line || line->rfind("ply", 0) != 0) throw std::invalid_argument("it does not start with 'ply'");
@@ -117,7 +117,7 @@ Header readHeader(CloudText& file)
 }
 
 /** Throws std::invalid_argument if `bytes` cannot hold the header's vertices: before memory is reserved for them. */
-void requireRoomFor(const Header& header, std::size_t bytes)
+void requireRoomFor(const PlyHeader& header, std::size_t bytes)
 {
   const bool ascii = header.encoding == Encoding::Ascii;  // a digit and a blank at least
   const std::size_t size_of_vertex = ascii ? 2 * header.properties.size() : header.vertexSize();
@@ -127,7 +127,7 @@ void requireRoomFor(const Header& header, std::size_t bytes)
 }
 
 /** Of x, y and z among the properties. */
-std::array<std::size_t, 3> positionColumns(const Header& header)
+std::array<std::size_t, 3> positionColumns(const PlyHeader& header)
 {
   std::array<std::size_t, 3> columns{};
   const std::array names{"x", "y", "z"};
@@ -142,7 +142,7 @@ std::array<std::size_t, 3> positionColumns(const Header& header)
 }
 
 /** The values of the vertex at `offset` in a binary file, or of the next one in an ascii file. */
-void readVertex(CloudText& file, const Header& header, std::size_t offset, std::vector<double>& values)
+void readVertex(CloudText& file, const PlyHeader& header, std::size_t offset, std::vector<double>& values)
 {
   for (std::size_t i = 0; i < values.size(); ++i)
   {
@@ -155,7 +155,7 @@ void readVertex(CloudText& file, const Header& header, std::size_t offset, std::
   }
 }
 
-std::vector<Eigen::Vector3f> positionsAfter(const Header& header, CloudText& file)
+std::vector<Eigen::Vector3f> positionsAfter(const PlyHeader& header, CloudText& file)
 {
   requireRoomFor(header, file.rest().size());
   const auto [x, y, z] = positionColumns(header);
@@ -176,7 +176,7 @@ std::vector<Eigen::Vector3f> plyPositions(Bytes file)
   try
   {
     CloudText text(file);
-    const Header header = readHeader(text);
+    const PlyHeader header = readPlyHeader(text);
     return positionsAfter(header, text);
   }
   catch (const std::logic_error& error)  // ours and those of stoull

@@ -10,15 +10,15 @@ namespace
 {
 constexpr Duration kLeast = 1s;
 
-struct Means
+struct MeanReading
 {
   Eigen::Vector3d gyro = Eigen::Vector3d::Zero(), accel = Eigen::Vector3d::Zero();
 };
 
 /** Over time, by trapezoids, because intervals between samples differ. */
-Means meansOf(const std::vector<ImuSample>& samples)
+MeanReading meanOverTime(const std::vector<ImuSample>& samples)
 {
-  Means means;
+  MeanReading means;
   const double length = seconds(samples.back().stamp - samples.front().stamp);
   for (std::size_t i = 1; i < samples.size(); ++i)
   {
@@ -49,7 +49,7 @@ std::optional<ImuBias> biasOfReplacement(const std::vector<ImuSample>& known, co
   const Eigen::Vector3d turned = (true_known.back().gyro - true_known.front().gyro) / seconds(to - from);
   for (ImuSample& sample : true_known) sample.accel += sample.gyro.cross(sample.gyro.cross(lever));
 
-  const Means expected = meansOf(true_known), read = meansOf(other_buffer.between(from, to));
+  const MeanReading expected = meanOverTime(true_known), read = meanOverTime(other_buffer.between(from, to));
   const Eigen::Quaterniond other_R_known = known_T_other.rotation.conjugate();
   return ImuBias{read.gyro - other_R_known * expected.gyro,
                  read.accel - other_R_known * (expected.accel + turned.cross(lever))};

@@ -1,5 +1,6 @@
 #include "imu/ImuInitialisation.h"
 
+#include "core/Angle.h"
 #include "imu/ImuStep.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 constexpr int kParts = 8;
 
 // Noise of the sensors in the mean of one part: allowed in addition to max_slow_share.

@@ -1,5 +1,6 @@
 #include "imu/MeanForce.h"
 
+#include "core/Angle.h"
 #include "imu/NavState.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 constexpr double kUnitTolerance = 0.2;  // a scale of an axis is never that wrong
 
 bool isAbout(double value, double unit) { return std::abs(value / unit - 1) < kUnitTolerance; }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/Angle.h"
 #include "lidar/Crc64.h"
 #include "lidar/OusterImu.h"
 
@@ -69,7 +70,6 @@ Rigid rigidFromMillimetres(Eigen::Matrix4d matrix)
 
 std::vector<Beam> beamsOf(const OusterMetadata& m)
 {
-  constexpr double kDegree = M_PI / 180;
   const double x = 1e-3 * m.beam_to_lidar_mm(0, 3), z = 1e-3 * m.beam_to_lidar_mm(2, 3);
   std::vector<Beam> beams;
   for (std::size_t i = 0; i < m.beam_altitude_deg.size(); ++i)

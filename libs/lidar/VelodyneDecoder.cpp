@@ -1,5 +1,7 @@
 #include "lidar/VelodyneDecoder.h"
 
+#include "core/Angle.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -13,7 +15,6 @@ constexpr std::uint32_t kHourInMicroseconds = 3'600'000'000;
 
 std::vector<Beam> beamsOf(const VelodyneMetadata& m)
 {
-  constexpr double kDegree = M_PI / 180;
   std::vector<Beam> beams;
   for (std::size_t i = 0; i < m.vertical_deg.size(); ++i)
     beams.push_back(Beam{-m.azimuth_offset_deg[i] * kDegree, m.vertical_deg[i] * kDegree,

@@ -28,7 +28,7 @@ using Voxel = Eigen::Array3i;
 constexpr int kKeyBits = 21;
 constexpr int kKeyOffset = 1 << (kKeyBits - 1);  // +-104 km
 
-std::uint64_t keyOf(const Voxel& voxel)
+std::uint64_t pictureKey(const Voxel& voxel)
 {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis) key = key << kKeyBits | static_cast<std::uint64_t>(voxel[axis] + kKeyOffset);
@@ -221,7 +221,7 @@ void MapPicture::add(const Keyframe& keyframe)
   for (std::size_t i = 0; i < keyframe.points.size(); ++i)
   {
     const Eigen::Vector3d position = keyframe.map_T_body * keyframe.points.position(i).cast<double>().eval();
-    voxels_.insert(keyOf((position / kVoxel).array().floor().cast<int>()));
+    voxels_.insert(pictureKey((position / kVoxel).array().floor().cast<int>()));
   }
 }
 

@@ -15,8 +15,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr float kFullReflectivity = 255.0F;
-
 /** The points of one lidar, in its own frame. */
 mrpt::maps::CPointsMapXYZI::Ptr cloudOf(const PointCloud& points, std::size_t lidar, const Rigid& sensor_T_body)
 {
@@ -26,7 +24,7 @@ mrpt::maps::CPointsMapXYZI::Ptr cloudOf(const PointCloud& points, std::size_t li
     if (points.sensor_id[i] != lidar) continue;
     const Eigen::Vector3f p = (sensor_T_body * points.position(i).cast<double>().eval()).cast<float>();
     cloud->insertPointFast(p.x(), p.y(), p.z());
-    cloud->setPointIntensity(cloud->size() - 1, static_cast<float>(points.intensity[i]) / kFullReflectivity);
+    cloud->setPointIntensity(cloud->size() - 1, static_cast<float>(points.intensity[i]) / kFullIntensity);
   }
   return cloud;
 }

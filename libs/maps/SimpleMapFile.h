@@ -19,6 +19,9 @@ class CSimpleMap;
 
 namespace scanloom
 {
+/** The intensity of a scan that MRPT's intensity 1 stands for. */
+inline constexpr float kFullIntensity = 255.0F;
+
 class SimpleMapBuilder
 {
  public:

@@ -2,6 +2,7 @@
 
 #include "config/MrptMessage.h"
 #include "maps/SimpleMapArchive.h"
+#include "maps/SimpleMapFile.h"
 #include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/registerClasses.h"
 
@@ -22,7 +23,6 @@ namespace
 {
 using mrpt::obs::CObservationPointCloud;
 
-constexpr float kFullReflectivity = 255.0F;
 constexpr double kSamePose = 1e-6;
 constexpr double kFarthest = 1e6;  // m, from the origin of a map
 
@@ -41,7 +41,7 @@ auto lidarNamed(const std::string& name, const std::vector<MountedLidar>& lidars
 /** NaN becomes 0: fmax takes the other number. */
 std::uint8_t reflectivityOf(float share)
 {
-  return static_cast<std::uint8_t>(std::round(std::fmin(std::fmax(share, 0.0F), 1.0F) * kFullReflectivity));
+  return static_cast<std::uint8_t>(std::round(std::fmin(std::fmax(share, 0.0F), 1.0F) * kFullIntensity));
 }
 
 void append(PointCloud& points, const CObservationPointCloud& cloud, const Rigid& body_T_sensor, std::size_t lidar)

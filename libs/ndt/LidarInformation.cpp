@@ -60,7 +60,7 @@ Vector3d armOf(const TurnedCell& c, const Rigid& target_T_source)
   return Vector3d(c.x, c.y, c.z) - target_T_source.translation;
 }
 
-struct ChunkSums
+struct InformationSums
 {
   PoseSum resistance, structure, unsure_means;
 };
@@ -84,13 +84,13 @@ std::vector<StructureBlock> structuresOf(const Neighbourhoods& all, const Neighb
 }
 
 /** Fills `cells`, the chunk's part of Evidence::cells. */
-ChunkSums gather(const Neighbourhoods& all, std::size_t index, const Rigid& target_T_source, double d2,
-                 PairEvidence* cells)
+InformationSums gather(const Neighbourhoods& all, std::size_t index, const Rigid& target_T_source, double d2,
+                       PairEvidence* cells)
 {
   const Neighbourhoods::Chunk& chunk = all.chunk(index);
   const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
   gatherEvidence(chunk.pairs(), structuresOf(all, chunk).data(), d2, cells);
-  ChunkSums sums;
+  InformationSums sums;
   for (std::size_t i = 0; i < chunk.cells.size(); ++i)
   {
     if (chunk.ranges[i].count == 0) continue;
@@ -112,11 +112,11 @@ Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, dou
 {
   Evidence evidence;
   evidence.cells.resize(all.source().size());
-  std::vector<ChunkSums> chunks(all.chunks());
+  std::vector<InformationSums> chunks(all.chunks());
   tbb::parallel_for(std::size_t{0}, chunks.size(),
                     [&](std::size_t i)
                     { chunks[i] = gather(all, i, target_T_source, d2, evidence.cells.data() + all.chunk(i).first); });
-  for (const ChunkSums& chunk : chunks)  // in a fixed order
+  for (const InformationSums& chunk : chunks)  // in a fixed order
   {
     evidence.resistance += chunk.resistance.matrix();
     evidence.structure += chunk.structure.matrix();

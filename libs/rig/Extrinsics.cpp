@@ -1,5 +1,7 @@
 #include "rig/Extrinsics.h"
 
+#include "core/Angle.h"
+
 #include <fmt/format.h>
 
 #include <fstream>
@@ -11,7 +13,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 constexpr double kRounding = 1e-6;  // more than files with twelve decimals need
 
 std::vector<double> numbersIn(std::istringstream& text)

@@ -51,6 +51,8 @@ void to_json(nlohmann::json& json, const RunSummary& run)
           {"path_length_m", run.path_length},
           {"peak_memory_bytes", run.peak_memory}};
   if (run.imu) json["imu"] = *run.imu;
+  for (const Finding& lidar : run.lidars)
+    json["lidars"][lidar.about][lidar.measure] = {{"verdict", toString(lidar.verdict)}, {"says", lidar.says}};
 }
 
 void writeSummary(const std::filesystem::path& path, const RunSummary& run)

@@ -1,5 +1,6 @@
 /** summary.json: what a run did, how long it took and how it ended. */
 #pragma once
+#include "core/Finding.h"
 #include "core/StageTimes.h"
 #include "imu/GyroAgreement.h"
 
@@ -21,6 +22,7 @@ struct RunSummary
   std::uint64_t seed = 0;                       // 0: no random numbers
   std::map<std::string, std::uint64_t> counts;  // "scans", "keyframes", "packets.left", ...
   std::map<std::string, StageTime> stages;
+  Findings lidars;                   // whether their poses fit what they see (LidarCheck)
   std::optional<GyroAgreement> imu;  // compared with the rotations that the lidars saw in the last minute
   double recorded = 0;               // s of recording that were processed
   double elapsed = 0;                // s of wall-clock time

@@ -1,8 +1,8 @@
 #include "run/SlamRun.h"
 
 #include "run/CropReport.h"
-#include "run/ImuCheck.h"
 #include "run/ImuInUse.h"
+#include "run/RigCheck.h"
 #include "run/RunCounts.h"
 #include "slam/ConstantMotion.h"
 
@@ -28,7 +28,7 @@ class SlamRun
       imu_(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms)),
       slam_(settingsInUse(), imu_.body_T_imu(), mountedLidars(lidars())),
       motion_(imu_.body_T_imu()),
-      check_(imu_.body_T_imu(), warn)
+      check_(mountedLidars(lidars()), imu_.body_T_imu(), warn)
   {
   }
 
@@ -45,7 +45,7 @@ class SlamRun
   void finish()
   {
     keep(slam_.finish());
-    check_.check();
+    times_.measure("rig_check", [&] { check_.check(); });
     for (const std::string& warning : cropWarnings(slam_.cropped(), lidars())) warn_(warning);
   }
 
@@ -61,7 +61,8 @@ class SlamRun
     RunSummary& summary = result.summary;
     const bool whole = slam_.mapRestarts() == 0;
     result.passed = counts_.passed() && whole && !check_.warned();
-    summary.imu = check_.agreement();
+    summary.imu = check_.imu();
+    summary.lidars = check_.lidars();
     summary.outcome = interrupted ? "INTERRUPTED" : whole ? counts_.outcome() : "LOST";
     summary.counts = countsOf(input_.account());
     summary.counts["scans_skipped"] = slam_.skippedScans();
@@ -114,7 +115,7 @@ class SlamRun
     if (!imu_.changeIfSilent(now)) return;
     ++counts_.imu_changes;
     warn_(fmt::format("the IMU '{}' is silent: '{}' goes on", imu_.previousName(), imu_.name()));
-    check_.change(imu_.body_T_imu());
+    check_.changeImu(imu_.body_T_imu());
     slam_.changeImu({{imu_.body_T_imu(), noise()}, imu_.recent(), imu_.previous()});
   }
 
@@ -124,7 +125,7 @@ class SlamRun
     {
       counts_.add(estimate);
       if (settings_.slam.constant_motion) motion_.update(estimate);
-      check_.add(estimate);
+      times_.measure("rig_check", [&] { check_.add(estimate); });
       files_.add(estimate);
     }
   }
@@ -137,7 +138,7 @@ class SlamRun
   ImuInUse imu_;
   LidarInertialSlam slam_;
   ConstantMotion motion_;  // in place of the IMU, with [slam] constant_motion
-  ImuCheck check_;
+  RigCheck check_;
   StageTimes times_;
   RunCounts counts_;
 };

@@ -1,7 +1,7 @@
 /** Sensor input through localisation into files. */
 #pragma once
 #include "rig/SensorInput.h"
-#include "run/ImuCheck.h"
+#include "run/RigCheck.h"
 #include "run/SlamFiles.h"
 #include "slam/LidarInertialSlam.h"
 
@@ -25,7 +25,7 @@ struct SlamRunResult
   RunSummary summary;  // counts, stages, outcome: OK, INITIALISING, DEGENERATE, LOST, NOTHING or INTERRUPTED
   /**
    * False if there is no pose, if the state was LOST at the end or for more than 5 % of the poses, if the local map was
-   * started anew (the trajectory has a break), or if the IMU is at fault.
+   * started anew (the trajectory has a break), or if a lidar or the IMU is at fault (RigCheck).
    */
   bool passed = true;
 };

@@ -1,5 +1,6 @@
 #include "simulation/Boom.h"
 
+#include "core/Angle.h"
 #include "simulation/Random.h"
 #include "simulation/SmoothStep.h"
 
@@ -13,8 +14,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kRadians = M_PI / 180;
-
 double blend(double from, double to, double share) { return from + share * (to - from); }
 
 /** The box between two joints, given in the boom's vertical plane. */
@@ -52,7 +51,7 @@ BoomPose Boom::target(const WorkStop& stop, std::uint64_t move, std::uint64_t mo
 {
   if (move == 0 || move >= moves) return {0, options_.reach.reach_rest, options_.reach.height_rest};
   Random random(seed_, RandomStream::Boom, stop.number, move);
-  const double slew = kRadians * options_.motion.swing_deg * random.uniform(-1, 1);
+  const double slew = kDegree * options_.motion.swing_deg * random.uniform(-1, 1);
   const double reach = random.uniform(options_.reach.reach_min, options_.reach.reach_max);
   return {slew, reach, random.uniform(options_.reach.height_min, options_.reach.height_max)};
 }
@@ -67,7 +66,7 @@ BoomPose Boom::at(double t) const
 
   // The rate of a smooth step is at most 15/8 of its mean: so long a move has the drawn rate as its largest.
   Random random(seed_, RandomStream::BoomRate, stop->number, move);
-  const double rate = kRadians * random.uniform(options_.motion.slew_min, options_.motion.slew_max);
+  const double rate = kDegree * random.uniform(options_.motion.slew_min, options_.motion.slew_max);
   const double needed = std::max(1.0, 15.0 / 8 * std::abs(to.slew - from.slew) / rate);
   const double share = smoothStep((t - stop->begin - static_cast<double>(move) * options_.motion.move_every) /
                                   std::min(needed, options_.motion.move_every))

@@ -1,12 +1,13 @@
 #include "simulation/Drive.h"
 
+#include "core/Angle.h"
+
 #include <cmath>
 
 namespace scanloom
 {
 namespace
 {
-constexpr double kRadians = M_PI / 180;
 constexpr double kBehindStart = 15.0;  // m, where the total station may stand
 
 /** The angle's rate with its derivative. Its second derivative is unknown: NaN, so that a use would show. */
@@ -63,14 +64,14 @@ Motion Drive::at(double t) const
   const Stance stance = stand(ground_, body_, x, y, yaw);
 
   const Taylor driving = route_.driving(t), working = route_.working(t);
-  const Taylor sway = kRadians * body_.sway_deg * (driving + body_.work_sway * working);
+  const Taylor sway = kDegree * body_.sway_deg * (driving + body_.work_sway * working);
   const Taylor shake = driving + working;
   const double slow = body_.vibration_slow, fast = body_.vibration_fast;
   const Taylor z = stance.height + body_.vibration * shake * (oscillation(t, slow) + oscillation(t, fast, 1.0));
   const Taylor pitch = stance.pitch + 2.0 / 3 * sway * oscillation(t, 1.3 * body_.sway_rate, 0.9) +
-                       kRadians * body_.vibration_deg * shake * oscillation(t, fast, 2.0);
+                       kDegree * body_.vibration_deg * shake * oscillation(t, fast, 2.0);
   const Taylor roll = stance.roll + sway * oscillation(t, body_.sway_rate) +
-                      kRadians * body_.vibration_deg * shake * oscillation(t, slow, 0.5);
+                      kDegree * body_.vibration_deg * shake * oscillation(t, slow, 0.5);
   const Turn turn = turnOf(yaw, pitch, roll);
   return {Rigid::fromXyzYawPitchRoll(x.value, y.value, z.value, yaw.value, pitch.value, roll.value),
           {x.rate, y.rate, z.rate},

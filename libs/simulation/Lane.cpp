@@ -9,7 +9,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kCellSize = 4.0;       // m
+constexpr double kLaneCell = 4.0;       // m
 constexpr double kLeastAdvance = 0.05;  // m: a machine at rest adds no points
 }  // namespace
 
@@ -23,7 +23,7 @@ Lane::Lane(const std::vector<Eigen::Vector2d>& path)
   for (const Eigen::Vector2d& p : path)
   {
     if (!points_.empty() && (p - points_.back()).norm() < kLeastAdvance) continue;
-    near_[GridCell::of(p, kCellSize).key()].push_back(static_cast<std::uint32_t>(points_.size()));
+    near_[GridCell::of(p, kLaneCell).key()].push_back(static_cast<std::uint32_t>(points_.size()));
     points_.push_back(p);
   }
 }
@@ -31,7 +31,7 @@ Lane::Lane(const std::vector<Eigen::Vector2d>& path)
 bool Lane::passes(const Eigen::Vector2d& place, double distance) const
 {
   const Eigen::Vector2d around = Eigen::Vector2d::Constant(distance);
-  const GridCell first = GridCell::of(place - around, kCellSize), last = GridCell::of(place + around, kCellSize);
+  const GridCell first = GridCell::of(place - around, kLaneCell), last = GridCell::of(place + around, kLaneCell);
   const auto isNear = [&](std::uint32_t i) { return (points_[i] - place).squaredNorm() < distance * distance; };
   for (std::int32_t y = first.y; y <= last.y; ++y)
     for (std::int32_t x = first.x; x <= last.x; ++x)

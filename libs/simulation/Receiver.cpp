@@ -9,7 +9,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kMillimetre = 1e-3;
+constexpr double kRangeStep = 1e-3;  // m, in packets
 
 /** A unit without a product line counts as an OS1, as in parseOusterMetadata. */
 RangingOptions ofDataSheet(RangingOptions ranging, const std::string& product_line)
@@ -108,7 +108,7 @@ std::optional<Receiver::Return> Receiver::returnOf(const Echo& echo, double shar
 
   const double range = hit.range + rangeNoise(options_, strength) * echo.luck.noise + origin_to_axis_;
   OusterReturn measured;
-  measured.range_mm = static_cast<std::uint32_t>(std::lround(std::max(range, kMillimetre) / kMillimetre));
+  measured.range_mm = static_cast<std::uint32_t>(std::lround(std::max(range, kRangeStep) / kRangeStep));
   measured.reflectivity = static_cast<std::uint8_t>(std::clamp(100 * reflectivity, 1.0, 100.0));
   measured.signal = photons(options_.photons * strength);
   return Return{measured, hit.surface};

@@ -1,5 +1,6 @@
 #include "simulation/SimulatedImu.h"
 
+#include "core/Angle.h"
 #include "imu/Preintegration.h"
 
 #include <algorithm>
@@ -9,7 +10,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kRadians = M_PI / 180;
 constexpr double kSecondsPerHour = 3600;
 
 Eigen::Vector3d normalVector(Random& random)
@@ -48,9 +48,9 @@ ImuStream::ImuStream(const Drive& drive, const RecordingSpan& span, const ImuSet
   : drive_(drive), span_(span), setup_(setup), seed_(seed)
 {
   Random random(seed, RandomStream::ImuBiases, static_cast<std::uint64_t>(setup.stream), setup.place);
-  turn_on_.gyro = kRadians * setup.errors.gyro_turn_on_deg * normalVector(random);
+  turn_on_.gyro = kDegree * setup.errors.gyro_turn_on_deg * normalVector(random);
   turn_on_.accel = setup.errors.accel_turn_on * normalVector(random);
-  gyro_wander_ = kRadians / kSecondsPerHour * setup.errors.gyro_instability * normalVector(random);
+  gyro_wander_ = kDegree / kSecondsPerHour * setup.errors.gyro_instability * normalVector(random);
   accel_wander_ = setup.errors.accel_instability * normalVector(random);
 }
 
@@ -71,13 +71,13 @@ ImuStream::Sample ImuStream::next()
   ImuSample reading =
       idealImuSample(drive_.at(span_.secondsAt(truth)), setup_.body_T_imu, setup_.clock.stamp(truth, span_.start));
   reading.gyro +=
-      turn_on_.gyro + gyro_wander_ + kRadians * errors.gyro_noise_deg / std::sqrt(step) * normalVector(random);
+      turn_on_.gyro + gyro_wander_ + kDegree * errors.gyro_noise_deg / std::sqrt(step) * normalVector(random);
   reading.accel += turn_on_.accel + accel_wander_ + errors.accel_noise / std::sqrt(step) * normalVector(random);
 
   // First-order Gauss-Markov process with constant standard deviation.
   const double kept = std::exp(-step / errors.correlation_time), driven = std::sqrt(1 - kept * kept);
   gyro_wander_ =
-      kept * gyro_wander_ + driven * kRadians / kSecondsPerHour * errors.gyro_instability * normalVector(random);
+      kept * gyro_wander_ + driven * kDegree / kSecondsPerHour * errors.gyro_instability * normalVector(random);
   accel_wander_ = kept * accel_wander_ + driven * errors.accel_instability * normalVector(random);
   return {truth, reading};
 }

@@ -1,5 +1,6 @@
 #include "simulation/SimulatedLidar.h"
 
+#include "core/Angle.h"
 #include "lidar/AzimuthWindow.h"
 #include "lidar/OusterDecoder.h"
 #include "lidar/OusterProfiles.h"
@@ -11,7 +12,6 @@ namespace scanloom
 namespace
 {
 constexpr double kMillimetre = 1e-3;
-constexpr double kRadians = M_PI / 180;
 
 /** A ray of a beam, uniformly distributed within a cone of `divergence` rad (full angle). */
 Eigen::Vector3d besideAxis(const Eigen::Vector3d& axis, double divergence, Random& random)
@@ -37,8 +37,8 @@ SimulatedLidar::SimulatedLidar(OusterMetadata metadata, const Rigid& body_T_sens
 {
   for (int beam = 0; beam < metadata_.channels; ++beam)
   {
-    const double azimuth = -kRadians * metadata_.beam_azimuth_deg[beam];  // azimuths in the metadata are clockwise
-    const double altitude = kRadians * metadata_.beam_altitude_deg[beam];
+    const double azimuth = -kDegree * metadata_.beam_azimuth_deg[beam];  // azimuths in the metadata are clockwise
+    const double altitude = kDegree * metadata_.beam_altitude_deg[beam];
     beam_directions_.emplace_back(std::cos(azimuth) * std::cos(altitude), std::sin(azimuth) * std::cos(altitude),
                                   std::sin(altitude));
   }
@@ -75,7 +75,7 @@ MeasuredColumn SimulatedLidar::measure(const Scenery& scenery, std::uint64_t col
   for (const Eigen::Vector3d& direction : beam_directions_) add(direction, random);
   if (two_returns_)
     for (const Eigen::Vector3d& direction : beam_directions_)
-      add(besideAxis(direction, kRadians * receiver_.options().beam_divergence_deg, random_beside), random_beside);
+      add(besideAxis(direction, kDegree * receiver_.options().beam_divergence_deg, random_beside), random_beside);
 
   const std::vector<std::optional<Hit>> hits = moment.cast(queries);
   const auto echo = [&](std::size_t ray) { return Echo{hits[ray], lucks[ray]}; };

@@ -1,5 +1,6 @@
 #include "simulation/TotalStation.h"
 
+#include "core/Angle.h"
 #include "simulation/Random.h"
 
 #include <cmath>
@@ -8,14 +9,13 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kRadians = M_PI / 180;
-constexpr double kArcSecond = kRadians / 3600;
+constexpr double kArcSecond = kDegree / 3600;
 constexpr double kPrismRadius = 0.1;  // m: nearer things are the prism's own mount
 }  // namespace
 
 const Rigid& stationTWorld()
 {
-  static const Rigid station_T_world = Rigid::fromXyzYawPitchRoll(512.3, -87.1, 44.2, 137.3 * kRadians, 0, 0);
+  static const Rigid station_T_world = Rigid::fromXyzYawPitchRoll(512.3, -87.1, 44.2, 137.3 * kDegree, 0, 0);
   return station_T_world;
 }
 

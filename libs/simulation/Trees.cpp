@@ -1,5 +1,7 @@
 #include "simulation/Trees.h"
 
+#include "core/Angle.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +9,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kRadians = M_PI / 180;
 constexpr double kBreastHeight = 1.3;  // m
 constexpr double kRootDepth = 0.5;     // m: stems begin this deep, below the ground on any slope
 constexpr double kTipRadius = 0.004;   // m
@@ -41,7 +42,7 @@ double branchElevation(const TreeOptions& options, Species species)
 Cone growBranch(double height, double length, double elevation_deg, double radius, Random& random)
 {
   const double azimuth = random.uniform(0, 2 * M_PI);
-  const double elevation = kRadians * elevation_deg;
+  const double elevation = kDegree * elevation_deg;
   return {{0, 0, height},
           {std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation), std::sin(elevation)},
           length,
@@ -67,7 +68,7 @@ Stem growTree(const TreeOptions& options, const Eigen::Vector3d& foot, Random& r
 {
   Stem stem;
   stem.foot = foot;
-  const Eigen::Vector2d lean = kRadians * options.tilt_deg * Eigen::Vector2d(random.normal(), random.normal());
+  const Eigen::Vector2d lean = kDegree * options.tilt_deg * Eigen::Vector2d(random.normal(), random.normal());
   stem.axis = Eigen::Vector3d(lean.x(), lean.y(), 1).normalized();
 
   // Log-normal: positive, and skewed as diameters of young stands are.
@@ -121,7 +122,7 @@ std::vector<Cone> growBranches(const TreeOptions& options, const TreeLook& look)
     const double share = (i + random.uniform()) / options.branches.living_branches;
     const double height = options.crown_base + (1 - options.crown_base) * (0.02 + 0.93 * share);
     const double mean = branchElevation(options, look.species);
-    const double length = crownRadius(options, look.species, height) / std::cos(kRadians * mean);
+    const double length = crownRadius(options, look.species, height) / std::cos(kDegree * mean);
     const double elevation = mean + options.branches.branch_spread_deg * random.normal();
     if (length > 0)
       branches.push_back(growBranch(tree * height, tree * length, elevation, thickest * (1 - 0.7 * share), random));

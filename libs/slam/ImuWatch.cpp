@@ -1,5 +1,6 @@
 #include "slam/ImuWatch.h"
 
+#include "core/Angle.h"
 #include "core/So3.h"
 #include "imu/GyroScale.h"
 #include "imu/MeanForce.h"
@@ -13,7 +14,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 constexpr Duration kKept = 60s;
 constexpr double kSigmas = 4;  // beyond doubt
 

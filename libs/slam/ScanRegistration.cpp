@@ -1,5 +1,6 @@
 #include "slam/ScanRegistration.h"
 
+#include "core/Angle.h"
 #include "core/Matrix6.h"
 #include "ndt/LidarInformation.h"
 
@@ -92,7 +93,6 @@ RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& vi
 
 Matrix6d covarianceWithin(const SearchArea& area, const RegistrationResult& found)
 {
-  constexpr double kDegree = M_PI / 180;
   constexpr double kTilt = 15 * kDegree, kHeading = 25 * kDegree;
   Vector6d most;
   most << Eigen::Vector3d::Constant(area.radius + kStep), kTilt, kTilt, area.headings > 1 ? M_PI : kHeading;

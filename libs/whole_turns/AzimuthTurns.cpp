@@ -13,9 +13,6 @@ namespace
 // A lidar whose rotor stands still never completes a turn: one is cut after this many nominal turns.
 constexpr int kLongestTurn = 2;
 
-// More turns than this are never reordered, and hardly lost.
-constexpr int kTurnsRemembered = 4;
-
 class AzimuthTurns : public TurnCollector
 {
  public:

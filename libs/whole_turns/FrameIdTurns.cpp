@@ -6,9 +6,6 @@ namespace scanloom
 {
 namespace
 {
-// A frame id that differs by more turns: the lidar has started again.
-constexpr std::int64_t kTurnsRemembered = 4;
-
 /** By packet of a turn: whether some of its columns lie within the azimuth window. */
 std::vector<bool> packetsSent(const LidarDescription& lidar)
 {

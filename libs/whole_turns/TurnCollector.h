@@ -10,6 +10,9 @@
 
 namespace scanloom
 {
+/** More turns than these are never reordered, and hardly lost: the lidar has started again. */
+inline constexpr int kTurnsRemembered = 4;
+
 /**
  * Batching by spinning angle, as drivers do it: the blocks of one lidar are converted as they come and belong to the
  * turn that their numbers name.

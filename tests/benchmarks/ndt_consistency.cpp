@@ -4,6 +4,7 @@
  */
 #include "benchmarks/ForestScans.h"
 #include "benchmarks/NeesHistogram.h"
+#include "core/Angle.h"
 #include "core/Statistics.h"
 #include "evaluation/RegistrationTrials.h"
 #include "ndt/Registration.h"
@@ -95,7 +96,6 @@ void writePair(const Pair& pair, const std::filesystem::path& folder, int index)
 
 void run(const Arguments& arguments)
 {
-  constexpr double kDegree = M_PI / 180;
   std::vector<double> metres, degrees, nees;
   Vector6d squares = Vector6d::Zero(), whitened = Vector6d::Zero(), mean = Vector6d::Zero();
   int untrusted = 0;

@@ -5,6 +5,7 @@
  */
 #include "benchmarks/FullScan.h"
 #include "benchmarks/PeerTrials.h"
+#include "core/Angle.h"
 #include "ndt/Registration.h"
 #include "support/PointFile.h"
 
@@ -25,7 +26,7 @@ namespace scanloom
 namespace
 {
 constexpr int kGuesses = 20;
-constexpr double kMetresOff = 0.5, kDegreesOff = 5, kDegree = M_PI / 180;
+constexpr double kMetresOff = 0.5, kDegreesOff = 5;
 
 struct Pair
 {

@@ -1,12 +1,13 @@
 #include "core/Rigid.h"
 
+#include "core/Angle.h"
+
 #include <gtest/gtest.h>
 
 using namespace scanloom;
 
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 }
 
 TEST(Rigid, yawPitchRollMatchesTheMatrixOfACalibrationFile)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/Angle.h"
 #include "core/So3.h"
 #include "doctor/ImuTiming.h"
 #include "imu/GyroAgreement.h"
@@ -14,7 +15,6 @@ using namespace scanloom;
 
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 const Timestamp kStart{1750000000s};
 
 /** Small roll, pitch and yaw of the body about its origin, by time. */

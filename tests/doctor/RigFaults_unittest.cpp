@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "config/Configuration.h"
+#include "core/Angle.h"
 #include "core/So3.h"
 #include "doctor/DoctorFindings.h"
 #include "lidar/Crc64.h"
@@ -16,7 +17,6 @@ using namespace scanloom;
 
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 constexpr std::uint16_t kRightPort = 7504;
 
 Rig recordedRig(const std::filesystem::path& folder, const std::string& more_keys = "")

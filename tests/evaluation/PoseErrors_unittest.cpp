@@ -1,5 +1,7 @@
 #include "evaluation/PoseErrors.h"
 
+#include "core/Angle.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,8 +10,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
-
 Rigid at(double x, double y, double z, double yaw_deg = 0)
 {
   return Rigid::fromXyzYawPitchRoll(x, y, z, yaw_deg * kDegree, 0, 0);

@@ -1,4 +1,5 @@
 /** The smoother on an IMU that a stranger's generator made: frames, signs, gravity and noise are not ours. */
+#include "core/Angle.h"
 #include "graph/FixedLagSmoother.h"
 #include "imu/AnalyticDrive.h"
 #include "imu/ImuBuffer.h"
@@ -14,8 +15,6 @@ using namespace scanloom;
 
 namespace
 {
-constexpr double kDegree = M_PI / 180;
-
 // extrinsics.txt and summary.json of the recording
 const Rigid kBodyFromRealImu =
     Rigid::fromXyzYawPitchRoll(0.15, -0.3, 2.85, 90 * kDegree, 1.2 * kDegree, -0.8 * kDegree);

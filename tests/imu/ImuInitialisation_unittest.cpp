@@ -1,5 +1,6 @@
 #include "imu/ImuInitialisation.h"
 
+#include "core/Angle.h"
 #include "imu/AnalyticDrive.h"
 #include "imu/readImuCsv.h"
 #include "support/TestData.h"
@@ -12,7 +13,6 @@ using namespace scanloom;
 
 namespace
 {
-constexpr double kDegree = M_PI / 180;
 const Rigid kBodyFromImu = Rigid::fromXyzYawPitchRoll(0.15, -0.3, 2.85, 1.5, 0.1, -0.2);
 
 /** 200 Hz readings of a body that stands still; `vibration` (m/s2 and deg/s) is a 4-cylinder engine's 26 Hz. */

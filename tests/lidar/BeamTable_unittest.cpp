@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "captures.h"
+#include "core/Angle.h"
 #include "simpleMetadata.h"
 
 using namespace scanloom;
 
 namespace
 {
-constexpr double kDegree = M_PI / 180;
-
 /** The maker's documented formula in double, millimetres and degrees as in the metadata; the result in metres. */
 Eigen::Vector3d documentedPoint(const OusterMetadata& m, int column, std::size_t beam, std::uint32_t range_mm,
                                 const Eigen::Matrix4d& body_T_sensor)

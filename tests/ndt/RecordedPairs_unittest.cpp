@@ -1,4 +1,5 @@
 /** Registration of recorded clouds against the transforms that came with them. */
+#include "core/Angle.h"
 #include "ndt/Registration.h"
 #include "ndt/briefOf.h"
 #include "support/PointFile.h"
@@ -15,8 +16,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
-
 struct Error
 {
   double metres, degrees;

@@ -1,5 +1,6 @@
 #include "ndt/Registration.h"
 
+#include "core/Angle.h"
 #include "ndt/RayWorld.h"
 #include "ndt/briefOf.h"
 
@@ -14,8 +15,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kDegree = M_PI / 180;
-
 NdtMap mapOf(const std::vector<Eigen::Vector3f>& points, double cell_size)
 {
   NdtOptions options;

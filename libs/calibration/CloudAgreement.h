@@ -1,28 +1,22 @@
 /** Whether two lidars see the same things in the same place, which checks their poses on the body. */
 #pragma once
-#include "core/Rigid.h"
-#include "doctor/Snapshots.h"
+#include "calibration/SharedView.h"
 
 #include <optional>
 #include <vector>
 
 namespace scanloom
 {
-/** Snapshots of both lidars from the same time. */
-struct SnapshotPair
-{
-  const Snapshot* a;
-  const Snapshot* b;
-};
-
 struct CloudAgreement
 {
-  std::size_t turns = 0;   // with at least 500 common points (CommonView)
-  std::size_t common = 0;  // points per turn, median
-  double near_share = 0;   // of these: points with one of B within 0.3 m, median
+  std::size_t turns = 0;  // these three as in SharedView
+  std::size_t common = 0;
+  double near_share = 0;
 
-  /** How A's sensor must move and turn (in the body's axes) if B's pose is right. None if registration found no better
-   * pose. */
+  /**
+   * How A's sensor must move and turn (in the body's axes) if B's pose is right. None with fewer than three turns, or
+   * if registration found no better pose.
+   */
   struct Correction
   {
     Eigen::Vector3d offset, rotation;     // m, rad
@@ -37,6 +31,6 @@ struct CloudAgreement
  * two sides of one part of the machine, each seen by one lidar, would be matched to each other; then all points with
  * fine cells. None if no turn has enough common points.
  */
-std::optional<CloudAgreement> cloudAgreement(const std::vector<SnapshotPair>&, const Rigid& body_T_a,
+std::optional<CloudAgreement> cloudAgreement(const std::vector<SeenByBoth>&, const Rigid& body_T_a,
                                              const Rigid& body_T_b);
 }  // namespace scanloom

@@ -1,4 +1,4 @@
-#include "doctor/CommonView.h"
+#include "calibration/CommonView.h"
 
 #include <algorithm>
 #include <cmath>

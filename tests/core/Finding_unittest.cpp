@@ -1,4 +1,4 @@
-#include "doctor/Finding.h"
+#include "core/Finding.h"
 
 #include <gtest/gtest.h>
 

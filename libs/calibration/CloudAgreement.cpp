@@ -1,17 +1,15 @@
-#include "doctor/CloudAgreement.h"
+#include "calibration/CloudAgreement.h"
+
+#include "ndt/Minimiser.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include "core/Statistics.h"
-#include "doctor/CommonView.h"
-#include "ndt/Minimiser.h"
 
 namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kFewestCommon = 500;
+constexpr std::size_t kFewestTurns = 3;  // for a deviation by leaving out one of them
 constexpr double kLeastOverlap = 0.1;
 constexpr double kMostLoss = 0.02;  // of near_share; a fit that loses more is wrong
 
@@ -27,14 +25,14 @@ enum class Which
   All,
 };
 
-Turns cellsOf(const std::vector<SnapshotPair>& pairs, Which which, double edge)
+Turns cellsOf(const std::vector<SeenByBoth>& pairs, Which which, double edge)
 {
   NdtOptions options;
   options.cell_size = edge;
-  const auto cells = [&](const Snapshot& snapshot)
-  { return NdtMap(which == Which::All ? snapshot.points : surroundings(snapshot), options); };
+  const auto cells = [&](const SeenPoints& seen)
+  { return NdtMap(which == Which::All ? seen.points : surroundings(seen), options); };
   Turns turns;
-  for (const SnapshotPair& pair : pairs)
+  for (const SeenByBoth& pair : pairs)
   {
     turns.a.push_back(cells(*pair.a));
     turns.b.push_back(cells(*pair.b));
@@ -86,7 +84,7 @@ std::size_t pointsOf(const std::vector<NdtMap>& maps)
 }
 
 /** The correction of A's pose; none if too few points of A meet cells of B. */
-std::optional<Rigid> alignAll(const std::vector<SnapshotPair>& pairs)
+std::optional<Rigid> alignAll(const std::vector<SeenByBoth>& pairs)
 {
   Rigid pose;
   for (const double edge : {2.0, 1.0})
@@ -97,13 +95,13 @@ std::optional<Rigid> alignAll(const std::vector<SnapshotPair>& pairs)
   return minimum.target_T_source;
 }
 
-CloudAgreement::Correction correctionOf(const std::vector<SnapshotPair>& pairs, const Rigid& body_T_a,
+CloudAgreement::Correction correctionOf(const std::vector<SeenByBoth>& pairs, const Rigid& body_T_a,
                                         const Rigid& correction)
 {
   const Movement movement = movementOf(correction, body_T_a);
   const Turns turns = cellsOf(pairs, Which::All, 1.0);
   std::vector<Eigen::Vector3d> offsets, rotations;
-  for (std::size_t i = 0; i < pairs.size() && pairs.size() > 1; ++i)
+  for (std::size_t i = 0; i < pairs.size(); ++i)
   {
     const Movement without = movementOf(alignTurns(turns, correction, kNarrow, i).target_T_source, body_T_a);
     offsets.push_back(without.offset);
@@ -111,50 +109,25 @@ CloudAgreement::Correction correctionOf(const std::vector<SnapshotPair>& pairs, 
   }
   return {movement.offset, movement.rotation, jackknife(offsets), jackknife(rotations), 0};
 }
-
-/** What both lidars should see. */
-struct Common
-{
-  std::vector<SnapshotPair> pairs;  // turns with enough common points
-  std::size_t points = 0;           // median over these turns, like near_share
-  double near_share = 0;
-};
-
-Common commonOf(const std::vector<SnapshotPair>& all, const Rigid& body_T_b, const Rigid& correction)
-{
-  Common result;
-  std::vector<double> points, near;
-  for (const SnapshotPair& pair : all)
-  {
-    const CommonView view = commonView(surroundings(*pair.a), correction, pair.b->points, body_T_b);
-    if (view.common < kFewestCommon) continue;
-    result.pairs.push_back(pair);
-    points.push_back(static_cast<double>(view.common));
-    near.push_back(static_cast<double>(view.near) / points.back());
-  }
-  if (points.empty()) return result;
-  result.points = static_cast<std::size_t>(median(points));
-  result.near_share = median(near);
-  return result;
-}
 }  // namespace
 
-std::optional<CloudAgreement> cloudAgreement(const std::vector<SnapshotPair>& all, const Rigid& body_T_a,
+std::optional<CloudAgreement> cloudAgreement(const std::vector<SeenByBoth>& all, const Rigid& body_T_a,
                                              const Rigid& body_T_b)
 {
-  const Common here = commonOf(all, body_T_b, Rigid::identity());
-  if (here.pairs.empty()) return std::nullopt;
+  const std::optional<SharedView> here = sharedView(all, Rigid::identity(), body_T_b);
+  if (!here) return std::nullopt;
   CloudAgreement agreement;
-  agreement.turns = here.pairs.size();
-  agreement.common = here.points;
-  agreement.near_share = here.near_share;
+  agreement.turns = here->turns.size();
+  agreement.common = here->common;
+  agreement.near_share = here->near_share;
+  if (agreement.turns < kFewestTurns) return agreement;
 
-  const std::optional<Rigid> correction = alignAll(here.pairs);
+  const std::optional<Rigid> correction = alignAll(here->turns);
   if (!correction) return agreement;
-  const Common there = commonOf(here.pairs, body_T_b, *correction);
-  if (there.near_share < here.near_share - kMostLoss) return agreement;
-  agreement.correction = correctionOf(here.pairs, body_T_a, *correction);
-  agreement.correction->near_share = there.near_share;
+  const std::optional<SharedView> there = sharedView(here->turns, *correction, body_T_b);
+  if (!there || there->near_share < here->near_share - kMostLoss) return agreement;
+  agreement.correction = correctionOf(here->turns, body_T_a, *correction);
+  agreement.correction->near_share = there->near_share;
   return agreement;
 }
 }  // namespace scanloom

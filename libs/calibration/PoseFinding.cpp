@@ -1,0 +1,69 @@
+#include "calibration/PoseFinding.h"
+
+#include "core/Angle.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kFarthest = 1, kLargestTurn = 15;  // m, deg: what registration with cells of 2 m can correct
+constexpr const char* kMeasureAgain =
+    "measure both poses again: x y z in m, yaw pitch roll in deg, of the sensor frame in the body; see that each lidar "
+    "has its own metadata file";
+}  // namespace
+
+Finding poseFinding(const std::string& lidar, const std::string& other, const std::optional<CloudAgreement>& agreement,
+                    const PoseLimits& limits)
+{
+  Finding finding{lidar, "pose", Verdict::NotMeasured, fmt::format("too few points that '{}' sees as well", other)};
+  if (!agreement) return finding;
+  const CloudAgreement& a = *agreement;
+  finding.says = fmt::format("{:.0f} % of {} common points agree with '{}'", 100 * a.near_share, a.common, other);
+  finding.verdict = a.near_share < limits.near_share_warning ? Verdict::Warning : Verdict::Ok;
+  if (finding.verdict != Verdict::Ok) finding.mend = kMeasureAgain;
+  if (!a.correction)
+  {
+    finding.says += a.turns < 3 ? "; too few turns for a registration" : "; registration found no better pose";
+    return finding;
+  }
+  const CloudAgreement::Correction& c = *a.correction;
+  const Eigen::Vector3d degrees = c.rotation / kDegree;
+  finding.says += fmt::format("; best fit of {} turns {:.3f} m (+-{:.3f}) and {:.2f} deg (+-{:.2f}) off", a.turns,
+                              c.offset.norm(), c.offset_sigma, degrees.norm(), c.rotation_sigma / kDegree);
+  const auto beyondDoubt = [](double value, double sigma) { return value > 3 * sigma ? value : 0; };
+  const Verdict fit = std::max(
+      grade(beyondDoubt(c.offset.norm(), c.offset_sigma), limits.pose_offset_warning, limits.pose_offset_not_fit),
+      grade(beyondDoubt(degrees.norm(), c.rotation_sigma / kDegree), limits.pose_angle_warning_deg,
+            limits.pose_angle_not_fit_deg));
+  if (fit == Verdict::Ok) return finding;
+  finding.verdict = std::max(finding.verdict, fit);
+  if (c.offset.norm() > kFarthest || degrees.norm() > kLargestTurn)
+    finding.mend = fmt::format(
+        "{}; registration cannot measure so large an error: compare 'turns' and 'up' of the IMUs", kMeasureAgain);
+  else
+    finding.mend = fmt::format(
+        "if '{}' is right, move the sensor by ({:.2f} {:.2f} {:.2f}) m and turn it by ({:.1f} {:.1f} {:.1f}) deg about "
+        "the body's x y z: then {:.0f} % agree",
+        other, c.offset.x(), c.offset.y(), c.offset.z(), degrees.x(), degrees.y(), degrees.z(), 100 * c.near_share);
+  return finding;
+}
+
+Finding steadinessFinding(const std::string& lidar, const std::optional<SharedView>& on_the_way,
+                          const PoseLimits& limits)
+{
+  Finding finding{lidar, "steadiness", Verdict::NotMeasured, "too few points that are seen again on the way"};
+  if (!on_the_way) return finding;
+  finding.says = fmt::format("{:.0f} % of {} points that are seen again on the way are in the same place",
+                             100 * on_the_way->near_share, on_the_way->common);
+  finding.verdict = on_the_way->near_share < limits.near_share_warning ? Verdict::Warning : Verdict::Ok;
+  if (finding.verdict != Verdict::Ok)
+    finding.mend =
+        "its pose in the body is wrong, or its metadata file is another lidar's: measure x y z in m, yaw pitch roll in "
+        "deg, of the sensor frame in the body";
+  return finding;
+}
+}  // namespace scanloom
