@@ -1,11 +1,16 @@
 #include "Options.h"
 
+#include "config/Values.h"
+
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <type_traits>
 
 namespace scanloom
 {
@@ -19,22 +24,61 @@ Option Option::needs(const Option& other) const { return Option(option_->needs(o
 Option Option::excludes(const Option& other) const { return Option(option_->excludes(other.option_)); }
 Option Option::existingFile() const { return Option(option_->check(CLI::ExistingFile)); }
 Option Option::existingFolder() const { return Option(option_->check(CLI::ExistingDirectory)); }
-Option Option::positive() const { return Option(option_->check(CLI::PositiveNumber)); }
-Option Option::notNegative() const { return Option(option_->check(CLI::NonNegativeNumber)); }
-Option Option::between(int lowest, int highest) const { return Option(option_->check(CLI::Range(lowest, highest))); }
-Option Option::between(double lowest, double highest) const
+Option Option::positive() const { return within(above(0)); }
+Option Option::notNegative() const { return within(atLeast(0)); }
+Option Option::between(double lowest, double highest) const { return within(scanloom::between(lowest, highest)); }
+Option Option::within(const Bounds& bounds) const
 {
-  return Option(option_->check(CLI::Range(lowest, highest)));
+  Field field;
+  field.bounds = bounds;
+  const auto complain = [field](const std::string& text)
+  {
+    double number = 0;
+    const auto constraint = assign(number, text, field);
+    return constraint ? fmt::format("'{}' {}", text, *constraint) : std::string();
+  };
+  return Option(option_->check(complain, toString(bounds)));
 }
 Option Option::oneOf(const std::vector<std::string>& names) const
 {
   return Option(option_->check(CLI::IsMember(names)));
 }
 
+namespace
+{
+template <typename Value>
+struct NumberIn
+{
+  using Type = Value;
+};
+template <typename Value>
+struct NumberIn<std::optional<Value>>
+{
+  using Type = Value;
+};
+
+/** CLI11 takes nan for a number, and -1 for the largest whole number without a sign. Empty if the text is a number. */
+template <typename Number>
+std::string complaintAboutNumber(const std::string& text)
+{
+  Number number{};
+  const bool parsed = CLI::detail::lexical_cast(text, number);
+  if (std::is_floating_point_v<Number> && !(parsed && std::isfinite(number)))
+    return fmt::format("'{}' must be a number", text);
+  const bool sign_lost = std::is_unsigned_v<Number> && text.find('-') != std::string::npos;
+  if (!parsed || sign_lost)
+    return fmt::format("'{}' must be a whole number{}", text, std::is_unsigned_v<Number> ? " >= 0" : "");
+  return "";
+}
+}  // namespace
+
 template <typename Value>
 Option addOption(CLI::App& app, const std::string& name, Value& value, const std::string& help)
 {
-  return Option(app.add_option(name, value, help));
+  CLI::Option* option = app.add_option(name, value, help);
+  using Number = typename NumberIn<Value>::Type;
+  if constexpr (std::is_arithmetic_v<Number>) option->check(&complaintAboutNumber<Number>);
+  return Option(option);
 }
 template Option addOption(CLI::App&, const std::string&, std::string&, const std::string&);
 template Option addOption(CLI::App&, const std::string&, std::filesystem::path&, const std::string&);

@@ -1,5 +1,7 @@
 /** The options of a verb. Only Options.cpp includes CLI11, which takes 10 s to compile in every file that does. */
 #pragma once
+#include "core/Field.h"
+
 #include <functional>
 #include <string>
 #include <utility>
@@ -35,18 +37,19 @@ class Option
   Option existingFolder() const;
   Option positive() const;
   Option notNegative() const;
-  Option between(int lowest, int highest) const;
   Option between(double lowest, double highest) const;
   Option oneOf(const std::vector<std::string>&) const;
 
  private:
+  Option within(const Bounds&) const;
+
   CLI::Option* option_;
 };
 
 /**
  * @param name "-o,--output", or "FILE" for an argument without a name.
  * Value is std::string, std::filesystem::path, int, double, std::uint64_t, a std::optional of a number, or a
- * std::vector of texts or paths.
+ * std::vector of texts or paths. A number must be one: nan, inf and a sign that the type cannot hold are refused.
  */
 template <typename Value>
 Option addOption(CLI::App&, const std::string& name, Value&, const std::string& help);

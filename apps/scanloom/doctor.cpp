@@ -78,12 +78,14 @@ RigEvidence listen(const Rig& rig, const DoctorArguments& arguments)
   }
   const std::uint64_t megabytes = megabytesOf(rig.captures);
   Progress progress("doctor", megabytes, "MB");
-  listenToCaptures(rig, arguments.seconds > 0 ? fromSeconds(arguments.seconds) : Duration::max(), listener,
-                   [&](double share)
-                   {
-                     progress.update(static_cast<std::uint64_t>(share * static_cast<double>(megabytes)));
-                     return !interrupted();
-                   });
+  const std::vector<std::string> damages =
+      listenToCaptures(rig, arguments.seconds > 0 ? fromSeconds(arguments.seconds) : Duration::max(), listener,
+                       [&](double share)
+                       {
+                         progress.update(static_cast<std::uint64_t>(share * static_cast<double>(megabytes)));
+                         return !interrupted();
+                       });
+  for (const std::string& damage : damages) fmt::print(stderr, "warning: {}\n", damage);
   return listener.finish();
 }
 
@@ -144,6 +146,7 @@ Verb doctorVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<DoctorSettings>());
-  return {"doctor", "faults of a rig's lidars, clocks, IMUs and poses, and how to mend them", schema, &addDoctorOptions};
+  return {"doctor", "faults of a rig's lidars, clocks, IMUs and poses, and how to mend them", schema,
+          &addDoctorOptions};
 }
 }  // namespace scanloom

@@ -7,7 +7,9 @@
 #include "core/Progress.h"
 #include "doctor/RawlogCheck.h"
 #include "edit/EditOperations.h"
+#include "edit/StagedOutputs.h"
 #include "info.h"
+#include "mrpt_bridge/jsonText.h"
 #include "record.h"
 #include "rig/RigOptions.h"
 
@@ -54,8 +56,8 @@ void requireOne(const EditArguments& arguments, const std::vector<EditOperation>
 
 void refuseExistingOutputs(const EditArguments& arguments, const EditOperation& operation)
 {
-  refuseExisting(operation.files, arguments.overwrite);
-  const auto& folder = operation.folder;
+  refuseExisting(operation.outputs.files, arguments.overwrite);
+  const auto& folder = operation.outputs.folder;
   if (!folder.empty() && std::filesystem::exists(folder) && !arguments.overwrite)
     if (!std::filesystem::is_directory(folder) || !std::filesystem::is_empty(folder))
       throw UsageError(fmt::format("{} {}: must be a new or an empty folder; -w writes into it all the same",
@@ -77,6 +79,7 @@ void report(const EditArguments& arguments, const std::string& what, const Rawlo
 {
   if (!edited.damage.empty())
     fmt::print(stderr, "damaged: {}: read up to there, {} observations\n", edited.damage, edited.read());
+  if (edited.stopped) fmt::print(stderr, "interrupted: what was written is {}\n", edited.output.string());
   if (edited.passed_over > 0)
     fmt::print(stderr, "warning: {} objects are no observations (actions, maps): they are not in the output\n",
                edited.passed_over);
@@ -89,12 +92,31 @@ void report(const EditArguments& arguments, const std::string& what, const Rawlo
                                    {"written", edited.written()},
                                    {"passed_over", edited.passed_over},
                                    {"damage", edited.damage}};
-    std::cout << result.dump(2) << '\n';
+    std::cout << jsonText(result) << '\n';
     return;
   }
   fmt::print("{}: {} observations read, {} written\n", what, edited.read(), edited.written());
   for (const auto& [label, count] : edited.labels)
     fmt::print("  {:<20} {:>8} -> {}\n", label.empty() ? "(no label)" : label, count.read, count.written);
+}
+
+void refuseToReplaceInputs(const EditArguments& arguments, const std::vector<EditOperation>& operations)
+{
+  std::vector<std::filesystem::path> inputs{arguments.input};
+  for (const EditOperation& operation : operations)
+    inputs.insert(inputs.end(), operation.inputs.begin(), operation.inputs.end());
+  refuseInputsAsOutputs(inputs, {arguments.output});
+  refuseInputsAsOutputs(inputs, operations.back().outputs.files);
+}
+
+RawlogEdited exportFiles(const EditArguments& arguments, const std::vector<EditOperation>& operations)
+{
+  StagedOutputs staged(operations.back().outputs);
+  RawlogEdited edited =
+      readRawlog(arguments.input, chained(operations, arguments.input, staged.running()), showingProgress(arguments));
+  const EditOutputs outputs = staged.commit(edited.stopped ? Completeness::Partial : Completeness::Whole);
+  edited.output = outputs.files.empty() ? outputs.folder : outputs.files.front();
+  return edited;
 }
 
 int edit(const EditArguments& arguments, const std::vector<EditOperation>& operations)
@@ -105,19 +127,19 @@ int edit(const EditArguments& arguments, const std::vector<EditOperation>& opera
     throw UsageError(fmt::format("{} writes no rawlog: it takes no -o/--output", operations.back().option));
   if (to_rawlog) refuseExisting({arguments.output}, arguments.overwrite);
   for (const EditOperation& operation : operations) refuseExistingOutputs(arguments, operation);
+  refuseToReplaceInputs(arguments, operations);
   if (arguments.configuration.dry_run)
   {
-    if (to_rawlog) chained(operations, arguments.input);  // the others would create their files
+    if (to_rawlog) chained(operations, arguments.input, {});  // the others would create their files
     for (const EditOperation& each : operations) fmt::print("{} ", each.option);
     fmt::print("of {}{}\n", arguments.input.string(), to_rawlog ? " into " + arguments.output.string() : "");
     return kDone;
   }
 
   catchInterruption();
-  const RawlogOperation operation = chained(operations, arguments.input);
-  const KeepReading keep_reading = showingProgress(arguments);
-  const RawlogEdited edited = to_rawlog ? editRawlog(arguments.input, operation, arguments.output, keep_reading)
-                                        : readRawlog(arguments.input, operation, keep_reading);
+  const RawlogEdited edited = to_rawlog ? editRawlog(arguments.input, chained(operations, arguments.input, {}),
+                                                     arguments.output, showingProgress(arguments))
+                                        : exportFiles(arguments, operations);
   report(arguments, operations.back().option, edited);
   if (interrupted()) return kInterrupted;
   return edited.damage.empty() && edited.passed_over == 0 ? kDone : kQualityGate;

@@ -160,7 +160,9 @@ std::function<int()> addEvaluateOptions(CLI::App& app)
 
 Verb evaluateVerb()
 {
-  return {
-      "evaluate", "drift, APE and RPE of a trajectory, compared with a total station or true poses", {}, &addEvaluateOptions};
+  return {"evaluate",
+          "drift, APE and RPE of a trajectory, compared with a total station or true poses",
+          {},
+          &addEvaluateOptions};
 }
 }  // namespace scanloom

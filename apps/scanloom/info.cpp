@@ -34,7 +34,7 @@ int run(const InfoArguments& arguments)
     const CaptureInfo info =
         captureInfo(arguments.file, arguments.metadata, arguments.digests ? Digests::Yes : Digests::No);
     std::cout << (arguments.json ? toJson(info) : toText(info));
-    return kDone;
+    return info.counters.damages.empty() ? kDone : kQualityGate;
   }
   if (!arguments.metadata.empty() || arguments.digests)
     throw UsageError(

@@ -6,6 +6,7 @@
 #include "core/ConfigError.h"
 #include "core/Interruption.h"
 #include "core/Progress.h"
+#include "core/StagedFiles.h"
 #include "edit/MapFromRawlog.h"
 #include "edit/RawlogHeader.h"
 #include "formats/TrajectoryReader.h"
@@ -70,10 +71,12 @@ void announce(const MapArguments& arguments, const DriveSize& drive)
                1e-9 * memoryOfTheMachine());
 }
 
-int report(const MapArguments& arguments, std::size_t keyframes)
+/** Names the files: what an interruption left does not replace a whole map. */
+int finish(StagedFiles& files, std::size_t keyframes)
 {
+  const auto outputs = files.commit(interrupted() ? Completeness::Partial : Completeness::Whole);
   fmt::print("{} keyframes\n", keyframes);
-  for (const Path& output : arguments.outputs) fmt::print("{}\n", output.string());
+  for (const Path& output : outputs) fmt::print("{}\n", output.string());
   return interrupted() ? kInterrupted : kDone;
 }
 
@@ -83,7 +86,8 @@ int mapKeyframes(const MapArguments& arguments)
   announce(arguments, driveSizeOf(reader));
   if (arguments.dry_run) return kDone;
 
-  const auto files = makeMapFiles(arguments.outputs, reader.lidars(), octoMapPreset(arguments.preset));
+  StagedFiles staged(arguments.outputs);
+  const auto files = makeMapFiles(staged.running(), reader.lidars(), octoMapPreset(arguments.preset));
   std::optional<Progress> progress;
   if (!arguments.quiet) progress.emplace("map", reader.size(), "keyframes");
   std::size_t done = 0;
@@ -94,7 +98,7 @@ int mapKeyframes(const MapArguments& arguments)
     if (progress) progress->update(done + 1);
   }
   for (const auto& file : files) file->close();
-  return report(arguments, done);
+  return finish(staged, done);
 }
 
 int mapRawlog(const MapArguments& arguments)
@@ -109,17 +113,18 @@ int mapRawlog(const MapArguments& arguments)
   std::optional<Progress> progress;
   if (!arguments.quiet) progress.emplace("map", megabytesOf({arguments.input}), "MB");
   std::size_t keyframes = 0;
+  StagedFiles staged(arguments.outputs);
   const RawlogOperation operation =
-      toMaps(arguments.outputs, octoMapPreset(arguments.preset), options, header, [&] { ++keyframes; });
+      toMaps(staged.running(), octoMapPreset(arguments.preset), options, header, [&] { ++keyframes; });
   const RawlogEdited read = readRawlog(arguments.input, operation,
                                        [&](std::uint64_t bytes)
                                        {
                                          if (progress) progress->update(bytes / 1000000);
                                          return !interrupted();
                                        });
-  if (read.damage.empty()) return report(arguments, keyframes);
+  const int status = finish(staged, keyframes);
+  if (read.damage.empty()) return status;
   fmt::print(stderr, "damaged: {}: mapped up to there\n", read.damage);
-  report(arguments, keyframes);
   return kQualityGate;
 }
 
@@ -140,6 +145,7 @@ int convertTrajectory(const MapArguments& arguments)
     if (!isTrajectoryName(output))
       throw UsageError(fmt::format("-o {}: a trajectory becomes .tum, .csv (EuRoC) or .txt (KITTI)", output.string()));
     refuseExisting(trajectoryFiles(output), arguments.overwrite);
+    refuseInputsAsOutputs(trajectoryFiles(arguments.input), trajectoryFiles(output));
   }
   const Trajectory trajectory = readTrajectory(arguments.input);
   if (trajectory.empty()) throw std::runtime_error(arguments.input.string() + ": holds no pose");
@@ -157,6 +163,7 @@ int run(const MapArguments& arguments)
   if (isTrajectoryName(arguments.input)) return convertTrajectory(arguments);
   requireMapEndings(arguments.outputs);
   refuseExisting(arguments.outputs, arguments.overwrite);
+  refuseInputsAsOutputs({arguments.input, arguments.trajectory}, arguments.outputs);
   const std::string ending = arguments.input.extension().string();
   if (arguments.cubes && !isOctoMap(arguments.input)) throw UsageError("--cubes is for a .ply of a .bt or .ot");
   if (!arguments.trajectory.empty() && ending != ".rawlog")
@@ -210,6 +217,7 @@ std::function<int()> addMapOptions(CLI::App& app)
 
 Verb mapVerb()
 {
-  return {"map", "maps of a recording whose poses are known; maps and trajectories in other formats", {}, &addMapOptions};
+  return {
+      "map", "maps of a recording whose poses are known; maps and trajectories in other formats", {}, &addMapOptions};
 }
 }  // namespace scanloom

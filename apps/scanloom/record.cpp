@@ -10,6 +10,7 @@
 #include "mrpt_bridge/RigRecording.h"
 #include "rig/InputDisplay.h"
 #include "rig/openRig.h"
+#include "rig/silentLidars.h"
 #include "simulation/SimulatedRig.h"
 
 #include <fmt/format.h>
@@ -82,7 +83,37 @@ Recorded record(SensorInput& input, const Source& source, const RecordArguments&
                    });
 }
 
-void report(const RecordArguments& arguments, const Recorded& recorded, const RigAccount& account)
+void warn(const std::string& warning) { fmt::print(stderr, "warning: {}\n", warning); }
+
+/** A capture that -w replaces, out of the way until the new one is whole. */
+class ReplacedCapture
+{
+ public:
+  explicit ReplacedCapture(const std::filesystem::path& capture)
+  {
+    if (capture.empty() || !isTaken(capture)) return;
+    kept_ = freeNameBeside(capture, "replaced");
+    std::filesystem::rename(capture, kept_);
+  }
+  ReplacedCapture(const ReplacedCapture&) = delete;
+  ReplacedCapture& operator=(const ReplacedCapture&) = delete;
+  ~ReplacedCapture()
+  {
+    if (!kept_.empty()) warn(fmt::format("the capture that was to be replaced is now {}", kept_.string()));
+  }
+
+  void remove()
+  {
+    if (!kept_.empty()) std::filesystem::remove(kept_);
+    kept_.clear();
+  }
+
+ private:
+  std::filesystem::path kept_;
+};
+
+void report(const RecordArguments& arguments, const Recorded& recorded, const RigAccount& account,
+            const std::filesystem::path& rawlog)
 {
   const auto counts = countsOf(account);
   if (arguments.json)
@@ -92,13 +123,29 @@ void report(const RecordArguments& arguments, const Recorded& recorded, const Ri
     std::cout << result.dump(2) << '\n';
     return;
   }
-  fmt::print("{} scans and {} IMU samples in {}\n", recorded.scans, recorded.imu_samples, arguments.output.string());
-  for (const auto& [name, lidar] : account.lidars)
+  fmt::print("{} scans and {} IMU samples in {}\n", recorded.scans, recorded.imu_samples, rawlog.string());
+  for (const auto& [name, lidar, of_other_senders] : account.lidars)
+  {
     fmt::print("  {}: {} blocks sent, {} emitted, {} before the start, {} invalid, {} lost, {} late, {} duplicate\n",
                name, lidar.sent(), lidar.emitted, lidar.before_start, lidar.invalid, lidar.lost, lidar.late,
                lidar.duplicate);
+    if (of_other_senders > 0) fmt::print("  {}: {} packets of other senders, left out\n", name, of_other_senders);
+  }
+  if (account.implausible_imu_samples > 0)
+    fmt::print("  {} IMU samples with stamps of no lidar's clock, left out\n", account.implausible_imu_samples);
   for (const auto& [what, count] : account.input)
     if (count > 0 && what != "datagrams") fmt::print("  {}: {}\n", what, count);
+}
+
+std::vector<std::filesystem::path> filesReadFor(const Rig& rig, const RigSettings& settings,
+                                                const RecordArguments& arguments)
+{
+  std::vector<std::filesystem::path> files = arguments.configuration.files;
+  files.insert(files.end(), rig.captures.begin(), rig.captures.end());
+  for (const LidarOptions& lidar : settings.lidars) files.emplace_back(lidar.metadata);
+  files.emplace_back(settings.rig.extrinsics);
+  files.emplace_back(settings.rig.imu_csv);
+  return files;
 }
 
 Source openSource(const RecordArguments& arguments, const Configuration& configuration)
@@ -106,6 +153,7 @@ Source openSource(const RecordArguments& arguments, const Configuration& configu
   if (arguments.scene.given())
   {
     refuseExisting({arguments.output}, arguments.overwrite);
+    refuseInputsAsOutputs(withScene(arguments.configuration, arguments.scene).files, {arguments.output});
     SimulatedRig simulated = simulatedRig(configuration, arguments.scene.seed, arguments.lidars);
     const bool has_rig = hasRigSection(configuration);
     return {has_rig ? configuration.read<DriverOptions>(rigSection(configuration)) : DriverOptions{},
@@ -118,7 +166,9 @@ Source openSource(const RecordArguments& arguments, const Configuration& configu
   std::vector<std::filesystem::path> outputs{arguments.output};
   if (live && !settings.rig.pcap_output.empty()) outputs.emplace_back(settings.rig.pcap_output);
   refuseExisting(outputs, arguments.overwrite);
-  return {settings.driver, makeRig(settings, arguments.lidars), nullptr, live ? settings.rig.pcap_output : ""};
+  Rig rig = makeRig(settings, arguments.lidars);
+  refuseInputsAsOutputs(filesReadFor(rig, settings, arguments), outputs);
+  return {settings.driver, std::move(rig), nullptr, live ? settings.rig.pcap_output : ""};
 }
 
 RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& driver, bool live)
@@ -159,25 +209,37 @@ int record(const RecordArguments& arguments)
   }
 
   catchInterruption();
-  if (!source.capture.empty()) std::filesystem::remove(source.capture);  // -w was given
+  ReplacedCapture replaced(source.capture);
   const std::unique_ptr<SensorInput> input =
       source.scene ? makeSceneInput(source.scene, source.rig) : openRig(source.rig);
   RawlogWriter writer(arguments.output, input->setup().header, options);
+  if (const auto& earlier = writer.earlierPart(); !earlier.empty())
+    warn(fmt::format("an earlier recording did not end: what it left is now {}", earlier.string()));
   const Recorded recorded = record(*input, source, arguments, writer);
-  for (const std::string& warning : input->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
-  report(arguments, recorded, input->account());
+  // Who interrupts lidars has recorded all that there was; without a scan it is not worth an earlier recording.
+  const bool partial = (interrupted() && !live) || recorded.scans == 0;
+  const auto rawlog = writer.close(partial ? Completeness::Partial : Completeness::Whole);
+  if (!partial) replaced.remove();
+  for (const std::string& warning : input->takeWarnings()) warn(warning);
+  const RigAccount account = input->account();
+  report(arguments, recorded, account, rawlog);
+  const std::vector<std::string> silent = silentLidars(account);
+  for (const std::string& line : silent) warn(line);
   if (interrupted()) return kInterrupted;
   if (live && recorded.scans == 0)
     throw std::runtime_error(
         "no scan was recorded: check that the lidars send to this computer (udp_dest), that they use the configured "
         "ports, and that no firewall is in between ('scanloom doctor' tells more)");
-  return kDone;
+  const auto damaged = account.input.find(kDamagedInputs);
+  const bool whole = damaged == account.input.end() || damaged->second == 0;
+  return whole && silent.empty() ? kDone : kQualityGate;
 }
 
 Verb recordVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<RecordSettings>());
-  return {"record", "a rawlog of merged scans, from live lidars, captures or a simulated drive", schema, &addRecordOptions};
+  return {"record", "a rawlog of merged scans, from live lidars, captures or a simulated drive", schema,
+          &addRecordOptions};
 }
 }  // namespace scanloom

@@ -119,9 +119,10 @@ int run(const RegisterArguments& arguments)
   report.target_milliseconds = clouds.targetMilliseconds();
   report.source_milliseconds = clouds.sourceMilliseconds();
   report.registration = clouds.registered(guessOf(guess, arguments));
+  if (!arguments.guess_sigma) report.contradiction = clouds.contradiction(report.registration.result, guess);
   if (truth) report.error = poseError(report.registration.result.target_T_source, *truth);
   std::cout << (arguments.json ? toJson(report) : toText(report)) << '\n';
-  return report.registration.result.trustworthy() ? kDone : kQualityGate;
+  return report.trustworthy() ? kDone : kQualityGate;
 }
 
 void addTrials(CLI::App& app, RegisterArguments& arguments, const Option& truth, const Option& guess)
@@ -182,6 +183,7 @@ std::function<int()> addRegisterOptions(CLI::App& app)
 
 Verb registerVerb()
 {
-  return {"register", "pose of one point cloud in another, by registration", schemaOf<RegisterSettings>(), &addRegisterOptions};
+  return {"register", "pose of one point cloud in another, by registration", schemaOf<RegisterSettings>(),
+          &addRegisterOptions};
 }
 }  // namespace scanloom

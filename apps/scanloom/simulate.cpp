@@ -6,6 +6,7 @@
 #include "core/ConfigError.h"
 #include "core/Interruption.h"
 #include "core/Progress.h"
+#include "core/ResultFolder.h"
 #include "simulation/RecordingFolder.h"
 #include "simulation/ScenePictures.h"
 #include "simulation/SceneSensors.h"
@@ -44,13 +45,14 @@ struct Interrupted : std::exception
 
 constexpr const char* kConfigurationCopy = "configuration.ini";
 
-int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const std::filesystem::path& folder)
+int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const std::filesystem::path& out,
+          const std::vector<std::string>& names)
 {
-  std::filesystem::create_directories(folder);
+  ResultFolder folder(out);
   Progress progress("simulate", static_cast<std::uint64_t>(std::ceil(scene.span.duration)), "s");
   try
   {
-    writeRecording(scene, folder,
+    writeRecording(scene, folder.running(),
                    [&](double share)
                    {
                      progress.update(static_cast<std::uint64_t>(std::llround(share * scene.span.duration)));
@@ -61,8 +63,8 @@ int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const st
   {
     return kInterrupted;
   }
-  writeAtomically(folder / kConfigurationCopy, [&](std::ostream& file) { file << toIni(loaded); });
-  std::cout << folder.string() << '\n';
+  writeAtomically(folder.running() / kConfigurationCopy, [&](std::ostream& file) { file << toIni(loaded); });
+  std::cout << folder.commit(names, Completeness::Whole).string() << '\n';
   return kDone;
 }
 
@@ -117,6 +119,8 @@ int run(SimulateArguments arguments)
     throw UsageError(
         "give exactly one of --out-dir (write a recording), --udp (send packets in real time) and --pictures");
   if (!arguments.output.folder.empty()) refuseExisting(arguments.output, names);
+  for (const SimulatedLidarOptions& lidar : loaded.settings.lidars)
+    for (const std::string& name : names) refuseInputsAsOutputs({lidar.metadata}, {arguments.output.folder / name});
   const Scene scene = checkedScene(loaded.settings, arguments.seed);
   if (arguments.configuration.dry_run)
   {
@@ -127,7 +131,7 @@ int run(SimulateArguments arguments)
   if (!arguments.pictures.empty()) return draw(scene, arguments.pictures);
   if (arguments.truth) return writeTruthOnly(scene, arguments.output.folder);
   catchInterruption();
-  return arguments.udp ? play(scene, arguments.delay) : write(scene, loaded, arguments.output.folder);
+  return arguments.udp ? play(scene, arguments.delay) : write(scene, loaded, arguments.output.folder, names);
 }
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include "Version.h"
 #include "core/AtomicFile.h"
 #include "core/Interruption.h"
+#include "core/ResultFolder.h"
 #include "mrpt_bridge/ImuDriverInput.h"
 #include "mrpt_bridge/RawlogInput.h"
 #include "mrpt_bridge/configuredImu.h"
@@ -144,13 +145,78 @@ void report(const SlamRunResult& result, const std::filesystem::path& folder)
   fmt::print("{}\n", (folder / "trajectory.tum").string());
 }
 
+SlamRunResult runShowingProgress(const Input& input, const SlamVerbSettings& settings, SlamFiles& files, double longest)
+{
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  InputDisplay display = displayOf(input);
+  return runSlam(
+      *input.sensors, settings, files,
+      [&](const RunProgress& progress)
+      {
+        display.update(progress.share, progress.scans, {progress.recorded, progress.busy});
+        const bool over = longest > 0 && Clock::now() - start >= fromSeconds(longest);
+        if (input.live && (over || interrupted())) input.sensors->stop();
+        return input.live || !interrupted();
+      },
+      [](const std::string& warning) { fmt::print(stderr, "warning: {}\n", warning); });
+}
+
+/** Who interrupts lidars has all that there was; recordings and simulated drives go on behind. */
+Completeness completenessOf(const SlamRunResult& result, const Input& input)
+{
+  const bool stopped = interrupted() && !input.live;
+  return stopped || !result.summary.error.empty() ? Completeness::Partial : Completeness::Whole;
+}
+
+int statusOf(const SlamRunResult& result)
+{
+  if (!result.summary.error.empty()) return kFailed;
+  if (interrupted()) return kInterrupted;
+  const auto damaged = result.summary.counts.find(kDamagedInputs);
+  const bool read_whole = damaged == result.summary.counts.end() || damaged->second == 0;
+  return result.passed && read_whole ? kDone : kQualityGate;
+}
+
+int process(const Input& input, const SlamArguments& arguments, const Loaded<SlamVerbSettings>& loaded,
+            const std::vector<std::string>& names)
+{
+  const SlamVerbSettings& settings = loaded.settings;
+  ResultFolder folder(arguments.output.folder);
+  writeAtomically(folder.running() / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
+  SlamFiles files(folder.running(), input.sensors->setup().header.lidars,
+                  settings.output.maps ? std::optional(settings.octomap) : std::nullopt);
+  SlamRunResult result = runShowingProgress(input, settings, files, arguments.seconds);
+  result.summary.command = commandOf(arguments);
+  if (input.live) result.summary.waited = 1e-3 * result.summary.stages.at("input").total_ms;
+  result.summary.versions = {{"scanloom", programVersion()}};
+  try
+  {
+    result.summary = files.close(result.summary);
+  }
+  catch (const std::exception&)
+  {
+    fmt::print(stderr, "what could be written is in {}\n", folder.commit(names, Completeness::Partial).string());
+    throw;
+  }
+  const std::filesystem::path kept = folder.commit(names, completenessOf(result, input));
+
+  report(result, kept);
+  warnOfDroppedScans(result.summary);
+  for (const std::string& warning : input.sensors->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
+  if (!result.summary.error.empty()) fmt::print(stderr, "scanloom slam: {}\n", result.summary.error);
+  if (kept != arguments.output.folder)
+    fmt::print(stderr, "the results are not whole: they are in {} and replace none of an earlier run\n", kept.string());
+  return statusOf(result);
+}
+
 int run(SlamArguments arguments)
 {
   if (arguments.every_nth > 0)
     arguments.configuration.assignments.push_back(fmt::format("slam.every_nth={}", arguments.every_nth));
   const Loaded<SlamVerbSettings> loaded = load<SlamVerbSettings>(withScene(arguments.configuration, arguments.scene));
-  std::vector<std::string> names = SlamFiles::names();
-  names.emplace_back(kConfigurationName);
+  std::vector<std::string> names{kConfigurationName};
+  for (std::string& name : SlamFiles::names()) names.push_back(std::move(name));
   refuseExisting(arguments.output, names);
   const Input input = openInput(arguments, loaded.configuration);
   if (!input.live) refuseSeconds(arguments.seconds);
@@ -159,38 +225,8 @@ int run(SlamArguments arguments)
     std::cout << toIni(loaded);
     return kDone;
   }
-
   catchInterruption();
-  const SlamVerbSettings& settings = loaded.settings;
-  SlamFiles files(arguments.output.folder, input.sensors->setup().header.lidars,
-                  settings.output.maps ? std::optional(settings.octomap) : std::nullopt);
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  writeAtomically(arguments.output.folder / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
-  SlamRunResult result;
-  {
-    InputDisplay display = displayOf(input);
-    result = runSlam(
-        *input.sensors, settings, files,
-        [&](const RunProgress& progress)
-        {
-          display.update(progress.share, progress.scans, {progress.recorded, progress.busy});
-          const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
-          if (input.live && (over || interrupted())) input.sensors->stop();
-          return input.live || !interrupted();
-        },
-        [](const std::string& warning) { fmt::print(stderr, "warning: {}\n", warning); });
-  }
-  result.summary.command = commandOf(arguments);
-  if (input.live) result.summary.waited = 1e-3 * result.summary.stages.at("input").total_ms;
-  result.summary.versions = {{"scanloom", programVersion()}};
-  files.close(result.summary);
-
-  report(result, arguments.output.folder);
-  warnOfDroppedScans(result.summary);
-  for (const std::string& warning : input.sensors->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
-  if (interrupted()) return kInterrupted;
-  return result.passed ? kDone : kQualityGate;
+  return process(input, arguments, loaded, names);
 }
 
 std::function<int()> addSlamOptions(CLI::App& app)

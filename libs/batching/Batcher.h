@@ -38,6 +38,12 @@ class Batcher
   /** What is added to this lidar's stamps at present, also to those of its IMU. */
   virtual Duration timeOffset(LidarIndex) const = 0;
 
+  /**
+   * How far ahead a stamp of this lidar's own clock, say of its IMU, is of what the clock showed when it was received.
+   * None while the lidar was not heard, or where host time is not used.
+   */
+  virtual std::optional<Duration> ahead(LidarIndex, Timestamp stamp, Timestamp received) const = 0;
+
   /** What a person should know, since the last call. */
   virtual std::vector<Notice> takeNotices() = 0;
 

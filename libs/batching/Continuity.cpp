@@ -13,14 +13,28 @@ constexpr double kStepTolerance = 0.002;  // s
 // By how much rotors and clocks may deviate from the measured rate during a gap.
 constexpr double kRateTolerance = 0.01;
 
-// Where stamps are checked against host time (no ids, or long silence): how late a packet may come, and how much faster
-// or slower than real time a capture may have been replayed.
-constexpr Duration kArrivalTolerance = 500ms;
+// How much faster or slower than real time a capture may have been replayed.
 constexpr double kSilenceTolerance = 0.1;
+
+// By how much a packet may come sooner after the one before than was measured between them, in s and packets: that one
+// may have been on its way for longer.
+constexpr double kSoonerTolerance = 0.005;
+constexpr double kPacketsSooner = 2;
+
+// A stream goes on as long as its next packet is not later than this, in packets.
+constexpr double kOverdue = 1.5;
+
+// A clock that counts from its start is half a century off the host's.
+constexpr Duration kFarthest{std::chrono::hours{24 * 365 * 90}};
 
 constexpr int kTurnsToReorder = 4;
 constexpr std::int64_t kPacketsOfNumberedTurn = 64;
 }  // namespace
+
+bool isPlausible(Timestamp stamp, Timestamp received)
+{
+  return stamp >= Timestamp{} && std::chrono::abs(stamp - received) <= kFarthest;
+}
 
 LidarDescription numberedTurn(LidarDescription lidar)
 {
@@ -57,10 +71,24 @@ Continuity::Judgement Continuity::judge(const PacketPlace& place, Timestamp rece
   }
   if (!place.stamp) return {};  // a packet without a valid block confirms nothing
   if (candidate_)
-    if (const auto block = continued(*candidate_, place, received); block && *block != candidate_->block)
+    if (const auto block = continued(*candidate_, place, received);
+        block && *block != candidate_->block && isOverdue(received))
       return breakConfirmedBy(place, *block, received);
   candidate_ = seen(place, numbering_ == Numbering::Ids ? nearestBlock(place, latest_->block) : 0, received);
   return {};
+}
+
+std::optional<Duration> Continuity::ahead(Timestamp stamp, Timestamp received) const
+{
+  if (!latest_ || !latest_->stamp) return std::nullopt;
+  return (stamp - *latest_->stamp) - (received - latest_->received);
+}
+
+/** Whether the stream's next packet should have come by now: one that still goes on was not broken by two strangers. */
+bool Continuity::isOverdue(Timestamp received) const
+{
+  return received - latest_->received >=
+         fromSeconds(kOverdue * nominal_period_ * static_cast<double>(blocks_per_packet_));
 }
 
 /** The number of the packet's last block if the packet belongs to the same stream as `known`. */
@@ -79,10 +107,15 @@ std::optional<std::int64_t> Continuity::byIds(const Seen& known, const PacketPla
   const double elapsed = seconds(*place.stamp - *known.stamp);
   const auto agrees = [&](std::int64_t block)
   { return std::abs(elapsed - secondsOf(block - known.block)) <= kStepTolerance + kRateTolerance * std::abs(elapsed); };
-  if (std::abs(near - known.block) <= kTurnsToReorder * blocks_per_turn_ && agrees(near)) return near;
+  const double waited = seconds(received - known.received);
+  if (std::abs(near - known.block) <= kTurnsToReorder * blocks_per_turn_ && agrees(near))
+    // Nobody can have measured what is still to come: a stranger's copy would move this lidar's clock ahead.
+    return elapsed - waited <= kSoonerTolerance + kPacketsSooner * secondsOf(blocks_per_packet_) +
+                                   kSilenceTolerance * std::abs(elapsed)
+               ? std::optional(near)
+               : std::nullopt;
 
   // After long silence host time must agree, too; frame ids may have wrapped more than once.
-  const double waited = seconds(received - known.received);
   if (std::abs(waited - elapsed) > seconds(kArrivalTolerance) + kSilenceTolerance * std::abs(waited))
     return std::nullopt;
   const std::int64_t far = nearestBlock(place, known.block + std::llround(elapsed / block_period_));
@@ -126,6 +159,8 @@ Continuity::Judgement Continuity::breakConfirmedBy(const PacketPlace& place, std
           std::max<std::int64_t>(1, std::llround(seconds(waited) / secondsOf(blocks_per_packet_))) * blocks_per_packet_;
     }
     judgement.step = (*place.stamp - *latest_->stamp) - fromSeconds(secondsOf(judgement.block - latest_->block));
+    // The doubtful packet only came sooner than expected: packets before it are lost.
+    if (std::abs(seconds(judgement.step)) <= kStepTolerance) judgement.verdict = Verdict::Continues;
   }
   latest_ = seen(place, judgement.block, received);
   candidate_.reset();

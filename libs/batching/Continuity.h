@@ -19,7 +19,8 @@ struct PacketPlace
 /**
  * Decides whether a packet continues its lidar's stream. Ids and stamps advance together: a turn later by the ids is a
  * turn's time later by the clock, even after a minute of silence. A packet that contradicts this is doubtful: it may be
- * damaged, or the first one after a restart or a step of the lidar's clock. The next packet tells which.
+ * damaged, another sender's, or the first one after a restart or a step of the lidar's clock. The next packet tells
+ * which, and a stream that still goes on is not left.
  */
 class Continuity
 {
@@ -43,6 +44,13 @@ class Continuity
 
   Judgement judge(const PacketPlace&, Timestamp received);
 
+  /**
+   * How far ahead this stamp of the lidar's clock is of what the clock showed when it was received, judged by the
+   * newest packet of the stream; none before the first one. What is off by more than kArrivalTolerance is not of this
+   * clock.
+   */
+  std::optional<Duration> ahead(Timestamp stamp, Timestamp received) const;
+
   /** As measured; nominal at first. */
   Duration blockPeriod() const { return fromSeconds(block_period_); }
 
@@ -59,6 +67,7 @@ class Continuity
   std::optional<std::int64_t> byIds(const Seen&, const PacketPlace&, Timestamp received) const;
   std::optional<std::int64_t> byStamp(const Seen&, const PacketPlace&, Timestamp received) const;
   std::int64_t nearestBlock(const PacketPlace&, std::int64_t to) const;
+  bool isOverdue(Timestamp received) const;
   Judgement breakConfirmedBy(const PacketPlace&, std::int64_t candidate_block, Timestamp received);
   void follow(const PacketPlace&, std::int64_t block, Timestamp received);
   Seen seen(const PacketPlace&, std::int64_t block, Timestamp received) const;
@@ -70,6 +79,12 @@ class Continuity
   std::optional<Seen> latest_;            // the newest packet that continues the stream
   std::optional<Seen> candidate_;         // the latest doubtful packet
 };
+
+/** Where stamps are checked against host time (no ids, or long silence, or an IMU): how late a packet may come. */
+constexpr Duration kArrivalTolerance = 500ms;
+
+/** Whether a stamp can be compared with host time at all. Sums of a few such differences fit 64 bits. */
+bool isPlausible(Timestamp stamp, Timestamp received);
 
 /** The same lidar; one without ids gets turns of a fixed number of packets, so that its packets can be numbered. */
 LidarDescription numberedTurn(LidarDescription);

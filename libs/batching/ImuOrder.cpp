@@ -16,9 +16,24 @@ bool before(const SensorImu& a, const SensorImu& b)
 void ImuOrder::add(const SensorImu& imu)
 {
   if (imu.sample.stamp < released_until_)
+  {
     ++late_;
-  else
-    waiting_.insert(std::upper_bound(waiting_.begin(), waiting_.end(), imu, before), imu);
+    return;
+  }
+  waiting_.insert(std::upper_bound(waiting_.begin(), waiting_.end(), imu, before), imu);
+  if (waiting_.size() <= kMostWaiting) return;
+  waiting_.pop_front();
+  ++dropped_;
+}
+
+std::uint64_t ImuOrder::dropAfter(int sensor, Timestamp latest)
+{
+  const auto end =
+      std::remove_if(waiting_.begin(), waiting_.end(),
+                     [&](const SensorImu& imu) { return imu.sensor == sensor && imu.sample.stamp > latest; });
+  const auto dropped = static_cast<std::uint64_t>(waiting_.end() - end);
+  waiting_.erase(end, waiting_.end());
+  return dropped;
 }
 
 std::vector<SensorImu> ImuOrder::release(Timestamp horizon)

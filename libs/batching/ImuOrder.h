@@ -22,7 +22,12 @@ struct SensorImu
 class ImuOrder
 {
  public:
+  static constexpr std::size_t kMostWaiting = 100'000;  // until the first scan; then the oldest is dropped
+
   void add(const SensorImu&);
+
+  /** Drops what this sensor has stamped later than `latest`; returns how many samples that were. */
+  std::uint64_t dropAfter(int sensor, Timestamp latest);
 
   /** Samples of the body's IMU in time order, however far ahead of the packets. */
   void addBody(const std::vector<ImuSample>& samples) { body_.insert(body_.end(), samples.begin(), samples.end()); }
@@ -31,11 +36,12 @@ class ImuOrder
   std::vector<SensorImu> release(Timestamp horizon);
 
   std::uint64_t late() const { return late_; }
+  std::uint64_t dropped() const { return dropped_; }
 
  private:
   std::deque<ImuSample> body_;
-  std::vector<SensorImu> waiting_;
+  std::deque<SensorImu> waiting_;
   Timestamp released_until_ = Timestamp::min();
-  std::uint64_t late_ = 0;
+  std::uint64_t late_ = 0, dropped_ = 0;
 };
 }  // namespace scanloom

@@ -36,26 +36,27 @@ LidarClocks::LidarClocks(const std::vector<BatchedLidar>& lidars, const BatcherO
   }
 }
 
-std::vector<std::optional<Duration>> LidarClocks::configuredDelays() const
+std::vector<std::optional<Duration>> LidarClocks::configuredDelays(const std::vector<bool>& believed) const
 {
   std::vector<std::optional<Duration>> delays;
-  for (const LidarClock& clock : clocks_) delays.push_back(clock.configuredDelay());
+  for (LidarIndex i = 0; i < clocks_.size(); ++i)
+    delays.push_back(believed[i] ? clocks_[i].configuredDelay() : std::nullopt);
   return delays;
 }
 
-std::vector<std::optional<Duration>> LidarClocks::skewsAtStart() const
+std::vector<std::optional<Duration>> LidarClocks::skewsAtStart(const std::vector<bool>& believed) const
 {
-  std::vector<std::optional<Duration>> skews = clockSkews(configuredDelays(), max_skew_);
+  std::vector<std::optional<Duration>> skews = clockSkews(configuredDelays(believed), max_skew_);
   if (other_clock_ == OtherClock::Quarantine)
     for (auto& skew : skews)
       if (skew && *skew != Duration{0}) skew.reset();
   return skews;
 }
 
-std::vector<LidarClocks::Change> LidarClocks::settleAtStart(Timestamp now)
+std::vector<LidarClocks::Change> LidarClocks::settleAtStart(const std::vector<bool>& believed, Timestamp now)
 {
   std::vector<Change> changes;
-  const auto skews = clockSkews(configuredDelays(), max_skew_);
+  const auto skews = clockSkews(configuredDelays(believed), max_skew_);
   for (LidarIndex i = 0; i < clocks_.size(); ++i)
   {
     if (!skews[i]) continue;

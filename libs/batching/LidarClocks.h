@@ -24,9 +24,9 @@ class LidarClocks
 
   /**
    * How far each lidar heard so far is behind the common clock, as clockSkews says; none for those not heard, and for
-   * those whose clock will be quarantined.
+   * those whose clock will be quarantined or that are not `believed`.
    */
-  std::vector<std::optional<Duration>> skewsAtStart() const;
+  std::vector<std::optional<Duration>> skewsAtStart(const std::vector<bool>& believed) const;
 
   struct Change
   {
@@ -36,10 +36,10 @@ class LidarClocks
   };
 
   /**
-   * Decides for each lidar heard so far; returns those that are not on the common clock. Throws std::runtime_error for
-   * the first of them with other_clock = refuse.
+   * Decides for each lidar that is heard and believed; returns those that are not on the common clock. Throws
+   * std::runtime_error for the first of them with other_clock = refuse.
    */
-  std::vector<Change> settleAtStart(Timestamp now);
+  std::vector<Change> settleAtStart(const std::vector<bool>& believed, Timestamp now);
 
   /**
    * Decides for a lidar that was first heard after the start, that has restarted, or whose clock has stepped by `step`
@@ -57,7 +57,7 @@ class LidarClocks
   std::optional<Duration> leastDelay() const;
 
  private:
-  std::vector<std::optional<Duration>> configuredDelays() const;
+  std::vector<std::optional<Duration>> configuredDelays(const std::vector<bool>& believed) const;
   std::optional<LidarIndex> reference(LidarIndex other_than, Timestamp now) const;
   std::optional<Duration> commonDelay(LidarIndex, Timestamp now) const;
 

@@ -1,23 +1,14 @@
 #include "batching/LidarStream.h"
 
+#include "batching/PacketConsensus.h"
 #include "core/unwrapped.h"
 
 #include <algorithm>
-
-#include "batching/PacketConsensus.h"
 
 namespace scanloom
 {
 namespace
 {
-// A clock that counts from its start is half a century off the host's. Sums of a few such differences fit 64 bits.
-constexpr Duration kFarthest{std::chrono::hours{24 * 365 * 90}};
-
-bool isPlausible(Timestamp stamp, Timestamp received)
-{
-  return stamp >= Timestamp{} && std::chrono::abs(stamp - received) <= kFarthest;
-}
-
 std::uint32_t flagsOf(const PacketHeader& header)
 {
   return header.alert_flags | std::uint32_t{header.thermal_status} << 8 |

@@ -27,6 +27,12 @@ class LidarStream
   /** A lidar packet; none if it contradicts the packets before it. */
   std::optional<SequencedPacket> read(RoutedPacket, LidarCounters&);
 
+  /** As Continuity::ahead. */
+  std::optional<Duration> ahead(Timestamp stamp, Timestamp received) const
+  {
+    return continuity_.ahead(stamp, received);
+  }
+
   /** Gaps that showed a deadline before `now`, or every gap, are given up: their blocks are counted as lost. */
   void giveUpGaps(Timestamp now, LidarCounters&);
   void giveUpAllGaps(LidarCounters&);

@@ -18,6 +18,7 @@ struct RoutedPacket
   PacketKind kind = PacketKind::Other;
   Timestamp received;  // host time, or the record time of a capture
   Bytes bytes;
+  bool of_new_sender = false;            // not from where the lidar's packets came before
   PacketHeader header;                   // of a lidar packet
   std::vector<MeasurementBlock> blocks;  // of a lidar packet: all of them, in the packet's order
 };

@@ -1,9 +1,9 @@
 #include "batching/Sequencer.h"
 
+#include "batching/Continuity.h"
+
 #include <algorithm>
 #include <limits>
-
-#include "batching/Continuity.h"
 
 namespace scanloom
 {

@@ -1,12 +1,12 @@
 #include "batching/TimeBatcher.h"
 
+#include "batching/FirstScan.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
-
-#include "batching/FirstScan.h"
 
 namespace scanloom
 {
@@ -29,7 +29,8 @@ TimeBatcher::TimeBatcher(const std::vector<BatchedLidar>& lidars, const BatcherO
     throw std::invalid_argument(fmt::format("{} lidars: 1 to {} can be batched", lidars_.size(), kMostLidars));
   for (LidarIndex i = 0; i < lidars_.size(); ++i)
   {
-    inputs_.push_back({std::nullopt, PacketQueue(static_cast<std::size_t>(options_.queue_packets)), {}, deadline()});
+    inputs_.push_back(
+        {std::nullopt, std::nullopt, PacketQueue(static_cast<std::size_t>(options_.queue_packets)), {}, deadline()});
     if (lidars_[i].decoder) follow(i);
   }
 }
@@ -82,6 +83,7 @@ void TimeBatcher::enqueue(RoutedPacket packet)
   const LidarIndex lidar = packet.lidar;
   Input& input = inputs_[lidar];
   if (!countUnlessLidar(input.stream ? packet.kind : PacketKind::Other, input.counters)) return;
+  if (packet.of_new_sender) beginAnew(lidar);
   const Bytes bytes = packet.bytes;
   const Timestamp received = packet.received;
   std::optional<SequencedPacket> read = input.stream->read(std::move(packet), input.counters);
@@ -90,6 +92,7 @@ void TimeBatcher::enqueue(RoutedPacket packet)
   if (read->blocks.empty()) return;
 
   LidarClock& clock = clocks_[lidar];
+  if (!scan_ && !input.hearing->note(read->blocks.back().stamp, received)) clock.restarted();
   clock.observe(read->blocks.back().stamp, received);
   notices_.noteArrival(lidar, received);
   if (scan_) settleClock(lidar, *read);
@@ -110,6 +113,7 @@ void TimeBatcher::noteBreak(LidarIndex lidar, const SequencedPacket& read)
 {
   Input& input = inputs_[lidar];
   notices_.noteFlags(lidar, read.flags, now_);
+  if (read.restarted || read.clock_step) input.hearing->restart();
   if (read.restarted)
   {
     clocks_[lidar].restarted();
@@ -137,6 +141,18 @@ void TimeBatcher::settleClock(LidarIndex lidar, const SequencedPacket& read)
 void TimeBatcher::replace(LidarIndex lidar, std::shared_ptr<const PacketDecoder> decoder)
 {
   lidars_[lidar].decoder = std::move(decoder);
+  beginAnew(lidar);
+}
+
+std::optional<Duration> TimeBatcher::ahead(LidarIndex lidar, Timestamp stamp, Timestamp received) const
+{
+  const auto& stream = inputs_[lidar].stream;
+  return stream ? stream->ahead(stamp, received) : std::nullopt;
+}
+
+/** Nothing that was heard of the lidar before is continued. */
+void TimeBatcher::beginAnew(LidarIndex lidar)
+{
   follow(lidar);
   clocks_[lidar].restarted();
   if (scan_) return;
@@ -152,6 +168,7 @@ void TimeBatcher::follow(LidarIndex lidar)
   const LidarDescription& description = lidars_[lidar].decoder->description();
   if (input.stream) input.stream->giveUpAllGaps(input.counters);
   input.stream.emplace(description, deadline());
+  input.hearing.emplace(description, period_);
   // The oldest block of a packet under way is one packet's duration older than its newest.
   input.patience = deadline() + description.blockPeriod() * description.columns_per_packet;
 }
@@ -162,9 +179,32 @@ void TimeBatcher::refreshFront(LidarIndex lidar)
   fronts_[lidar] = queue.empty() ? Timestamp::max() : queue.front().stamp;
 }
 
+/**
+ * Whose stamps tell what time it is; none while that can't be said of a lidar that is heard. What is silent again was
+ * another sender or a damaged packet, and is forgotten; what stays thin is not waited for.
+ */
+std::optional<std::vector<bool>> TimeBatcher::believedLidars()
+{
+  std::vector<bool> believed(inputs_.size(), true);
+  for (LidarIndex i = 0; i < inputs_.size() && !finished_; ++i)
+  {
+    const Input& input = inputs_[i];
+    if (!input.stream || !input.stream->firstStamp() || input.hearing->lasts()) continue;
+    if (input.hearing->isOver(now_))
+      beginAnew(i);
+    else if (input.hearing->isYoung(now_))
+      return std::nullopt;
+    else
+      believed[i] = false;
+  }
+  return believed;
+}
+
 void TimeBatcher::startScans()
 {
-  const auto skews = clocks_.skewsAtStart();
+  const std::optional<std::vector<bool>> believed = believedLidars();
+  if (!believed) return;
+  const auto skews = clocks_.skewsAtStart(*believed);
   std::vector<LidarBeforeStart> lidars;
   for (LidarIndex i = 0; i < inputs_.size(); ++i)
   {
@@ -177,14 +217,16 @@ void TimeBatcher::startScans()
   const auto latest = latestFirstStamp(lidars, period_, finished_ ? std::nullopt : std::optional(now_));
   if (!latest) return;
 
-  settleClocksAtStart();
+  settleClocksAtStart(*believed);
   const Duration phase = fromSeconds(1e-3 * options_.scan_phase_ms);
   scan_.emplace(startAfter(*latest, period_, phase), period_, options_.slices, inputs_.size());
 }
 
-void TimeBatcher::settleClocksAtStart()
+void TimeBatcher::settleClocksAtStart(const std::vector<bool>& believed)
 {
-  for (const LidarClocks::Change& change : clocks_.settleAtStart(now_))
+  for (LidarIndex i = 0; i < inputs_.size(); ++i)
+    if (!believed[i]) beginAnew(i);
+  for (const LidarClocks::Change& change : clocks_.settleAtStart(believed, now_))
   {
     const LidarIndex lidar = change.lidar;
     Input& input = inputs_[lidar];

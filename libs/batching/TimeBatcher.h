@@ -4,6 +4,7 @@
  */
 #pragma once
 #include "batching/Batcher.h"
+#include "batching/Hearing.h"
 #include "batching/LidarClocks.h"
 #include "batching/LidarNotices.h"
 #include "batching/LidarStream.h"
@@ -45,6 +46,7 @@ class TimeBatcher : public Batcher
   std::optional<Timestamp> horizon() const override { return scan_ ? std::optional(horizon_) : std::nullopt; }
 
   Duration timeOffset(LidarIndex lidar) const override { return clocks_[lidar].offset(); }
+  std::optional<Duration> ahead(LidarIndex, Timestamp stamp, Timestamp received) const override;
   std::vector<Notice> takeNotices() override { return notices_.take(); }
   const LidarCounters& counters(LidarIndex lidar) const override { return inputs_[lidar].counters; }
   const std::vector<BatchedLidar>& lidars() const override { return lidars_; }
@@ -54,6 +56,7 @@ class TimeBatcher : public Batcher
   struct Input
   {
     std::optional<LidarStream> stream;  // none while the lidar is not known
+    std::optional<Hearing> hearing;     // as stream
     PacketQueue queue;
     LidarCounters counters;
     Duration patience;                           // how much later than the quickest packets a block may come
@@ -62,6 +65,7 @@ class TimeBatcher : public Batcher
 
   Duration deadline() const { return fromSeconds(1e-3 * options_.deadline_ms); }
   void follow(LidarIndex);
+  void beginAnew(LidarIndex);
   void enqueue(RoutedPacket);
   void noteBreak(LidarIndex, const SequencedPacket&);
   void settleClock(LidarIndex, const SequencedPacket&);
@@ -69,7 +73,8 @@ class TimeBatcher : public Batcher
 
   std::vector<Scan> merge();
   void startScans();
-  void settleClocksAtStart();
+  std::optional<std::vector<bool>> believedLidars();
+  void settleClocksAtStart(const std::vector<bool>& believed);
   void raiseHorizon();
   Timestamp watermark(LidarIndex) const;
   Timestamp sequenceMark(LidarIndex) const;

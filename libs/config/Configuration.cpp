@@ -141,6 +141,15 @@ ConfigError Configuration::complaint(const std::string& section, const std::stri
   return ConfigError(complaintAbout(*entry, Field{key, "", ""}, constraint));
 }
 
+std::string Configuration::misordered(const std::string& section, const std::string& low_key, double low,
+                                      const std::string& high_key, double high) const
+{
+  const std::string is = find(section, low_key)    ? toString(place(section, low_key))
+                         : find(section, high_key) ? toString(place(section, high_key))
+                                                   : "default";
+  return fmt::format("{}: [{}] {} = {}: must be <= {} = {}", is, section, low_key, low, high_key, high);
+}
+
 std::vector<std::string> Configuration::unknownKeys(const std::string& section, const SectionDescription& known) const
 {
   std::vector<std::string> problems;

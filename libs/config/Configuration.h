@@ -100,6 +100,10 @@ class Configuration
   const IniEntry* find(std::string_view section, std::string_view key) const;
   const IniEntry& at(const std::string& section, const std::string& key) const;
 
+  /** `harvester.ini:12: [crop] min_x = 20: must be <= max_x = 10`; the place is that of the key that is set. */
+  std::string misordered(const std::string& section, const std::string& low_key, double low,
+                         const std::string& high_key, double high) const;
+
   std::map<std::string, Keys, CaseInsensitiveLess> sections_;
 };
 
@@ -128,6 +132,13 @@ Options Configuration::read(const std::string& section, Options options, const s
                     if (const auto constraint = assign(member, entry->value, field))
                       problems.push_back(complaintAbout(*entry, field, *constraint));
                   });
+  if constexpr (HasOrder<Options>::value)
+    Options::order(options,
+                   [&](const char* low_key, double low, const char* high_key, double high)
+                   {
+                     if (low > high)
+                       problems.push_back(misordered(section, prefix + low_key, low, prefix + high_key, high));
+                   });
   refuse(problems);
   return options;
 }

@@ -5,6 +5,8 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace scanloom
@@ -54,6 +56,26 @@ struct SectionDescription
   std::vector<std::string> keysLike(const std::string& key) const;
 };
 using Schema = std::vector<SectionDescription>;
+
+/**
+ * An options struct may say which of its fields must not be above another one:
+ *
+ *   template <typename Self, typename Visitor>
+ *   static void order(const Self& o, Visitor&& visit)
+ *   {
+ *     visit("min_x", o.min_x, "max_x", o.max_x);
+ *   }
+ */
+template <typename Options, typename = void>
+struct HasOrder : std::false_type
+{
+};
+using OrderVisitor = void (*)(const char* low_key, double low, const char* high_key, double high);
+template <typename Options>
+struct HasOrder<Options, std::void_t<decltype(Options::order(std::declval<const Options&>(), OrderVisitor{}))>>
+  : std::true_type
+{
+};
 
 [[noreturn]] void refuseDefault(const Section&, const Field&, const std::string& constraint);
 

@@ -17,6 +17,11 @@ bool within(double value, const Bounds& bounds)
   return high_enough && value <= bounds.highest;
 }
 
+/** Beyond these a number has no meaning in any unit of ours: 1e9 s are 30 years, 1e-12 m is less than an atom. */
+constexpr double kSmallest = 1e-12, kLargest = 1e9;
+
+bool isOfThisWorld(double value) { return value == 0 || (std::abs(value) >= kSmallest && std::abs(value) <= kLargest); }
+
 std::string mustBe(const Bounds& bounds) { return "must be " + toString(bounds); }
 
 /** Often a value is wrong because of a trailing comment with `#` or `;`, which MRPT allows at the start of a line only.
@@ -75,6 +80,8 @@ std::optional<std::string> assign(double& member, std::string_view text, const F
   const auto number = parseNumber(text);
   if (!number) return mustBe("a number", text);
   if (!within(*number, field.bounds)) return mustBe(field.bounds);
+  if (!isOfThisWorld(*number))
+    return fmt::format("must be 0 or a number whose size is between {} and {}", kSmallest, kLargest);
   member = *number;
   return std::nullopt;
 }

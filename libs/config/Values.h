@@ -16,7 +16,8 @@ std::string toString(const Bounds&);
 
 /**
  * Sets the member if the text is a value of its type within the field's bounds. Otherwise the member keeps its value,
- * and the result says what the text must be ("must be > 0"). Booleans are true, false, yes, no, 1 or 0 without regard
+ * and the result says what the text must be ("must be > 0"). Numbers of no meaning, such as 1e300, are refused whatever
+ * the bounds. Booleans are true, false, yes, no, 1 or 0 without regard
  * to case, as in MRPT.
  */
 std::optional<std::string> assign(bool&, std::string_view text, const Field&);

@@ -2,7 +2,6 @@
 
 #include "core/ConfigError.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,39 +10,36 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace scanloom
 {
 namespace
 {
-std::filesystem::path temporaryNameOf(const std::filesystem::path& file)
+[[noreturn]] void fail(const std::filesystem::path& file, const std::string& reason)
 {
-  const auto name = fmt::format("{}.partial-{}{}", file.stem().string(), ::getpid(), file.extension().string());
-  return file.parent_path() / name;
+  throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), reason));
 }
 
-[[noreturn]] void fail(const std::filesystem::path& file, int error)
+/** A program before this one may have had its process id, and left a file. */
+std::filesystem::path createTemporary(const std::filesystem::path& file)
 {
-  throw std::runtime_error(fmt::format("{}: cannot be written: {}", file.string(), std::strerror(error)));
-}
-
-/** Without this, a power cut after the rename may leave an empty file under the final name. */
-void flushToDisk(const std::filesystem::path& file)
-{
-  const int descriptor = ::open(file.c_str(), O_RDONLY);
-  if (descriptor < 0) fail(file, errno);
-  const int error = ::fsync(descriptor) == 0 ? 0 : errno;
-  ::close(descriptor);
-  if (error != 0 && error != EINVAL && error != EROFS) fail(file, error);  // some file systems cannot sync
+  for (;;)
+  {
+    const std::filesystem::path temporary = freeNameBeside(file, fmt::format("partial-{}", ::getpid()));
+    const int descriptor = createNew(temporary);
+    if (descriptor < 0 && errno == EEXIST) continue;  // another thread was faster
+    if (descriptor < 0) fail(file, std::strerror(errno));
+    ::close(descriptor);
+    return temporary;
+  }
 }
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file)), temporary_(temporaryNameOf(file_))
+AtomicFile::AtomicFile(std::filesystem::path file) : file_(std::move(file))
 {
-  if (std::filesystem::is_directory(file_)) fail(file_, EISDIR);
-  const int descriptor = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail(file_, errno);
-  ::close(descriptor);
+  if (std::filesystem::is_directory(file_)) fail(file_, std::strerror(EISDIR));
+  temporary_ = createTemporary(file_);
 }
 
 AtomicFile::~AtomicFile()
@@ -52,11 +48,26 @@ AtomicFile::~AtomicFile()
   if (!committed_) std::filesystem::remove(temporary_, ignored);
 }
 
-void AtomicFile::commit()
+std::filesystem::path AtomicFile::commit(Completeness completeness)
 {
-  flushToDisk(temporary_);
-  if (std::rename(temporary_.c_str(), file_.c_str()) != 0) fail(file_, errno);
-  committed_ = true;
+  return completeness == Completeness::Partial && isTaken(file_) ? commitBeside() : commitAs(file_);
+}
+
+std::filesystem::path AtomicFile::commitBeside() { return commitAs(partialNameBeside(file_)); }
+
+std::filesystem::path AtomicFile::commitAs(const std::filesystem::path& name)
+{
+  try
+  {
+    flushToDisk(temporary_);
+    std::filesystem::rename(temporary_, name);
+    committed_ = true;
+    return name;
+  }
+  catch (const std::system_error& error)
+  {
+    fail(file_, error.code().message());
+  }
 }
 
 void writeAtomically(const std::filesystem::path& file, const std::function<void(std::ostream&)>& write)
@@ -66,7 +77,7 @@ void writeAtomically(const std::filesystem::path& file, const std::function<void
   std::ofstream stream(atomic.temporary(), std::ios::binary);
   write(stream);
   stream.close();
-  if (!stream) fail(file, errno != 0 ? errno : EIO);
+  if (!stream) fail(file, std::strerror(errno != 0 ? errno : EIO));
   atomic.commit();
 }
 
@@ -75,9 +86,22 @@ void refuseExisting(const std::vector<std::filesystem::path>& files, bool overwr
   if (overwrite) return;
   std::vector<std::string> existing;
   for (const auto& file : files)
-    if (std::filesystem::exists(file)) existing.push_back(file.string());
+    if (isTaken(file)) existing.push_back(file.string());
   if (existing.empty()) return;
   throw UsageError(fmt::format("{} {} already: give -w to overwrite", fmt::join(existing, ", "),
                                existing.size() == 1 ? "exists" : "exist"));
+}
+
+void refuseInputsAsOutputs(const std::vector<std::filesystem::path>& inputs,
+                           const std::vector<std::filesystem::path>& outputs)
+{
+  for (const auto& output : outputs)
+    for (const auto& input : inputs)
+    {
+      std::error_code missing;
+      if (std::filesystem::equivalent(input, output, missing))
+        throw UsageError(fmt::format("{}: is also read by this command, as {}: give the output another name",
+                                     output.string(), input == output ? "its input" : input.string()));
+    }
 }
 }  // namespace scanloom

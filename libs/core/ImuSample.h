@@ -11,5 +11,6 @@ struct ImuSample
   Timestamp stamp;
   Eigen::Vector3d gyro = Eigen::Vector3d::Zero();   // rad/s
   Eigen::Vector3d accel = Eigen::Vector3d::Zero();  // m/s2, specific force: at rest it points up with 9.81
+  bool after_refused = false;                       // readings between the sample before and this one were refused
 };
 }  // namespace scanloom

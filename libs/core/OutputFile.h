@@ -15,10 +15,18 @@ class OutputFile
 
   std::ostream& stream() { return stream_; }
 
+  /** Throws std::runtime_error if not all bytes could be written: a full disk is noticed at once. */
+  void flush();
+
   /** Gives the file its name. No write may follow. Throws std::runtime_error if not all bytes could be written. */
   void commit();
 
+  /** The same for a text that could not be written to its end: with the whole lines that it has. */
+  void commitLines();
+
  private:
+  void requireWritten() const;
+
   std::filesystem::path path_;
   AtomicFile file_;
   std::ofstream stream_;

@@ -1,9 +1,9 @@
 #include "doctor/ClockDrift.h"
 
+#include "core/Statistics.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "core/Statistics.h"
 
 namespace scanloom
 {

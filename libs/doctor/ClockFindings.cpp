@@ -1,8 +1,8 @@
+#include "doctor/DoctorFindings.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
-
-#include "doctor/DoctorFindings.h"
 
 namespace scanloom
 {

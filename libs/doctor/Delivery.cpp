@@ -1,11 +1,10 @@
 #include "doctor/Delivery.h"
 
+#include "batching/PacketNumbering.h"
 #include "lidar/AzimuthWindow.h"
 
 #include <algorithm>
 #include <set>
-
-#include "batching/PacketNumbering.h"
 
 namespace scanloom
 {

@@ -1,5 +1,7 @@
 #include "doctor/DoctorJson.h"
 
+#include "mrpt_bridge/jsonText.h"
+
 #include <nlohmann/json.hpp>
 
 namespace scanloom
@@ -182,6 +184,6 @@ std::string toJson(const RigExamination& rig, const Findings& findings)
                                   {"verdict", keyOf(f.verdict)},
                                   {"says", f.says},
                                   {"mend", f.mend}});
-  return result.dump(2);
+  return jsonText(result);
 }
 }  // namespace scanloom

@@ -18,7 +18,8 @@ class EvenSelection
   /** The item with this number, default-made at the first call for it; null if the number is not selected. */
   Item* at(std::int64_t number)
   {
-    if (number % interval_ == 0 && items_.size() == kMost && items_.count(number) == 0) halve();
+    // Several times if numbers jumped and all items lie on the doubled interval, too.
+    while (number % interval_ == 0 && items_.size() == kMost && items_.count(number) == 0) halve();
     return number % interval_ == 0 ? &items_[number] : nullptr;
   }
 

@@ -1,11 +1,11 @@
 #include "doctor/GroundPlane.h"
 
+#include "preprocessing/Thin.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
-
-#include "preprocessing/Thin.h"
 
 namespace scanloom
 {

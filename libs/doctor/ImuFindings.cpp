@@ -1,10 +1,9 @@
+#include "core/Angle.h"
+#include "doctor/DoctorFindings.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
-
-#include "doctor/DoctorFindings.h"
-
-#include "core/Angle.h"
 
 namespace scanloom
 {

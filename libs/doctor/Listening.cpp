@@ -50,15 +50,17 @@ void listenLive(const Rig& rig, Duration longest, RigListener& listener, const s
   listener.add(accountOf(receiver));
 }
 
-void listenToCaptures(const Rig& rig, Duration longest, RigListener& listener, const std::function<bool(double)>& goOn)
+std::vector<std::string> listenToCaptures(const Rig& rig, Duration longest, RigListener& listener,
+                                          const std::function<bool(double)>& goOn)
 {
   MergedCaptures captures(rig.captures);
   std::optional<Timestamp> start;
   for (Datagram datagram; captures.next(datagram);)
   {
     if (!start) start = datagram.received;
-    if (datagram.received - *start >= longest || !goOn(captures.progress())) return;
+    if (datagram.received - *start >= longest || !goOn(captures.progress())) break;
     listener.add(datagram);
   }
+  return captures.counters().damages;
 }
 }  // namespace scanloom

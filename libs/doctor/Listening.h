@@ -3,6 +3,8 @@
 #include "doctor/RigEvidence.h"
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace scanloom
 {
@@ -10,7 +12,8 @@ namespace scanloom
  * UdpReceiver throws. */
 void listenLive(const Rig&, Duration, RigListener&, const std::function<bool()>& goOn);
 
-/** The first part of the rig's captures; `goOn` receives the share of the files that was read, false stops. Throws what
- * MergedCaptures throws. */
-void listenToCaptures(const Rig&, Duration longest, RigListener&, const std::function<bool(double)>& goOn);
+/** The first part of the rig's captures; `goOn` receives the share of the files that was read, false stops. Returns the
+ * damages at which files ended. Throws what MergedCaptures throws. */
+std::vector<std::string> listenToCaptures(const Rig&, Duration longest, RigListener&,
+                                          const std::function<bool(double)>& goOn);
 }  // namespace scanloom

@@ -10,6 +10,7 @@
 #include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogReader.h"
+#include "mrpt_bridge/jsonText.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -39,8 +40,9 @@ void addPoints(const mrpt::obs::CObservationPointCloud& cloud, const std::option
                LabelHistory& label)
 {
   CloudAccount& account = label.account.of_clouds;
-  const Scan scan = fromObservation(cloud, header);
+  const Scan scan = measuredScan(cloud, header);
   ++account.clouds;
+  account.impossible += cloud.pointcloud->size() - scan.points.size();
   account.points += scan.points.size();
   account.empty += scan.points.empty();
   const auto* generic = dynamic_cast<const CGenericPointsMap*>(cloud.pointcloud.get());
@@ -166,6 +168,11 @@ void addDelivery(const std::string& label, const LabelAccount& a, Findings& find
 
 void addClouds(const std::string& label, const CloudAccount& a, const RecordingHeader& header, Findings& findings)
 {
+  if (a.impossible > 0)
+    findings.push_back(finding(
+        label, "points", Verdict::Warning,
+        fmt::format("{} of {} are not finite or 100 km away: left out", a.impossible, a.points + a.impossible),
+        "leave out directions without a return in the program that wrote the rawlog, or check its memory and disk"));
   findings.push_back(
       finding(label, "point times", a.outside > 0 ? Verdict::NotFit : Verdict::Ok,
               fmt::format("{} outside of their scan, {} earlier than the point before", a.outside, a.disordered),
@@ -240,7 +247,11 @@ std::string toJson(const RawlogAccount& account)
                   {"backwards", a.backwards}};
     if (const CloudAccount& c = a.of_clouds; c.clouds > 0)
     {
-      entry.update({{"points", c.points}, {"empty", c.empty}, {"outside", c.outside}, {"disordered", c.disordered}});
+      entry.update({{"points", c.points},
+                    {"empty", c.empty},
+                    {"outside", c.outside},
+                    {"disordered", c.disordered},
+                    {"impossible", c.impossible}});
       entry["lidars"] = json::object();
       for (std::size_t id = 0; id < c.lidars.size(); ++id)
         entry["lidars"][account.header->lidars[id].name] = {{"points", c.lidars[id].points},
@@ -250,14 +261,13 @@ std::string toJson(const RawlogAccount& account)
     }
     labels[label] = std::move(entry);
   }
-  return json{{"labels", labels},
-              {"first_s", secondsOf(account.first)},
-              {"last_s", secondsOf(account.last)},
-              {"span_s", seconds(account.last - account.first)},
-              {"late_imu", account.late_imu},
-              {"passed_over", account.passed_over},
-              {"damage", account.damage}}
-      .dump();
+  return jsonText({{"labels", labels},
+                   {"first_s", secondsOf(account.first)},
+                   {"last_s", secondsOf(account.last)},
+                   {"span_s", seconds(account.last - account.first)},
+                   {"late_imu", account.late_imu},
+                   {"passed_over", account.passed_over},
+                   {"damage", account.damage}});
 }
 
 CheckedRawlog checkRawlog(const std::filesystem::path& path, const KeepReading& keep_reading)
@@ -277,6 +287,6 @@ std::string toJson(const CheckedRawlog& check)
 {
   auto result = nlohmann::json::parse(toJson(check.rig, check.findings));
   result["rawlog"] = nlohmann::json::parse(toJson(check.account));
-  return result.dump(2);
+  return jsonText(result);
 }
 }  // namespace scanloom

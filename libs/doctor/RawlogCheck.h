@@ -23,6 +23,7 @@ struct LidarShare
 struct CloudAccount
 {
   std::uint64_t clouds = 0, points = 0, empty = 0;
+  std::uint64_t impossible = 0;    // points left out: not finite, or 100 km away; not in `points`
   std::uint64_t outside = 0;       // points whose time is not within their scan's period
   std::uint64_t disordered = 0;    // points that are earlier than the one before
   std::vector<LidarShare> lidars;  // by sensor_id; empty if the points have none

@@ -1,8 +1,8 @@
 #include "doctor/RawlogEvidence.h"
 
-#include <fmt/format.h>
-
 #include "mrpt_bridge/RawlogReader.h"
+
+#include <fmt/format.h>
 
 namespace scanloom
 {

@@ -66,11 +66,13 @@ TimeSpan spanOf(const std::vector<LidarEvidence>& lidars)
   return span;
 }
 
-ImuExamination examineImu(const ImuEvidence& imu, const ImuEvidence& first, const TimeSpan& lidars)
+/** Samples in the order of their stamps, but for the timing. */
+ImuExamination examineImu(const ImuEvidence& imu, const ImuTiming& timing, const ImuEvidence& first,
+                          const TimeSpan& lidars)
 {
   ImuExamination seen;
   seen.name = imu.name;
-  seen.timing = imuTiming(imu.samples);
+  seen.timing = timing;
   if (const auto force = meanForce(imu.samples)) seen.force_in_body = imu.body_T_imu.rotation * *force;
   seen.gyro_scale = gyroScale(imu.samples);
   if (&imu != &first) seen.to_first = gyroAgreement({first.samples, first.body_T_imu}, {imu.samples, imu.body_T_imu});
@@ -135,7 +137,15 @@ RigExamination examine(RigEvidence evidence, const DoctorLimits& limits)
     if (i > 0 && evidence.poses_known) rig.pairs.push_back(examinePair(evidence, i, 0));
   }
   const TimeSpan span = spanOf(evidence.lidars);
-  for (const ImuEvidence& imu : evidence.imus) rig.imus.push_back(examineImu(imu, evidence.imus.front(), span));
+  std::vector<ImuTiming> timings;
+  for (ImuEvidence& imu : evidence.imus)
+  {
+    timings.push_back(imuTiming(imu.samples));
+    std::stable_sort(imu.samples.begin(), imu.samples.end(),
+                     [](const ImuSample& a, const ImuSample& b) { return a.stamp < b.stamp; });
+  }
+  for (std::size_t i = 0; i < timings.size(); ++i)
+    rig.imus.push_back(examineImu(evidence.imus[i], timings[i], evidence.imus.front(), span));
 
   for (std::size_t i = 1; i < rig.lidars.size(); ++i)
   {

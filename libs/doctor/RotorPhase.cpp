@@ -1,10 +1,10 @@
 #include "doctor/RotorPhase.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/Statistics.h"
 #include "doctor/ClockSteps.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace scanloom
 {

@@ -130,9 +130,12 @@ std::set<std::string> asSet(const std::vector<std::string>& names) { return {nam
 
 using Chosen = std::vector<EditOperation>;
 
-void add(Chosen& chosen, const std::string& option, std::function<RawlogOperation(const Header&)> make)
+void add(Chosen& chosen, const std::string& option, std::function<RawlogOperation(const Header&)> make,
+         std::vector<Path> inputs = {})
 {
-  chosen.push_back({option, {}, {}, std::move(make)});
+  chosen.push_back({option, {}, std::move(inputs), [make = std::move(make)](const Header& header, const EditOutputs&) {
+                      return make(header);
+                    }});
 }
 
 void chooseObservations(const EditOptions& o, Chosen& chosen)
@@ -169,29 +172,36 @@ void choosePoints(const EditOptions& o, const Path& input, const Notify& notice,
   if (!o.apply_extrinsics.empty())
     add(chosen, "--apply-extrinsics",
         [poses = readSensorPoses(o.apply_extrinsics)](const Header& header)
-        { return applyExtrinsics(poses, required(header)); });
+        { return applyExtrinsics(poses, required(header)); },
+        {o.apply_extrinsics});
   if (!o.convert_clouds.empty())
     add(chosen, "--convert-clouds",
         [target = cloudClassOf(o.convert_clouds)](const Header&) { return convertClouds(target); });
-  if (!o.deskew.empty()) add(chosen, "--deskew", deskewing(o, input, notice));
+  if (!o.deskew.empty()) add(chosen, "--deskew", deskewing(o, input, notice), {o.deskew});
 }
 
 void chooseExports(const EditOptions& o, Chosen& chosen)
 {
+  using Make = std::function<RawlogOperation(const Header&, const EditOutputs&)>;
+  const auto addFolder = [&](const std::string& option, const Path& folder, Make make)
+  {
+    if (!folder.empty()) chosen.push_back({option, {{}, folder}, {}, std::move(make)});
+  };
   const auto addClouds = [&](const std::string& option, const Path& folder, CloudFormat format)
   {
-    if (folder.empty()) return;
-    chosen.push_back({option, {}, folder, [=](const Header& header) { return exportClouds(format, folder, header); }});
+    addFolder(option, folder,
+              [format](const Header& header, const EditOutputs& outputs)
+              { return exportClouds(format, outputs.folder, header); });
   };
   addClouds("--export-ply", o.export_ply, CloudFormat::Ply);
   addClouds("--export-pcd", o.export_pcd, CloudFormat::Pcd);
   addClouds("--export-kitti", o.export_kitti, CloudFormat::Kitti);
-  if (!o.export_csv.empty())
-    chosen.push_back(
-        {"--export-csv", {}, o.export_csv, [folder = o.export_csv](const Header&) { return exportCsv(folder); }});
+  addFolder("--export-csv", o.export_csv,
+            [](const Header&, const EditOutputs& outputs) { return exportCsv(outputs.folder); });
   if (!o.export_tum.empty())
-    chosen.push_back(
-        {"--export-tum", {o.export_tum}, {}, [file = o.export_tum](const Header&) { return exportTum(file); }});
+    chosen.push_back({"--export-tum", {{o.export_tum}, {}}, {}, [](const Header&, const EditOutputs& outputs) {
+                        return exportTum(outputs.files.front());
+                      }});
 }
 
 void chooseMaps(const EditOptions& o, Chosen& chosen)
@@ -203,11 +213,12 @@ void chooseMaps(const EditOptions& o, Chosen& chosen)
       throw UsageError(fmt::format("{} {}: the name must end in {}", option, maps.front().string(), ending));
     if (o.trajectory.empty()) throw UsageError("--to-simplemap and --to-octomap need --trajectory FILE");
     chosen.push_back({option,
-                      maps,
-                      {},
-                      [maps, preset = octoMapPreset(o.octomap_preset),
+                      {maps, {}},
+                      {o.trajectory},
+                      [preset = octoMapPreset(o.octomap_preset),
                        keyframes = KeyframeOptions{readTrajectory(o.trajectory), o.keyframe_distance}](
-                          const Header& header) { return toMaps(maps, preset, keyframes, required(header)); }});
+                          const Header& header, const EditOutputs& outputs)
+                      { return toMaps(outputs.files, preset, keyframes, required(header)); }});
   };
   addMaps("--to-simplemap", ".simplemap", {o.to_simplemap});
   addMaps("--to-octomap", ".bt", {o.to_octomap, Path(o.to_octomap).replace_extension(".ot")});
@@ -224,11 +235,12 @@ std::vector<EditOperation> editOperations(const EditOptions& options, const Path
   return chosen;
 }
 
-RawlogOperation chained(const std::vector<EditOperation>& operations, const Path& input)
+RawlogOperation chained(const std::vector<EditOperation>& operations, const Path& input, const EditOutputs& outputs)
 {
   const Header header = headerOf(input);
-  RawlogOperation all = operations.front().make(header);
-  for (std::size_t i = 1; i < operations.size(); ++i) all = chained(std::move(all), operations[i].make(header));
+  RawlogOperation all = operations.front().make(header, outputs);
+  for (std::size_t i = 1; i < operations.size(); ++i)
+    all = chained(std::move(all), operations[i].make(header, outputs));
   return all;
 }
 }  // namespace scanloom

@@ -31,14 +31,23 @@ struct EditOptions
   std::string octomap_preset = "inventory";
 };
 
+/** What an operation writes instead of a rawlog. */
+struct EditOutputs
+{
+  std::vector<std::filesystem::path> files;
+  std::filesystem::path folder;  // or the folder for files whose names depend on the input
+
+  bool empty() const { return files.empty() && folder.empty(); }
+};
+
 struct EditOperation
 {
-  std::string option;                        // "--split-lidars"; "cut" for --from-... and --to-...
-  std::vector<std::filesystem::path> files;  // that it writes instead of a rawlog
-  std::filesystem::path folder;              // or the folder for files whose names depend on the input
-  std::function<RawlogOperation(const std::optional<RecordingHeader>&)> make;
+  std::string option;  // "--split-lidars"; "cut" for --from-... and --to-...
+  EditOutputs outputs;
+  std::vector<std::filesystem::path> inputs;  // that it reads beside the rawlog
+  std::function<RawlogOperation(const std::optional<RecordingHeader>&, const EditOutputs&)> make;
 
-  bool writesRawlog() const { return files.empty() && folder.empty(); }
+  bool writesRawlog() const { return outputs.empty(); }
 };
 
 /**
@@ -49,6 +58,10 @@ struct EditOperation
 std::vector<EditOperation> editOperations(const EditOptions&, const std::filesystem::path& input,
                                           std::function<void(const std::string&)> notice);
 
-/** At least one operation, each one receiving what the one before returns, for the rawlog `input`. */
-RawlogOperation chained(const std::vector<EditOperation>&, const std::filesystem::path& input);
+/**
+ * At least one operation, each one receiving what the one before returns, for the rawlog `input`.
+ * @param outputs where the last operation writes, in place of its own outputs.
+ */
+RawlogOperation chained(const std::vector<EditOperation>&, const std::filesystem::path& input,
+                        const EditOutputs& outputs);
 }  // namespace scanloom

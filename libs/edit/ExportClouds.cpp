@@ -1,6 +1,7 @@
 #include "edit/ExportClouds.h"
 
 #include "core/OutputFile.h"
+#include "core/fileNameOf.h"
 #include "edit/CloudObservation.h"
 #include "formats/KittiWriter.h"
 #include "formats/PcdWriter.h"
@@ -69,7 +70,7 @@ RawlogOperation exportClouds(CloudFormat format, const std::filesystem::path& fo
     if (!cloud || isSlice(*cloud)) return;
     const std::string& label = cloud->sensorLabel;
     auto found = folders->find(label);
-    if (found == folders->end()) found = folders->try_emplace(label, format, folder / label).first;
+    if (found == folders->end()) found = folders->try_emplace(label, format, folder / fileNameOf(label)).first;
     found->second.add(fromObservation(*cloud, header));
   };
   const auto close = [folders]

@@ -2,6 +2,7 @@
 
 #include "core/AtomicFile.h"
 #include "core/OutputFile.h"
+#include "core/fileNameOf.h"
 #include "edit/CloudObservation.h"
 #include "formats/EurocImu.h"
 #include "formats/Trajectory.h"
@@ -54,7 +55,8 @@ class CsvExport
     const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(observation.get());
     const auto recorded = imu ? fromObservation(*imu) : std::nullopt;
     if (recorded)
-      imus_.try_emplace(recorded->label, folder_ / (recorded->label + ".csv")).first->second.add(recorded->sample);
+      imus_.try_emplace(recorded->label, folder_ / (fileNameOf(recorded->label) + ".csv"))
+          .first->second.add(recorded->sample);
     if (const auto cloud = cloudIn(observation))
       fmt::print(clouds_.stream(), "{},{},{}\n", nanoseconds(fromMrpt(cloud->timestamp)), cloud->sensorLabel,
                  cloud->pointcloud->size());

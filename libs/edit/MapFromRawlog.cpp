@@ -32,6 +32,7 @@ class KeyframeChoice
     if (!pose || (latest_ && (pose->translation - *latest_).norm() < options_.distance)) return std::nullopt;
     auto points = deskewed(*cloud, options_.trajectory, header_);
     if (!points) return std::nullopt;
+    removeImpossible(*points);
     latest_ = pose->translation;
     return Keyframe{stamp, *pose, std::move(*points)};
   }

@@ -33,7 +33,8 @@ RawlogEdited stream(const std::filesystem::path& input, const RawlogOperation& o
   {
     ++edited.labels[observation->sensorLabel].read;
     pass(observation);
-    if (!keep_reading(reader.bytesRead())) break;
+    edited.stopped = !keep_reading(reader.bytesRead());
+    if (edited.stopped) break;
   }
   pass(nullptr);
   edited.passed_over = reader.passedOver();
@@ -98,7 +99,7 @@ RawlogEdited editRawlog(const std::filesystem::path& input, const RawlogOperatio
   RawlogEdited edited = stream(
       input, operation, [&](const mrpt::obs::CObservation& observation) { archive << observation; }, keep_reading);
   archive.close();
-  file.commit();
+  edited.output = file.commit(edited.stopped ? Completeness::Partial : Completeness::Whole);
   return edited;
 }
 }  // namespace scanloom

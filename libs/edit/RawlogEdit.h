@@ -44,6 +44,8 @@ struct RawlogEdited
   std::map<std::string, LabelCount> labels;
   std::uint64_t passed_over = 0;  // objects that are no observations
   std::string damage;             // empty if the whole file was read
+  bool stopped = false;           // by KeepReading
+  std::filesystem::path output;   // what was written, if anything was
 
   std::uint64_t read() const;
   std::uint64_t written() const;
@@ -53,9 +55,9 @@ struct RawlogEdited
 RawlogEdited readRawlog(const std::filesystem::path&, const RawlogOperation&, const KeepReading&);
 
 /**
- * Writes what the operation returns as a gzipped rawlog of the observation format. `output` may be `input`. A damaged
- * input is edited up to the damage. The output appears under its name only when it is complete; after an exception
- * there is none.
+ * Writes what the operation returns as a gzipped rawlog of the observation format. A damaged input is edited up to the
+ * damage. The output appears under its name only when it is complete; if it was stopped, it replaces no other file, but
+ * is put beside it (AtomicFile). After an exception there is none.
  */
 RawlogEdited editRawlog(const std::filesystem::path& input, const RawlogOperation&, const std::filesystem::path& output,
                         const KeepReading&);

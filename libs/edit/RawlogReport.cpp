@@ -1,6 +1,7 @@
 #include "edit/RawlogReport.h"
 
 #include "mrpt_bridge/RecordingHeaderJson.h"
+#include "mrpt_bridge/jsonText.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,7 +26,7 @@ std::string toJson(const RawlogInfo& info)
                                  {"first_s", seconds(s.first.time_since_epoch())},
                                  {"last_s", seconds(s.last.time_since_epoch())}});
   if (info.header) result["header"] = json::parse(toJson(*info.header));
-  return result.dump(2) + '\n';
+  return jsonText(result) + '\n';
 }
 
 std::string toText(const RawlogInfo& info)

@@ -86,4 +86,14 @@ TimedRegistration CloudPair::registered(const PoseGuess& guess) const
   const RegistrationResult result = alignCoarseToFine(pairLevels(target_.levels, source_.levels), guess, options_);
   return {result, stopwatch.milliseconds()};
 }
+
+std::optional<PoseError> CloudPair::contradiction(const RegistrationResult& found, const Rigid& guess) const
+{
+  constexpr double kEnough = 0.5, kMetres = 0.5, kDegrees = 5;
+  if (found.overlap >= kEnough) return std::nullopt;
+  const RegistrationResult back =
+      alignCoarseToFine(pairLevels(source_.levels, target_.levels), PoseGuess(guess.inverse()), options_);
+  const PoseError apart = poseError(found.target_T_source, back.target_T_source.inverse());
+  return apart.metres > kMetres || apart.degrees > kDegrees ? std::optional(apart) : std::nullopt;
+}
 }  // namespace scanloom

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,13 @@ class CloudPair
   CloudPair(const Points& target, const Points& source, const LevelSizes&, const RegisterSettings&);
 
   TimedRegistration registered(const PoseGuess&) const;
+
+  /**
+   * Where less than half of the source meets the target, many poses look well: how far apart this pose, found from
+   * `guess`, and that of the target in the source, from the same guess, are. None where they agree (within half a metre
+   * and 5 deg), and where more than half meets.
+   */
+  std::optional<PoseError> contradiction(const RegistrationResult&, const Rigid& guess) const;
 
   double targetMilliseconds() const { return target_.milliseconds; }  // to make the cells
   double sourceMilliseconds() const { return source_.milliseconds; }

@@ -123,6 +123,12 @@ std::string toText(const RegistrationReport& report)
   if (report.error)
     text += fmt::format("error                {:.4f} m, {:.4f} deg\n", report.error->metres, report.error->degrees);
   text += fmt::format("outcome              {}\n", outcomeLine(result));
+  if (const auto& apart = report.contradiction)
+    text += fmt::format(
+        "not confirmed        the other way round, from the same guess, the pose is {:.2f} m and {:.1f} deg away: give "
+        "a "
+        "better --guess\n",
+        apart->metres, apart->degrees);
   text += fmt::format("overlap              {:.1f} %\n", 100 * result.overlap);
   text += fmt::format("iterations           {}\n", result.iterations);
   text += fmt::format("points               target {}, source {}\n",
@@ -158,6 +164,8 @@ std::string toJson(const RegistrationReport& report)
     json["error_m"] = report.error->metres;
     json["error_deg"] = report.error->degrees;
   }
+  if (report.contradiction)
+    json["contradiction"] = {{"m", report.contradiction->metres}, {"deg", report.contradiction->degrees}};
   return json.dump(2);
 }
 

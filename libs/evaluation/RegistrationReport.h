@@ -18,7 +18,10 @@ struct RegistrationReport
   CloudCounts points;
   double target_milliseconds = 0, source_milliseconds = 0;  // to make the cells
   TimedRegistration registration;
-  std::optional<PoseError> error;  // none: the true pose is not known
+  std::optional<PoseError> error;          // none: the true pose is not known
+  std::optional<PoseError> contradiction;  // CloudPair::contradiction()
+
+  bool trustworthy() const { return registration.result.trustworthy() && !contradiction; }
 };
 
 std::string toText(const RegistrationReport&);

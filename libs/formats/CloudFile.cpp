@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <stdexcept>
@@ -20,25 +21,48 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kLargestUnpacked = std::size_t{4} << 30;  // bytes; a small file may unpack to 1000 times its size
+constexpr std::size_t kLargestUnpacked = std::size_t{4} << 30;  // bytes
 
-std::vector<std::uint8_t> unpackedContent(const std::filesystem::path& path)
+/** Clouds shrink to a third; text of round numbers to a twentieth. A file of 1 MB that is made to can hold 1 GB. */
+constexpr std::size_t kMostPerPackedByte = 64;
+constexpr std::size_t kAlwaysUnpacked = 64 << 20;  // bytes
+
+/** Gives the unpacked bytes to `take`, in parts. Throws std::invalid_argument if there are more than `most`. */
+void unpack(const std::filesystem::path& path, std::size_t most,
+            const std::function<void(const std::uint8_t*, std::size_t)>& take)
 {
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), &gzclose);
   if (!file) throw std::invalid_argument("cannot be read");
   if (gzdirect(file.get())) throw std::invalid_argument("is not compressed, but its name ends in .gz");
-  std::vector<std::uint8_t> content;
   std::vector<std::uint8_t> chunk(1 << 18);
+  std::size_t unpacked = 0;
   int got = 0;
   while ((got = gzread(file.get(), chunk.data(), static_cast<unsigned>(chunk.size()))) > 0)
   {
-    content.insert(content.end(), chunk.begin(), chunk.begin() + got);
-    if (content.size() > kLargestUnpacked) throw std::invalid_argument("unpacks to more than 4 GiB");
+    unpacked += static_cast<std::size_t>(got);
+    if (unpacked > most)
+      throw std::invalid_argument(
+          fmt::format("unpacks to more than {} MB, {} times its size: no cloud does; if it is one, unpack it by gunzip",
+                      most >> 20, most / std::max<std::size_t>(1, std::filesystem::file_size(path))));
+    take(chunk.data(), static_cast<std::size_t>(got));
   }
   int error = Z_OK;
   gzerror(file.get(), &error);
   if (error == Z_BUF_ERROR) throw std::invalid_argument("the compressed file is cut short");
   if (got < 0) throw std::invalid_argument("the compressed data is damaged");
+}
+
+/** Unpacked twice, first only to be measured: no memory is taken for a file that is refused. */
+std::vector<std::uint8_t> unpackedContent(const std::filesystem::path& path)
+{
+  const std::size_t plausible = kAlwaysUnpacked + kMostPerPackedByte * std::filesystem::file_size(path);
+  const std::size_t most = std::min(kLargestUnpacked, plausible);
+  std::size_t size = 0;
+  unpack(path, most, [&](const std::uint8_t*, std::size_t count) { size += count; });
+  std::vector<std::uint8_t> content;
+  content.reserve(size);
+  unpack(path, most,
+         [&](const std::uint8_t* bytes, std::size_t count) { content.insert(content.end(), bytes, bytes + count); });
   return content;
 }
 

@@ -14,8 +14,9 @@ class TumWriter
   explicit TumWriter(const std::filesystem::path& path) : file_(path) {}
 
   void add(const StampedPose&);
-  void flush() { file_.stream().flush(); }
+  void flush() { file_.flush(); }
   void close() { file_.commit(); }
+  void closeAfterFailure() { file_.commitLines(); }
 
  private:
   OutputFile file_;

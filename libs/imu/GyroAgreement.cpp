@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace scanloom
 {
@@ -16,14 +17,33 @@ constexpr int kMostLagSteps = 50;
 constexpr Duration kReach = (kMostLagSteps + 1) * kStep;
 constexpr std::size_t kFewestTurns = 30;
 constexpr Duration kLeastTime = 5s;
+constexpr Duration kGap = 500ms;  // between samples: what the body did meanwhile is unknown
 constexpr double kWorstSigma = 5 * M_PI / 180;
+
+struct Span
+{
+  Timestamp from, to;
+};
+
+std::vector<Span> spansBetweenGaps(const std::vector<ImuSample>& samples)
+{
+  std::vector<Span> spans{{samples.front().stamp, samples.front().stamp}};
+  for (const ImuSample& sample : samples)
+  {
+    if (sample.stamp - spans.back().to > kGap) spans.push_back({sample.stamp, sample.stamp});
+    spans.back().to = sample.stamp;
+  }
+  return spans;
+}
 
 /** The attitude by a gyroscope alone, relative to its first sample. */
 class GyroAttitude
 {
  public:
   explicit GyroAttitude(const PlacedGyro& gyro)
-    : samples_(gyro.samples), body_R_imu_(gyro.body_T_imu.rotation.toRotationMatrix())
+    : samples_(gyro.samples),
+      spans_(spansBetweenGaps(samples_)),
+      body_R_imu_(gyro.body_T_imu.rotation.toRotationMatrix())
   {
     attitudes_.push_back(Eigen::Quaterniond::Identity());
     for (std::size_t i = 1; i < samples_.size(); ++i)
@@ -31,7 +51,16 @@ class GyroAttitude
   }
 
   Timestamp begin() const { return samples_.front().stamp; }
-  Timestamp end() const { return samples_.back().stamp; }
+
+  /** From the first sample to the last, without gaps; in order. */
+  const std::vector<Span>& spans() const { return spans_; }
+
+  bool covers(Timestamp from, Timestamp to) const
+  {
+    const auto next = std::upper_bound(spans_.begin(), spans_.end(), from,
+                                       [](Timestamp t, const Span& span) { return t < span.from; });
+    return next != spans_.begin() && to <= std::prev(next)->to;
+  }
 
   /** Both instants within the samples; in the body's frame. */
   Eigen::Vector3d turnBetween(Timestamp from, Timestamp to) const
@@ -53,6 +82,7 @@ class GyroAttitude
   }
 
   const std::vector<ImuSample>& samples_;
+  std::vector<Span> spans_;
   Eigen::Matrix3d body_R_imu_;
   std::vector<Eigen::Quaterniond> attitudes_;
 };
@@ -85,7 +115,7 @@ std::vector<BodyTurn> within(const std::vector<BodyTurn>& turns, const GyroAttit
 {
   std::vector<BodyTurn> inside;
   for (const BodyTurn& turn : turns)
-    if (turn.from - kReach >= gyro.begin() && turn.to + kReach <= gyro.end()) inside.push_back(turn);
+    if (gyro.covers(turn.from - kReach, turn.to + kReach)) inside.push_back(turn);
   return inside;
 }
 
@@ -162,8 +192,12 @@ std::optional<GyroAgreement> gyroAgreement(const PlacedGyro& a, const PlacedGyro
   if (a.samples.size() < 3) return std::nullopt;
   const GyroAttitude gyro(a);
   std::vector<BodyTurn> turns;
-  for (Timestamp from = gyro.begin(); from + kTurn <= gyro.end(); from += kTurn)
-    turns.push_back({from, from + kTurn, gyro.turnBetween(from, from + kTurn)});
+  for (const Span& span : gyro.spans())
+  {
+    const std::int64_t skipped = (span.from - gyro.begin() + kTurn - 1ns) / kTurn;
+    for (Timestamp from = gyro.begin() + skipped * kTurn; from + kTurn <= span.to; from += kTurn)
+      turns.push_back({from, from + kTurn, gyro.turnBetween(from, from + kTurn)});
+  }
   return gyroAgreement(turns, b);
 }
 }  // namespace scanloom

@@ -10,7 +10,7 @@ namespace scanloom
 {
 struct PlacedGyro
 {
-  const std::vector<ImuSample>& samples;
+  const std::vector<ImuSample>& samples;  // in the order of their stamps
   Rigid body_T_imu;
 };
 
@@ -33,10 +33,11 @@ struct GyroAgreement
 /**
  * Least squares over the mean rates of the turns, without their constant part (the biases), at the lag with the best
  * correlation within +-0.5 s. None if fewer than 30 turns, or less than 5 s of turns, lie within b's samples and that
- * lag, or if the body turned about one axis only or too little for sigma < 5 deg.
+ * lag, half a second or more away from gaps of more than that, or if the body turned about one axis only or too little
+ * for sigma < 5 deg.
  */
 std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const PlacedGyro& b);
 
-/** With a's turns over 0.1 s each. */
+/** With a's turns over 0.1 s each, gaps of more than 0.5 s left out. */
 std::optional<GyroAgreement> gyroAgreement(const PlacedGyro& a, const PlacedGyro& b);
 }  // namespace scanloom

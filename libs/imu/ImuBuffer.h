@@ -6,6 +6,9 @@
 
 namespace scanloom
 {
+/** An IMU without a reading for so long is silent. */
+inline constexpr Duration kImuSilence = 200ms;
+
 /** The IMU's samples in time order, until forgetBefore() removes them. */
 class ImuBuffer
 {

@@ -20,7 +20,8 @@ void requireIncreasingStamps(const std::vector<ImuSample>& samples)
 ImuSample interpolate(const ImuSample& first, const ImuSample& second, Timestamp stamp)
 {
   const double share = seconds(stamp - first.stamp) / seconds(second.stamp - first.stamp);
-  return {stamp, (1 - share) * first.gyro + share * second.gyro, (1 - share) * first.accel + share * second.accel};
+  return {stamp, (1 - share) * first.gyro + share * second.gyro, (1 - share) * first.accel + share * second.accel,
+          second.after_refused};
 }
 
 ImuDelta advance(const ImuDelta& start, const ImuSample& first, const ImuSample& second, const ImuBias& bias)

@@ -18,7 +18,7 @@ struct ImuDelta
 /** Throws std::invalid_argument with the first stamp that is not after the one before it. */
 void requireIncreasingStamps(const std::vector<ImuSample>&);
 
-/** Linear; `stamp` is between those of the samples. */
+/** Linear; `stamp` is between those of the samples. Refused readings between them lie on both sides of the new one. */
 ImuSample interpolate(const ImuSample& first, const ImuSample& second, Timestamp stamp);
 
 /**

@@ -59,18 +59,25 @@ Eigen::Matrix<double, 6, 1> densities(const ImuNoise& noise)
   return d;
 }
 
-/**
- * Variances of the mean over a step between readings that are far apart, or of one that is held: the motion of a
- * machine in between is not linear.
- */
-Eigen::Matrix<double, 6, 1> unseenMotion(double dt)
+Eigen::Matrix<double, 6, 1> variancesOf(double rate, double force)
 {
-  constexpr double kGap = 0.025, kWholeCycle = 0.2;  // s
-  constexpr double kRate = 0.15, kForce = 1.0;       // rad/s, m/s2
+  Eigen::Matrix<double, 6, 1> variances;
+  variances << Eigen::Vector3d::Constant(rate * rate), Eigen::Vector3d::Constant(force * force);
+  return variances;
+}
+
+/**
+ * Variances of the mean over a step to `end`, between readings that are far apart or of one that is held: the motion of
+ * a machine in between is not linear. Where readings were refused it may have been a shock, which the lidar must tell.
+ */
+Eigen::Matrix<double, 6, 1> unseenMotion(double dt, const ImuSample& end)
+{
+  constexpr double kGap = 0.025, kWholeCycle = 0.2;       // s
+  constexpr double kRate = 0.15, kForce = 1.0;            // rad/s, m/s2
+  constexpr double kShockRate = 0.5, kShockForce = 10.0;  // rad/s, m/s2
+  if (end.after_refused) return variancesOf(kShockRate, kShockForce);
   const double share = dt > kGap ? std::min(1.0, dt / kWholeCycle) : 0;
-  Eigen::Matrix<double, 6, 1> variance;
-  variance << Eigen::Vector3d::Constant(kRate * kRate), Eigen::Vector3d::Constant(kForce * kForce);
-  return share * share * variance;
+  return share * share * variancesOf(kRate, kForce);
 }
 
 void requireStepsInTimeOrder(const std::vector<ImuSample>& samples)
@@ -94,7 +101,7 @@ Preintegration preintegrate(std::vector<ImuSample> samples, const ImuBias& bias,
     const ImuDelta end = advance(delta, samples[k], samples[k + 1], bias);
     const StepJacobians j = jacobiansOfStep(delta, end, samples[k], samples[k + 1], bias);
     const double dt = seconds(samples[k + 1].stamp - samples[k].stamp);
-    const Eigen::Matrix<double, 6, 1> variance = density / dt + unseenMotion(dt);
+    const Eigen::Matrix<double, 6, 1> variance = density / dt + unseenMotion(dt, samples[k + 1]);
 
     covariance = j.by_start * covariance * j.by_start.transpose() +
                  j.by_reading * variance.asDiagonal() * j.by_reading.transpose();  // eq. (63)

@@ -1,8 +1,8 @@
 #include "lidar/FrameFields.h"
 
-#include <algorithm>
-
 #include "core/Digest.h"
+
+#include <algorithm>
 
 namespace scanloom
 {

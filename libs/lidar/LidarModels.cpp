@@ -1,13 +1,13 @@
 #include "lidar/LidarModels.h"
 
+#include "lidar/MetadataKeys.h"
+#include "lidar/OusterDecoder.h"
+#include "lidar/VelodyneDecoder.h"
+
 #include <fmt/format.h>
 
 #include <array>
 #include <stdexcept>
-
-#include "lidar/MetadataKeys.h"
-#include "lidar/OusterDecoder.h"
-#include "lidar/VelodyneDecoder.h"
 
 namespace scanloom
 {

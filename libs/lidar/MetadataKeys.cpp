@@ -1,10 +1,12 @@
 #include "lidar/MetadataKeys.h"
 
+#include "core/printable.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -45,7 +47,7 @@ MetadataKeys::MetadataKeys(const std::string& text, std::string name) : name_(st
   catch (const nlohmann::json::exception& e)
   {
     throw std::invalid_argument(
-        fmt::format("{}: not a metadata file, its text is no valid JSON ({})", name_, e.what()));
+        fmt::format("{}: not a metadata file, its text is no valid JSON ({})", name_, printable(e.what())));
   }
   if (!root_->is_object())
     throw std::invalid_argument(fmt::format("{}: not a metadata file, expected a JSON object with keys", name_));
@@ -76,7 +78,7 @@ std::optional<std::string> MetadataKeys::text(const std::string& section, const 
   const nlohmann::json* value = find(section, key);
   if (!value) return std::nullopt;
   if (!value->is_string()) fail(key, fmt::format("must be a text in quotes, not {}", shown(*value)));
-  return value->get<std::string>();
+  return printable(value->get<std::string>());
 }
 
 std::optional<double> MetadataKeys::number(const std::string& section, const std::string& key, double lowest,

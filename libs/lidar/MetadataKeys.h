@@ -20,7 +20,7 @@ class MetadataKeys
   MetadataKeys(const std::string& text, std::string name);
   ~MetadataKeys();
 
-  /** Nothing if neither the section nor the file's top level has the key. null counts as absent. */
+  /** Nothing if neither the section nor the file's top level has the key. null counts as absent. Text is printable. */
   std::optional<std::string> text(const std::string& section, const std::string& key) const;
   std::optional<int> integer(const std::string& section, const std::string& key, int lowest, int highest) const;
   std::optional<double> number(const std::string& section, const std::string& key, double lowest, double highest) const;

@@ -1,12 +1,12 @@
 #include "lidar/OusterDecoder.h"
 
-#include <cmath>
-#include <stdexcept>
-#include <utility>
-
 #include "core/Angle.h"
 #include "lidar/Crc64.h"
 #include "lidar/OusterImu.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
 
 namespace scanloom
 {

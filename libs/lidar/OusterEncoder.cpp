@@ -1,11 +1,11 @@
 #include "lidar/OusterEncoder.h"
 
+#include "lidar/Crc64.h"
+#include "lidar/OusterImu.h"
+
 #include <fmt/format.h>
 
 #include <stdexcept>
-
-#include "lidar/Crc64.h"
-#include "lidar/OusterImu.h"
 
 namespace scanloom
 {

@@ -1,11 +1,11 @@
 #include "lidar/OusterLayout.h"
 
+#include "lidar/OusterMetadata.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
-
-#include "lidar/OusterMetadata.h"
 
 namespace scanloom
 {

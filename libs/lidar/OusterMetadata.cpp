@@ -1,15 +1,15 @@
 #include "lidar/OusterMetadata.h"
 
+#include "core/Rigid.h"
+#include "lidar/MetadataKeys.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
-
-#include "core/Rigid.h"
-#include "lidar/MetadataKeys.h"
 
 namespace scanloom
 {

@@ -1,10 +1,10 @@
 #include "lidar/OusterPoints.h"
 
+#include "lidar/OusterKernels.h"
+
 #include <fmt/format.h>
 
 #include <stdexcept>
-
-#include "lidar/OusterKernels.h"
 
 namespace scanloom
 {

@@ -76,7 +76,9 @@ PacketKind VelodyneDecoder::kindByHeader(Bytes packet) const
   if (packet.size() == kVelodynePositionBytes) return PacketKind::Other;
   if (packet.size() != kVelodynePacketBytes) return PacketKind::Malformed;
   const VelodynePacket view = this->view(packet);
-  if (view.productId() != metadata_.product_id) return PacketKind::Foreign;
+  const bool is_early =
+      metadata_.early_product_id != 0 && view.productId() == metadata_.early_product_id && view.turnsAsSet();
+  if (view.productId() != metadata_.product_id && !is_early) return PacketKind::Foreign;
   const bool as_set = view.hasTwoReturns() == (metadata_.returns == 2);
   return as_set && view.isSound() ? PacketKind::Lidar : PacketKind::Malformed;
 }

@@ -1,10 +1,10 @@
 #include "lidar/VelodyneMetadata.h"
 
+#include "lidar/MetadataKeys.h"
+
 #include <fmt/format.h>
 
 #include <stdexcept>
-
-#include "lidar/MetadataKeys.h"
 
 namespace scanloom
 {
@@ -53,7 +53,9 @@ VelodyneMetadata parseVelodyneMetadata(const std::string& text, const std::strin
   const VelodyneModel& model = modelOf(keys);
   VelodyneMetadata m;
   m.model = &model;
-  m.product_id = static_cast<std::uint8_t>(keys.integer(kTopLevel, "product_id", 0, 255).value_or(model.product_id));
+  const auto product_id = keys.integer(kTopLevel, "product_id", 0, 255);
+  m.product_id = static_cast<std::uint8_t>(product_id.value_or(model.product_id));
+  if (!product_id) m.early_product_id = model.early_product_id;
   m.serial = keys.text(kTopLevel, "serial").value_or("");
   m.rpm = keys.number(kTopLevel, "rpm", 300, 1200).value_or(m.rpm);
   m.returns = keys.integer(kTopLevel, "returns", 1, 2).value_or(m.returns);

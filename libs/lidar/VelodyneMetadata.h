@@ -12,6 +12,7 @@ struct VelodyneMetadata
 {
   const VelodyneModel* model = nullptr;  // a row of kVelodyneModels
   std::uint8_t product_id = 0;           // last byte of packets; that of the model unless the file has one
+  std::uint8_t early_product_id = 0;     // of packets that turn as set in the sensor; 0: none
   std::string serial;                    // for reports only: packets have none
   double rpm = 600;                      // as set in the sensor
   int returns = 1;                       // as set in the sensor: 1 (strongest or last) or 2

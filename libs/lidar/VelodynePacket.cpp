@@ -19,6 +19,9 @@ constexpr double kFastestRate = 24.0 * kVelodyneTurn * 1e-9;
 
 // If the measured rate is this close to the set one, the set one is the more exact.
 constexpr double kGoverned = 0.02;
+
+// Blocks of an HDL-32E, read as those of a VLP-16, seem to turn at 0.42 times the rate.
+constexpr double kAsSet = 0.1;
 }  // namespace
 
 VelodynePacket::VelodynePacket(Bytes packet, const VelodyneModel& model, double rpm)
@@ -42,6 +45,8 @@ std::uint16_t VelodynePacket::azimuthOfBlock(std::size_t block) const
 }
 
 std::uint8_t VelodynePacket::productId() const { return packet_[kProductId]; }
+
+bool VelodynePacket::turnsAsSet() const { return std::abs(rate_ - nominal_rate_) <= kAsSet * nominal_rate_; }
 
 std::uint32_t VelodynePacket::microseconds() const { return load<std::uint32_t>(packet_, kStamp); }
 

@@ -45,6 +45,9 @@ class VelodynePacket
   /** Rate of rotation within this packet, hundredths of a degree per ns. */
   double rate() const { return rate_; }
 
+  /** Whether the rotor's rate is the one set in the sensor: with another model's timing it would not be. */
+  bool turnsAsSet() const;
+
   /** `which` return: 0, or 1 in packets with two. */
   VelodyneReading reading(std::size_t sequence, std::size_t laser, std::size_t which) const;
 

@@ -26,10 +26,16 @@ struct OctoMapOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.resolution, Field{"resolution", "m", "edge of a voxel", above(0)});
+    visit(o.resolution, Field{"resolution", "m", "edge of a voxel", between(0.005, 10)});
     visit(o.max_range,
           Field{"max_range", "m", "a farther point marks only the first part of its line, up to this range, as free",
-                above(0)});
+                between(0.1, 500)});
+  }
+
+  template <typename Self, typename Visitor>
+  static void order(const Self& o, Visitor&& visit)
+  {
+    visit("resolution", o.resolution, "max_range", o.max_range);
   }
 };
 

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace scanloom
@@ -22,6 +23,8 @@ namespace scanloom
 namespace
 {
 using Box = Eigen::AlignedBox3f;
+
+constexpr float kFarthestDrawn = 1e7F;  // m
 
 /** The range of the colours: quantiles, so that a few outliers do not stretch it. */
 struct Heights
@@ -76,14 +79,17 @@ mrpt::opengl::CSetOfLines::Ptr lineOf(const Trajectory& path)
 mrpt::opengl::CGridPlaneXY::Ptr gridBelow(const Box& box)
 {
   constexpr float kStep = 10;
-  const auto down = [](float value) { return kStep * std::floor(value / kStep); };
-  auto grid = mrpt::opengl::CGridPlaneXY::Create(down(box.min().x()), down(box.max().x()) + kStep, down(box.min().y()),
-                                                 down(box.max().y()) + kStep, box.min().z(), kStep);
+  constexpr float kMostLines = 1000;  // along an axis; MRPT makes them one by one
+  float step = kStep;
+  while (box.sizes().head<2>().maxCoeff() > kMostLines * step) step *= 10;
+  const auto down = [step](float value) { return step * std::floor(value / step); };
+  auto grid = mrpt::opengl::CGridPlaneXY::Create(down(box.min().x()), down(box.max().x()) + step, down(box.min().y()),
+                                                 down(box.max().y()) + step, box.min().z(), step);
   grid->setColor_u8(0x60, 0x60, 0x60);
   return grid;
 }
 
-/** Without outliers, which would move the camera far away. */
+/** Without outliers, which would move the camera far away, and within what floats can still tell apart to a metre. */
 Box boxOf(const std::vector<Eigen::Vector3f>& points, const std::vector<Trajectory>& paths)
 {
   constexpr std::size_t kStride = 50;
@@ -101,7 +107,10 @@ Box boxOf(const std::vector<Eigen::Vector3f>& points, const std::vector<Trajecto
   }
   for (const Trajectory& path : paths)
     for (const StampedPose& pose : path) box.extend(pose.map_T_body.translation.cast<float>().eval());
-  return box;
+  if (box.isEmpty()) return box;
+  const auto near = [](const Eigen::Vector3f& corner)
+  { return corner.cwiseMax(-kFarthestDrawn).cwiseMin(kFarthestDrawn).eval(); };
+  return {near(box.min()), near(box.max())};
 }
 
 void aimCamera(mrpt::opengl::COpenGLScene& scene, const Box& box)
@@ -121,7 +130,8 @@ void aimCamera(mrpt::opengl::COpenGLScene& scene, const Box& box)
 
 void SceneBuilder::addPoints(const std::vector<Eigen::Vector3f>& points)
 {
-  points_.insert(points_.end(), points.begin(), points.end());
+  std::copy_if(points.begin(), points.end(), std::back_inserter(points_),
+               [](const Eigen::Vector3f& point) { return point.allFinite(); });
 }
 
 void SceneBuilder::addKeyframe(const Keyframe& keyframe)

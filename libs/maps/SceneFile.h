@@ -19,14 +19,14 @@ namespace scanloom
 class SceneBuilder
 {
  public:
-  void addPoints(const std::vector<Eigen::Vector3f>&);
+  void addPoints(const std::vector<Eigen::Vector3f>&);  // those that are finite
   void addKeyframe(const Keyframe&);
   void addOccupied(const octomap::OcTree&);  // the voxels' centres, kMostListedVoxels at most
   void addPath(const Trajectory&);
 
   /**
-   * Points coloured by height, paths as lines, a grid of 10 m below, and a camera that sees all of it. Throws
-   * std::invalid_argument if there are neither points nor poses.
+   * Points coloured by height, paths as lines, a grid of 10 m (or a power of ten more) below, and a camera that sees
+   * all of it. Throws std::invalid_argument if there are neither points nor poses.
    */
   mrpt::opengl::COpenGLScene::Ptr finished() const;
 

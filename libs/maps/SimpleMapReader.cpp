@@ -1,9 +1,9 @@
 #include "maps/SimpleMapReader.h"
 
 #include "config/MrptMessage.h"
-#include "maps/SimpleMapArchive.h"
 #include "maps/SimpleMapFile.h"
 #include "mrpt_bridge/Conversions.h"
+#include "mrpt_bridge/CountedArchive.h"
 #include "mrpt_bridge/registerClasses.h"
 
 #include <fmt/format.h>
@@ -68,7 +68,8 @@ void append(PointCloud& points, const CObservationPointCloud& cloud, const Rigid
 std::unique_ptr<mrpt::maps::CSimpleMap> load(const std::filesystem::path& path)
 {
   registerClasses();
-  SimpleMapArchive archive(path);
+  GzipArchive::uncompressedBytes(path);  // throws if the file is cut short or damaged
+  CountedArchive archive(path);
   auto map = std::make_unique<mrpt::maps::CSimpleMap>();
   try
   {

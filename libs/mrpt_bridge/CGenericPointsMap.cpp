@@ -48,14 +48,32 @@ void readValues(CArchive& in, std::size_t count, mrpt::aligned_std_vector<T>& va
   }
 }
 
+std::string readName(CArchive& in)
+{
+  constexpr std::uint32_t kLongest = 255;  // of the names of fields and types
+  const auto length = in.ReadAs<std::uint32_t>();
+  ASSERT_LE_(length, kLongest);
+  std::string name(length, '\0');
+  if (length > 0) in.ReadBuffer(name.data(), length);
+  return name;
+}
+
+/** Up to version 2 values were written by MRPT's operators for containers, which write some types' names first. */
+template <typename T>
+void readOldPreamble(CArchive& in)
+{
+  if constexpr (!std::is_same_v<T, float>)
+  {
+    ASSERT_EQUAL_(readName(in), std::string("std::vector"));
+    ASSERT_EQUAL_(readName(in), std::string(mrpt::typemeta::TTypeName<T>::get().c_str()));
+  }
+}
+
 template <typename T>
 void readField(CArchive& in, std::uint8_t version, mrpt::aligned_std_vector<T>& values)
 {
-  // Up to version 2 the values were written by MRPT's operators for containers, which write some types' names first.
-  if (version < 3)
-    in >> values;
-  else
-    readValues(in, in.ReadAs<std::uint32_t>(), values);
+  if (version < 3) readOldPreamble<T>(in);
+  readValues(in, in.ReadAs<std::uint32_t>(), values);
 }
 }  // namespace
 
@@ -99,8 +117,7 @@ void CGenericPointsMap::serializeFrom(CArchive& in, std::uint8_t version)
                 const auto count = in.ReadAs<std::uint32_t>();
                 for (std::uint32_t i = 0; i < count; i++)
                 {
-                  std::string name;
-                  in >> name;
+                  const std::string name = readName(in);
                   readField(in, version, fields[name]);
                   ASSERT_EQUAL_(fields[name].size(), m_x.size());
                 }

@@ -125,7 +125,7 @@ void CMultiLidarSensor::logAccount() const
   const RigAccount account = observations_->account();
   for (const auto& [what, count] : account.input)
     if (count > 0 && what.find("dropped") != std::string::npos) MRPT_LOG_WARN_STREAM(what << ": " << count);
-  for (const auto& [name, c] : account.lidars)
+  for (const auto& [name, c, of_other_senders] : account.lidars)
   {
     MRPT_LOG_INFO_STREAM(name << ": " << c.packets << " packets, " << c.emitted << " columns, " << c.points
                               << " points");
@@ -133,6 +133,7 @@ void CMultiLidarSensor::logAccount() const
       MRPT_LOG_WARN_STREAM(name << ": " << c.lost << " columns lost on the wire, " << c.late << " late, " << c.dropped
                                 << " dropped, " << c.implausible << " with implausible stamps; " << c.malformed_packets
                                 << " packets malformed, " << c.bad_crc_packets << " with a wrong check sum");
+    if (of_other_senders > 0) MRPT_LOG_WARN_STREAM(name << ": " << of_other_senders << " packets of other senders");
   }
 }
 }  // namespace scanloom

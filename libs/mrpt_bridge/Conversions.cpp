@@ -22,7 +22,8 @@ mrpt::Clock::time_point toMrpt(Timestamp stamp)
 
 Timestamp fromMrpt(mrpt::Clock::time_point time)
 {
-  constexpr std::int64_t kMostTicks = std::numeric_limits<std::int64_t>::max() / kNanosecondsPerTick;
+  // Half of what fits: then no difference of two stamps overflows.
+  constexpr std::int64_t kMostTicks = std::numeric_limits<std::int64_t>::max() / kNanosecondsPerTick / 2;
   const auto ticks = std::clamp<std::int64_t>(time.time_since_epoch().count(), kTicksAtUnixEpoch - kMostTicks,
                                               kTicksAtUnixEpoch + kMostTicks);
   return fromNanoseconds((ticks - kTicksAtUnixEpoch) * kNanosecondsPerTick);

@@ -15,26 +15,29 @@ namespace
 constexpr std::size_t kLargestCall = 1 << 30;  // zlib counts in int
 }
 
-GzipArchive GzipArchive::reading(const std::filesystem::path& path) { return {path, "rb"}; }
+GzipArchive GzipArchive::reading(const std::filesystem::path& path) { return {path, gzopen(path.c_str(), "rb")}; }
 
 GzipArchive GzipArchive::writing(const std::filesystem::path& path, int level)
 {
-  return {path, fmt::format("wb{}", level)};
+  return {path, gzopen(path.c_str(), fmt::format("wb{}", level).c_str())};
+}
+
+GzipArchive GzipArchive::writing(int descriptor, const std::filesystem::path& path, int level)
+{
+  return {path, gzdopen(descriptor, fmt::format("wb{}", level).c_str())};
 }
 
 std::uint64_t GzipArchive::uncompressedBytes(const std::filesystem::path& path)
 {
-  GzipArchive archive(path, "rb");
+  GzipArchive archive = reading(path);
   std::vector<char> buffer(1 << 18);
   std::uint64_t bytes = 0;
-  for (int got; (got = gzread(archive.file_, buffer.data(), static_cast<unsigned>(buffer.size()))) != 0; bytes += got)
-    if (got < 0) archive.fail("the compressed data is damaged");
+  while (const std::size_t got = archive.readUpTo(buffer.data(), buffer.size())) bytes += got;
   archive.atEnd();
   return bytes;
 }
 
-GzipArchive::GzipArchive(const std::filesystem::path& path, const std::string& mode)
-  : path_(path), file_(gzopen(path.c_str(), mode.c_str()))
+GzipArchive::GzipArchive(const std::filesystem::path& path, gzFile opened) : path_(path), file_(opened)
 {
   if (!file_) throw std::runtime_error(fmt::format("{}: {}", path.string(), std::strerror(errno)));
   gzbuffer(file_, 1 << 18);
@@ -94,17 +97,24 @@ std::size_t GzipArchive::write(const void* bytes, std::size_t count)
   return count;
 }
 
-std::size_t GzipArchive::read(void* bytes, std::size_t count)
+std::size_t GzipArchive::readUpTo(void* bytes, std::size_t count)
 {
   auto* next = static_cast<char*>(bytes);
-  for (std::size_t left = count; left > 0;)
+  std::size_t left = count;
+  while (left > 0)
   {
     const int got = gzread(file_, next, static_cast<unsigned>(std::min(left, kLargestCall)));
     if (got < 0) fail("the compressed data is damaged");
-    if (got == 0) fail("the file ends within an object");
+    if (got == 0) break;
     next += got;
     left -= static_cast<std::size_t>(got);
   }
+  return count - left;
+}
+
+std::size_t GzipArchive::read(void* bytes, std::size_t count)
+{
+  if (readUpTo(bytes, count) < count) fail("the file ends within an object");
   return count;
 }
 

@@ -17,6 +17,8 @@ class GzipArchive : public mrpt::serialization::CArchive
   static GzipArchive reading(const std::filesystem::path&);
   /** Level 0 (stored) to 9. */
   static GzipArchive writing(const std::filesystem::path&, int level);
+  /** To an open file, whose descriptor the archive closes. @param path for messages. */
+  static GzipArchive writing(int descriptor, const std::filesystem::path& path, int level);
   /** Reads the file to its end. Throws std::runtime_error if it can't be opened, is cut short or damaged. */
   static std::uint64_t uncompressedBytes(const std::filesystem::path&);
 
@@ -26,6 +28,9 @@ class GzipArchive : public mrpt::serialization::CArchive
 
   /** Whether the file ends here. Throws std::runtime_error if it ends because it is cut or damaged. */
   bool atEnd();
+
+  /** Reads `count` bytes, or fewer if the file ends before. Throws std::runtime_error if its data are damaged. */
+  std::size_t readUpTo(void* bytes, std::size_t count);
 
   /** Compressed bytes, for a progress bar; ahead of the objects by up to one buffer. */
   std::uint64_t bytesRead() const;
@@ -45,7 +50,7 @@ class GzipArchive : public mrpt::serialization::CArchive
   std::size_t read(void* bytes, std::size_t count) override;
 
  private:
-  GzipArchive(const std::filesystem::path&, const std::string& mode);
+  GzipArchive(const std::filesystem::path&, gzFile opened);
   [[noreturn]] void fail(const std::string& what) const;
 
   std::filesystem::path path_;

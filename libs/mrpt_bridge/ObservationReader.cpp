@@ -4,14 +4,13 @@
 #include "mrpt_bridge/registerClasses.h"
 
 #include <fmt/format.h>
-#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <iterator>
 
 namespace scanloom
 {
-ObservationReader::ObservationReader(const std::filesystem::path& path) : archive_(GzipArchive::reading(path))
-{
-  registerClasses();
-}
+ObservationReader::ObservationReader(const std::filesystem::path& path) : archive_(path) { registerClasses(); }
 
 mrpt::obs::CObservation::Ptr ObservationReader::next()
 {
@@ -33,14 +32,28 @@ void ObservationReader::readObject()
     if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object))
       waiting_.push_back(observation);
     else if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
-      waiting_.insert(waiting_.end(), frame->begin(), frame->end());
+      takeFrame(*frame);
     else
       passed_over_++;
   }
   catch (const std::exception& e)
   {
-    ended_ = true;
-    damage_ = fmt::format("after {} objects: {}", objects_, messageIn(e.what()));
+    endBecause(archive_.refused().empty() ? messageIn(e.what()) : archive_.refused());
   }
+}
+
+/** An object of a frame that is no observation has become null. */
+void ObservationReader::takeFrame(const mrpt::obs::CSensoryFrame& frame)
+{
+  std::copy_if(frame.begin(), frame.end(), std::back_inserter(waiting_),
+               [](const auto& observation) { return observation != nullptr; });
+  passed_over_ += frame.size() - waiting_.size();
+}
+
+void ObservationReader::endBecause(const std::string& why)
+{
+  ended_ = true;
+  waiting_.clear();
+  damage_ = fmt::format("after {} objects: {}", objects_, why);
 }
 }  // namespace scanloom

@@ -1,7 +1,8 @@
 #pragma once
-#include "mrpt_bridge/GzipArchive.h"
+#include "mrpt_bridge/CountedArchive.h"
 
 #include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CSensoryFrame.h>
 
 #include <deque>
 #include <filesystem>
@@ -11,8 +12,8 @@ namespace scanloom
 {
 /**
  * The observations of a rawlog in the file's order: the objects of the observation format, or the contents of the
- * frames in the action/frame format. Reading ends where the file is damaged, cut, or has an object of an unknown class;
- * damage() then says why.
+ * frames in the action/frame format. Reading ends where the file is damaged, cut, or has an object of an unknown class
+ * or with more items than the file can hold; damage() then says why.
  */
 class ObservationReader
 {
@@ -26,6 +27,9 @@ class ObservationReader
   /** Empty if there is none so far. */
   const std::string& damage() const { return damage_; }
 
+  /** Ends reading for a reason that only the one who uses the observations sees; damage() then says it. */
+  void endBecause(const std::string& why);
+
   /** Compressed bytes. */
   std::uint64_t bytesRead() const { return archive_.bytesRead(); }
 
@@ -34,8 +38,9 @@ class ObservationReader
 
  private:
   void readObject();
+  void takeFrame(const mrpt::obs::CSensoryFrame&);
 
-  GzipArchive archive_;
+  CountedArchive archive_;
   std::deque<mrpt::obs::CObservation::Ptr> waiting_;
   std::size_t objects_ = 0;
   std::uint64_t passed_over_ = 0;

@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 namespace scanloom
 {
@@ -76,9 +78,18 @@ void takeField(const Field* field, Values& values)
   if (field) values.assign(field->begin(), field->end());
 }
 
+/** NaN becomes 0. */
 std::uint8_t reflectivity(float intensity)
 {
-  return static_cast<std::uint8_t>(std::lround(std::clamp(intensity, 0.f, 255.f)));
+  return static_cast<std::uint8_t>(std::lround(std::fmin(std::fmax(intensity, 0.f), 255.f)));
+}
+
+/** The nearest that fits; NaN becomes the least. */
+std::int32_t toNanoseconds(float t)
+{
+  using Limits = std::numeric_limits<std::int32_t>;
+  return static_cast<std::int32_t>(
+      std::lround(std::fmin(std::fmax(1e9 * static_cast<double>(t), Limits::min()), Limits::max())));
 }
 
 void takeFields(const CGenericPointsMap& map, PointCloud& points)
@@ -89,8 +100,7 @@ void takeFields(const CGenericPointsMap& map, PointCloud& points)
   takeField(map.getPointsBufferRef_uint16_field("column"), points.column);
   takeField(map.getPointsBufferRef_uint8_field("sensor_id"), points.sensor_id);
   if (const auto* t = map.getPointsBufferRef_float_field("t"))
-    for (std::size_t i = 0; i < points.size(); i++)
-      points.t[i] = static_cast<std::int32_t>(std::lround(1e9 * static_cast<double>((*t)[i])));
+    std::transform(t->begin(), t->end(), points.t.begin(), toNanoseconds);
 }
 
 void takeIntensity([[maybe_unused]] const CPointsMap& map, [[maybe_unused]] PointCloud& points)
@@ -119,13 +129,15 @@ void takePositions(const CPointsMap& map, const Rigid& body_T_sensor, PointCloud
   }
 }
 
+constexpr float kFarthestPoint = 1e5F;  // m, along an axis of the body: no lidar sees so far
+
 /** Longer than any measurement block, shorter than any turn: distinguishes two blocks of the same id. */
-constexpr std::int32_t kLongestBlock = 1'000'000;  // ns
+constexpr std::int64_t kLongestBlock = 1'000'000;  // ns
 
 std::vector<Column> columnsOf(const PointCloud& points, Timestamp start)
 {
   std::vector<Column> columns;
-  std::int32_t column_t = 0;
+  std::int64_t column_t = 0;
   for (std::size_t i = 0; i < points.size(); i++)
   {
     const bool same = !columns.empty() && columns.back().sensor_id == points.sensor_id[i] &&
@@ -148,7 +160,45 @@ std::vector<Column> columnsOf(const PointCloud& points, Timestamp start)
 
 Duration untilAfterTheLast(const Array<std::int32_t>& t)
 {
-  return t.empty() ? Duration{0} : Duration{*std::max_element(t.begin(), t.end()) + 1};
+  return t.empty() ? Duration{0} : Duration{*std::max_element(t.begin(), t.end())} + 1ns;
+}
+
+PointCloud pointsOf(const mrpt::obs::CObservationPointCloud& observation)
+{
+  PointCloud points;
+  observation.load();
+  const CPointsMap* map = observation.pointcloud.get();
+  if (!map) return points;
+  takePositions(*map, fromMrpt(observation.sensorPose), points);
+  if (const auto* generic = dynamic_cast<const CGenericPointsMap*>(map))
+    takeFields(*generic, points);
+  else
+    takeIntensity(*map, points);
+  return points;
+}
+
+/** MRPT reads bytes of the file as bools: a damaged one is neither true nor false, and must not be asked by has(). */
+bool isMeasured(const mrpt::obs::CObservationIMU& observation, mrpt::obs::TIMUDataIndex axis)
+{
+  std::uint8_t present = 0;
+  std::memcpy(&present, &observation.dataIsPresent[axis], sizeof present);
+  return present == 1 && std::isfinite(observation.rawMeasurements[axis]);
+}
+
+Scan scanOf(PointCloud points, Timestamp start, const std::optional<RecordingHeader>& header)
+{
+  Scan scan;
+  scan.start = start;
+  scan.points = std::move(points);
+  scan.columns = columnsOf(scan.points, scan.start);
+  scan.period = header ? header->period() : untilAfterTheLast(scan.points.t);
+  if (header) scan.columns_of.resize(header->lidars.size());
+  for (const Column& column : scan.columns)
+  {
+    if (column.sensor_id >= scan.columns_of.size()) scan.columns_of.resize(column.sensor_id + 1u);
+    scan.columns_of[column.sensor_id]++;
+  }
+  return scan;
 }
 }  // namespace
 
@@ -179,26 +229,22 @@ mrpt::obs::CObservationPointCloud::Ptr toObservation(const Scan& scan, CloudClas
 
 Scan fromObservation(const mrpt::obs::CObservationPointCloud& observation, const std::optional<RecordingHeader>& header)
 {
-  Scan scan;
-  scan.start = fromMrpt(observation.timestamp);
-  observation.load();
-  if (const CPointsMap* map = observation.pointcloud.get())
-  {
-    takePositions(*map, fromMrpt(observation.sensorPose), scan.points);
-    if (const auto* generic = dynamic_cast<const CGenericPointsMap*>(map))
-      takeFields(*generic, scan.points);
-    else
-      takeIntensity(*map, scan.points);
-  }
-  scan.columns = columnsOf(scan.points, scan.start);
-  scan.period = header ? header->period() : untilAfterTheLast(scan.points.t);
-  if (header) scan.columns_of.resize(header->lidars.size());
-  for (const Column& column : scan.columns)
-  {
-    if (column.sensor_id >= scan.columns_of.size()) scan.columns_of.resize(column.sensor_id + 1u);
-    scan.columns_of[column.sensor_id]++;
-  }
-  return scan;
+  return scanOf(pointsOf(observation), fromMrpt(observation.timestamp), header);
+}
+
+Scan measuredScan(const mrpt::obs::CObservationPointCloud& observation, const std::optional<RecordingHeader>& header)
+{
+  PointCloud points = pointsOf(observation);
+  removeImpossible(points);
+  return scanOf(std::move(points), fromMrpt(observation.timestamp), header);
+}
+
+void removeImpossible(PointCloud& points)
+{
+  std::vector<std::uint8_t> keep(points.size());
+  for (std::size_t i = 0; i < points.size(); i++)
+    keep[i] = (points.position(i).array().abs() < kFarthestPoint).all();  // false for NaN
+  if (std::find(keep.begin(), keep.end(), 0) != keep.end()) points.keep(keep);
 }
 
 mrpt::obs::CObservationIMU::Ptr toObservation(const ImuSample& sample, const Rigid& body_T_imu,
@@ -221,12 +267,13 @@ std::optional<RecordedImu> fromObservation(const mrpt::obs::CObservationIMU& obs
 {
   using namespace mrpt::obs;
   for (const auto axis : {IMU_X_ACC, IMU_Y_ACC, IMU_Z_ACC, IMU_WX, IMU_WY, IMU_WZ})
-    if (!observation.has(axis)) return std::nullopt;
+    if (!isMeasured(observation, axis)) return std::nullopt;
 
+  const auto& values = observation.rawMeasurements;
   RecordedImu imu;
   imu.sample.stamp = fromMrpt(observation.timestamp);
-  imu.sample.accel = {observation.get(IMU_X_ACC), observation.get(IMU_Y_ACC), observation.get(IMU_Z_ACC)};
-  imu.sample.gyro = {observation.get(IMU_WX), observation.get(IMU_WY), observation.get(IMU_WZ)};
+  imu.sample.accel = {values[IMU_X_ACC], values[IMU_Y_ACC], values[IMU_Z_ACC]};
+  imu.sample.gyro = {values[IMU_WX], values[IMU_WY], values[IMU_WZ]};
   imu.body_T_imu = fromMrpt(observation.sensorPose);
   imu.label = observation.sensorLabel;
   return imu;

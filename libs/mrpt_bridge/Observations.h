@@ -51,6 +51,12 @@ mrpt::obs::CObservationPointCloud::Ptr toObservation(const Scan&, CloudClass = C
  */
 Scan fromObservation(const mrpt::obs::CObservationPointCloud&, const std::optional<RecordingHeader>&);
 
+/** The same without the points that removeImpossible() removes, and without columns that lose all their points. */
+Scan measuredScan(const mrpt::obs::CObservationPointCloud&, const std::optional<RecordingHeader>&);
+
+/** Removes points that no lidar measures: not finite, or 100 km or more from the body along an axis. */
+void removeImpossible(PointCloud& points_in_body);
+
 struct RecordedImu
 {
   ImuSample sample;
@@ -62,7 +68,7 @@ struct RecordedImu
 mrpt::obs::CObservationIMU::Ptr toObservation(const ImuSample&, const Rigid& body_T_imu,
                                               const std::string& label = kImuLabel);
 
-/** Nothing if an axis of the accelerometer or the gyroscope is missing. */
+/** Nothing if an axis of the accelerometer or the gyroscope is missing or not finite. */
 std::optional<RecordedImu> fromObservation(const mrpt::obs::CObservationIMU&);
 
 /** The first object of a rawlog. */

@@ -2,6 +2,7 @@
 
 #include "config/Names.h"
 #include "core/ConfigError.h"
+#include "formats/SecondsText.h"
 #include "mrpt_bridge/RawlogReader.h"
 
 #include <fmt/format.h>
@@ -105,6 +106,7 @@ std::optional<SensorEvent> RawlogInput::read()
   {
     if (auto* recorded = std::get_if<RecordedScan>(&*event))
     {
+      if (!accepts(recorded->scan)) continue;
       ++scans_;
       return all_wanted_ ? std::move(recorded->scan) : keepLidars(std::move(recorded->scan), new_id_);
     }
@@ -117,6 +119,18 @@ std::optional<SensorEvent> RawlogInput::read()
     ++other_objects_;
   }
   return std::nullopt;
+}
+
+bool RawlogInput::accepts(const Scan& scan)
+{
+  const std::size_t lidars = reader_->header()->lidars.size();
+  if (scan.columns_of.size() <= lidars) return true;
+  if (refused_scans_++ == 0)
+    refusal_ = fmt::format(
+        "the scan at {} s has points of sensor_id {}, but the header names {} lidars: such scans are "
+        "left out",
+        secondsText(scan.start), scan.columns_of.size() - 1, lidars);
+  return false;
 }
 
 /** `imu` is the body's, `imu_<name>` a lidar's. */
@@ -132,13 +146,19 @@ std::optional<int> RawlogInput::sensorOf(const std::string& label) const
 RigAccount RawlogInput::account() const
 {
   RigAccount account;
-  account.input = {{"rawlog_scans", scans_}, {"rawlog_other_objects", other_objects_}};
+  account.input = {{"rawlog_scans", scans_},
+                   {"rawlog_other_objects", other_objects_},
+                   {"rawlog_scans_refused", refused_scans_},
+                   {kDamagedInputs, reader_->damage().empty() ? 0U : 1U}};
   return account;
 }
 
 std::vector<std::string> RawlogInput::takeWarnings()
 {
+  std::vector<std::string> warnings;
+  if (const std::string refusal = std::exchange(refusal_, ""); !refusal.empty()) warnings.push_back(refusal);
   const std::string told = std::exchange(damage_, reader_->damage());
-  return damage_ == told ? std::vector<std::string>() : std::vector<std::string>{damage_};
+  if (damage_ != told) warnings.push_back(damage_);
+  return warnings;
 }
 }  // namespace scanloom

@@ -35,6 +35,7 @@ class RawlogInput : public SensorInput
  private:
   void chooseLidars(const std::vector<std::string>& only);
   std::optional<SensorEvent> read();
+  bool accepts(const Scan&);
   std::optional<int> sensorOf(const std::string& label) const;
 
   std::unique_ptr<RawlogReader> reader_;
@@ -43,7 +44,9 @@ class RawlogInput : public SensorInput
   bool all_wanted_ = true;
   std::deque<SensorEvent> first_;  // read by the constructor
   std::uint64_t scans_ = 0, other_objects_ = 0;
-  std::string damage_;  // that takeWarnings() has given
+  std::uint64_t refused_scans_ = 0;  // with points of a lidar that the header does not name
+  std::string refusal_;              // of the first of them, until takeWarnings() gives it
+  std::string damage_;               // that takeWarnings() has given
   bool ended_ = false;
   std::atomic<bool> stop_{false};
 };

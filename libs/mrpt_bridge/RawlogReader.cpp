@@ -1,7 +1,13 @@
 #include "mrpt_bridge/RawlogReader.h"
 
+#include "config/MrptMessage.h"
 #include "mrpt_bridge/RecordingHeaderJson.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
 #include <utility>
 
 namespace scanloom
@@ -12,7 +18,7 @@ RecordedEvent eventOf(const mrpt::obs::CObservation::Ptr& observation, const std
 {
   if (isSlice(*observation)) return observation;
   if (const auto* cloud = dynamic_cast<const mrpt::obs::CObservationPointCloud*>(observation.get()))
-    return RecordedScan{fromObservation(*cloud, header), cloud->sensorLabel};
+    return RecordedScan{measuredScan(*cloud, header), cloud->sensorLabel};
   if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(observation.get()))
     if (auto recorded = fromObservation(*imu)) return *std::move(recorded);
   return observation;
@@ -37,7 +43,7 @@ std::optional<RecordedEvent> RawlogReader::next()
   {
     const auto observation = first_ ? std::exchange(first_, nullptr) : observations_.next();
     if (observation)
-      take(eventOf(observation, header_));
+      takeSound(observation);
     else if (held_.empty())
       return std::nullopt;
     else
@@ -48,11 +54,25 @@ std::optional<RecordedEvent> RawlogReader::next()
   return event;
 }
 
+void RawlogReader::takeSound(const mrpt::obs::CObservation::Ptr& observation)
+{
+  try
+  {
+    take(eventOf(observation, header_));
+  }
+  catch (const std::exception& e)  // of MRPT, too: a cloud in a file of its own that cannot be read
+  {
+    observations_.endBecause(
+        fmt::format("an observation of '{}' is damaged: {}", observation->sensorLabel, messageIn(e.what())));
+  }
+}
+
 void RawlogReader::take(RecordedEvent event)
 {
   if (auto* scan = std::get_if<RecordedScan>(&event))
   {
     releaseScansUntil(scan->scan.start);
+    releaseScansOf(scan->label);
     held_.push_back(std::move(*scan));
     return;
   }
@@ -60,10 +80,18 @@ void RawlogReader::take(RecordedEvent event)
   released_.push_back(std::move(event));
 }
 
-/** Scans of one label do not overlap: the one that was held first ends first. */
 void RawlogReader::releaseScansUntil(Timestamp stamp)
 {
   for (; !held_.empty() && held_.front().scan.end() <= stamp; held_.pop_front())
     released_.emplace_back(std::move(held_.front()));
+}
+
+/** Scans of one label do not overlap. Without this, one stamp far ahead would hold back all that follows. */
+void RawlogReader::releaseScansOf(const std::string& label)
+{
+  const auto over =
+      std::stable_partition(held_.begin(), held_.end(), [&](const RecordedScan& scan) { return scan.label != label; });
+  std::move(over, held_.end(), std::back_inserter(released_));
+  held_.erase(over, held_.end());
 }
 }  // namespace scanloom

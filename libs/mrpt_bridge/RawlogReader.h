@@ -24,7 +24,7 @@ using RecordedEvent = std::variant<RecordedScan, RecordedImu, OtherObservation>;
 /**
  * A rawlog event by event. In the file a scan comes before the IMU samples of its period, because rawlog-grabber sorts
  * by stamp and a scan's stamp is its start. Here it comes after them, as from the batcher. A damaged file is read up to
- * the damage, and damage() then says what and where.
+ * the damage, and damage() then says what and where. Points that no lidar measures are left out (measuredScan).
  */
 class RawlogReader
 {
@@ -41,8 +41,10 @@ class RawlogReader
   const std::string& damage() const { return observations_.damage(); }
 
  private:
+  void takeSound(const mrpt::obs::CObservation::Ptr&);
   void take(RecordedEvent);
   void releaseScansUntil(Timestamp);
+  void releaseScansOf(const std::string& label);
 
   ObservationReader observations_;
   std::optional<RecordingHeader> header_;

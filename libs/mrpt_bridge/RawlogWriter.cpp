@@ -9,11 +9,11 @@
 namespace scanloom
 {
 RawlogWriter::RawlogWriter(const std::filesystem::path& path, RecordingHeader header, const RawlogOptions& options)
-  : path_(path),
-    part_(path.string() + ".part"),
+  : file_(path),
     options_(options),
     header_(std::move(header)),
-    archive_(std::make_unique<GzipArchive>(GzipArchive::writing(part_, options.compression_level)))
+    archive_(std::make_unique<GzipArchive>(
+        GzipArchive::writing(file_.descriptor(), file_.part(), options.compression_level)))
 {
 }
 
@@ -36,12 +36,12 @@ void RawlogWriter::secure()
   unsecured_ = false;
 }
 
-void RawlogWriter::close()
+std::filesystem::path RawlogWriter::close(Completeness completeness)
 {
   writeHeaderOnce(fromNanoseconds(0));
   archive_->close();
   archive_.reset();
-  std::filesystem::rename(part_, path_);
+  return file_.commit(completeness);
 }
 
 void RawlogWriter::writeHeaderOnce(Timestamp stamp)

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/PartFile.h"
 #include "rig/RecordingHeader.h"
 
 #include <mrpt/obs/obs_frwds.h>
@@ -20,8 +21,8 @@ struct RawlogOptions
 };
 
 /**
- * A rawlog in the observation format, header first. Objects are written to `<path>.part`, which close() renames to
- * `path`: a file of that name is always complete. An older file is replaced.
+ * A rawlog in the observation format, header first. Objects are written to `<path>.part` (PartFile), which close()
+ * renames to `path`. An older file is replaced then.
  *
  * Without close(), for example after an exception, `<path>.part` remains; it is readable up to its last object. Throws
  * std::runtime_error with the file's name if it cannot be written.
@@ -37,14 +38,16 @@ class RawlogWriter
   /** Passes objects older than `safe_every` to the operating system. Call it also while there is nothing to write. */
   void secure();
 
-  /** Also writes the header if nothing else was written. */
-  void close();
+  /** Where an earlier recording that did not end was moved to; empty: there was none. */
+  const std::filesystem::path& earlierPart() const { return file_.earlier(); }
+
+  /** Also writes the header if nothing else was written. @return the file's name: a partial one replaces no other. */
+  std::filesystem::path close(Completeness = Completeness::Whole);
 
  private:
   void writeHeaderOnce(Timestamp);
 
-  std::filesystem::path path_;
-  std::filesystem::path part_;
+  PartFile file_;
   RawlogOptions options_;
   std::optional<RecordingHeader> header_;  // until it is written: its stamp is that of the first object
   std::unique_ptr<GzipArchive> archive_;   // until close()

@@ -1,5 +1,7 @@
 #include "mrpt_bridge/RecordingHeaderJson.h"
 
+#include "batching/Scan.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +12,7 @@ namespace
 using nlohmann::json;
 
 constexpr const char* kRecordedRate = "recorded_scan_rate";
+constexpr double kFarthestLidar = 1e4;  // m
 
 json toRows(const Eigen::Matrix4d& m)
 {
@@ -26,6 +29,20 @@ Eigen::Matrix4d fromRows(const json& rows)
   return m;
 }
 
+[[noreturn]] void refuse(const std::string& why)
+{
+  throw std::invalid_argument(fmt::format("the rawlog's header (first comment, JSON) is damaged: {}", why));
+}
+
+/** 0: unknown. */
+double rateFrom(const char* key, double rate)
+{
+  constexpr double kLeast = 0.1, kMost = 1000;  // Hz, as of BatcherOptions
+  if (rate != 0 && !(rate >= kLeast && rate <= kMost))
+    refuse(fmt::format("{} = {} Hz: must be {} to {}, or 0 if it is unknown", key, rate, kLeast, kMost));
+  return rate;
+}
+
 RecordedLidar lidarFromJson(const json& j)
 {
   RecordedLidar lidar;
@@ -33,6 +50,8 @@ RecordedLidar lidarFromJson(const json& j)
   lidar.serial = j.at("serial").get<std::string>();
   lidar.model = j.at("model").get<std::string>();
   lidar.body_T_sensor = Rigid::fromMatrix(fromRows(j.at("body_T_sensor")));
+  if (!(lidar.body_T_sensor.translation.norm() <= kFarthestLidar))
+    refuse(fmt::format("lidar '{}' is more than {} m from the body", lidar.name, kFarthestLidar));
   lidar.beams = j.at("beams").get<int>();
   lidar.columns = j.at("columns").get<int>();
   lidar.clock = j.at("clock").get<std::string>();
@@ -81,14 +100,16 @@ std::optional<RecordingHeader> recordingHeaderFromJson(const std::string& text)
     const json& content = document.at("scanloom");
     RecordingHeader header;
     header.version = content.at("version").get<std::string>();
-    header.scan_rate = content.at("scan_rate").get<double>();
-    header.recorded_rate = content.value(kRecordedRate, 0.0);
+    header.scan_rate = rateFrom("scan_rate", content.at("scan_rate").get<double>());
+    header.recorded_rate = rateFrom(kRecordedRate, content.value(kRecordedRate, 0.0));
     for (const json& lidar : content.at("lidars")) header.lidars.push_back(lidarFromJson(lidar));
+    if (header.lidars.size() > kMostLidars)
+      refuse(fmt::format("{} lidars: must be at most {}", header.lidars.size(), kMostLidars));
     return header;
   }
   catch (const json::exception& e)
   {
-    throw std::invalid_argument(fmt::format("the rawlog's header (first comment, JSON) is damaged: {}", e.what()));
+    refuse(e.what());
   }
 }
 }  // namespace scanloom

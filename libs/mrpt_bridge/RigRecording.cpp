@@ -20,7 +20,6 @@ Recorded recordRig(SensorInput& input, const DriverOptions& options, RawlogWrite
     writer.secure();
     if (!keep_recording(recorded)) input.stop();
   }
-  writer.close();
   return recorded;
 }
 }  // namespace scanloom

@@ -18,6 +18,6 @@ struct Recorded
  */
 using KeepRecording = std::function<bool(const Recorded&)>;
 
-/** Writes all scans and IMU samples of the input and closes the rawlog. Throws what the input and the writer throw. */
+/** Writes all scans and IMU samples of the input; the caller closes the rawlog. Throws what both of them throw. */
 Recorded recordRig(SensorInput&, const DriverOptions&, RawlogWriter&, const KeepRecording&);
 }  // namespace scanloom

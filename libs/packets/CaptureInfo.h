@@ -24,7 +24,9 @@ struct CaptureStream
 struct DecodedCapture
 {
   LidarDescription lidar;
-  std::map<std::string, std::uint64_t> packets;  // by kind: "lidar", "imu", "other", "malformed", "bad_crc", "foreign"
+  // By kind: "lidar", "imu", "other", "malformed", "bad_crc", "foreign"; "imu_of_several": neither serial number nor
+  // address tell which of the lidars has sent it.
+  std::map<std::string, std::uint64_t> packets;
   std::uint64_t valid_blocks = 0, invalid_blocks = 0;
   std::uint64_t imu_samples = 0;
   Timestamp first, last;                                    // sensor time of valid blocks

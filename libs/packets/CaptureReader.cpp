@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdio>
 #include <stdexcept>
+#include <utility>
 
 namespace scanloom
 {
@@ -40,6 +41,8 @@ pcap* open(const std::filesystem::path& path)
 
 CaptureCounters operator+(const CaptureCounters& a, const CaptureCounters& b)
 {
+  std::vector<std::string> damages = a.damages;
+  damages.insert(damages.end(), b.damages.begin(), b.damages.end());
   return {a.records + b.records,
           a.datagrams + b.datagrams,
           a.fragments_joined + b.fragments_joined,
@@ -47,7 +50,8 @@ CaptureCounters operator+(const CaptureCounters& a, const CaptureCounters& b)
           a.not_udp + b.not_udp,
           a.cut_short + b.cut_short,
           a.malformed + b.malformed,
-          a.truncated || b.truncated};
+          a.truncated || b.truncated,
+          std::move(damages)};
 }
 
 void CaptureReader::Close::operator()(pcap* capture) const { pcap_close(capture); }
@@ -104,7 +108,7 @@ double CaptureReader::progress() const
 
 bool CaptureReader::nextRecord()
 {
-  if (counters_.truncated) return false;
+  if (counters_.truncated || !counters_.damages.empty()) return false;
   pcap_pkthdr* record = nullptr;
   const int outcome = pcap_next_ex(capture_.get(), &record, &frame_);
   record_ = record;
@@ -112,11 +116,12 @@ bool CaptureReader::nextRecord()
   if (outcome == PCAP_ERROR_BREAK) return false;
 
   const std::string error = pcap_geterr(capture_.get());
-  if (!saysTruncated(error))
-    throw std::runtime_error(
+  if (saysTruncated(error))
+    counters_.truncated = true;
+  else
+    counters_.damages.push_back(
         fmt::format("{}: damaged after record {}: {}; 'editcap -r {} good.pcap 1-{}' keeps the part before",
                     path_.string(), counters_.records, error, path_.string(), counters_.records));
-  counters_.truncated = true;
   return false;
 }
 

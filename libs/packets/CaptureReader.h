@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 struct pcap;
 struct pcap_pkthdr;
@@ -22,6 +24,7 @@ struct CaptureCounters
   std::uint64_t cut_short = 0;          // records that were captured incompletely (snap length)
   std::uint64_t malformed = 0;          // records with contradicting lengths or an impossible stamp
   bool truncated = false;               // the file ends inside a record; all before it was delivered
+  std::vector<std::string> damages;     // where a file is damaged, and how to mend it; all before it was delivered
 };
 
 CaptureCounters operator+(const CaptureCounters&, const CaptureCounters&);
@@ -38,7 +41,7 @@ class CaptureReader
 
   /**
    * Replaces `datagram` by the next one, reusing its memory; false at the end of the file. A joined datagram gets the
-   * stamp of the fragment that completed it. Throws std::runtime_error if the file is damaged; a missing end is none.
+   * stamp of the fragment that completed it. A damaged file ends before the damage, which the counters tell.
    */
   bool next(Datagram& datagram);
 

@@ -21,7 +21,8 @@ std::string toJson(const CaptureInfo& info)
                  {"not_udp", c.not_udp},
                  {"cut_short", c.cut_short},
                  {"malformed", c.malformed},
-                 {"truncated", c.truncated}};
+                 {"truncated", c.truncated},
+                 {"damage", fmt::format("{}", fmt::join(c.damages, "; "))}};
   result["streams"] = json::array();
   for (const CaptureStream& s : info.streams)
     result["streams"].push_back({{"source", s.source.text()},
@@ -56,6 +57,7 @@ std::string toText(const CaptureInfo& info)
       "{} records: {} datagrams ({} joined from fragments), {} incomplete, {} not UDP, {} cut short, {} malformed{}\n",
       c.records, c.datagrams, c.fragments_joined, c.fragments_expired, c.not_udp, c.cut_short, c.malformed,
       c.truncated ? "; the file ends inside a record" : "");
+  for (const std::string& damage : c.damages) text += damage + '\n';
   for (const CaptureStream& s : info.streams)
     text += fmt::format("  {:>15} -> port {:<5}  {:>8} datagrams of {} to {} bytes in {:.3f} s\n", s.source.text(),
                         s.destination_port, s.datagrams, s.smallest, s.largest, seconds(s.last - s.first));

@@ -10,7 +10,7 @@ class MergedCaptures
   /** Throws as CaptureReader does, and std::invalid_argument if there is no file. */
   explicit MergedCaptures(const std::vector<std::filesystem::path>&);
 
-  /** Replaces `datagram` by the next one; false at the end of all files. Throws as CaptureReader::next. */
+  /** Replaces `datagram` by the next one; false at the end of all files. A damaged file ends, the others go on. */
   bool next(Datagram& datagram);
 
   CaptureCounters counters() const;
@@ -28,6 +28,6 @@ class MergedCaptures
   static void readOn(Input&);
 
   std::vector<Input> inputs_;
-  std::optional<std::size_t> taken_;  // input to read from at the next call: an error then loses no datagram
+  std::optional<std::size_t> taken_;  // input to read from at the next call
 };
 }  // namespace scanloom

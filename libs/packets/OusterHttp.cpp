@@ -1,12 +1,13 @@
 #include "packets/OusterHttp.h"
 
+#include "core/printable.h"
+#include "lidar/OusterMetadata.h"
+
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
-
-#include "lidar/OusterMetadata.h"
+#include <nlohmann/json.hpp>
 
 namespace scanloom
 {
@@ -48,7 +49,7 @@ json parsed(const SensorHttp& sensor, const std::string& endpoint, const std::st
 std::string textOf(const json& object, const char* key)
 {
   const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string{};
+  return found != object.end() && found->is_string() ? printable(found->get<std::string>()) : std::string{};
 }
 
 /** "ousteros-image-prod-aries-v2.3.0+20220415163956" -> "2.3.0"; empty if there is no version. */

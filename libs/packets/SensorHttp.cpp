@@ -1,5 +1,8 @@
 #include "packets/SensorHttp.h"
 
+#include "core/printable.h"
+#include "packets/bytesReceived.h"
+
 #include <fmt/format.h>
 #include <httplib.h>
 
@@ -17,15 +20,18 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kOk = 200, kNotFound = 404, kMethodNotAllowed = 405;
 
+// Beside the answer itself.
+constexpr std::uint64_t kMostBytesOfHeaders = 64 * 1024;
+
+// How often it is looked at how much has been received.
+constexpr auto kLook = 5ms;
+
 // The text of an error answer is shown up to this length.
 constexpr std::size_t kShownOfAnError = 120;
 
-std::string shown(std::string text)
+std::string shown(const std::string& text)
 {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e) c = ' ';
-  if (text.size() > kShownOfAnError) text = text.substr(0, kShownOfAnError) + "...";
-  return text;
+  return printable(text.size() > kShownOfAnError ? text.substr(0, kShownOfAnError) + "..." : text);
 }
 
 /** Writing to a connection that was just closed raises SIGPIPE, which would end the program: blocks it in this thread.
@@ -56,19 +62,23 @@ class BrokenPipesAreErrors
 
 /**
  * The library limits the time of single reads only: with a sensor that sends a byte per second a request would take
- * hours. So a thread closes the connection when the time is over.
+ * hours. Nor does it limit how many headers it stores. So a thread closes the connection when the time is over, or when
+ * more was received than an answer may have.
  */
 class SensorHttp::Connection
 {
  public:
-  Connection(const SensorAddress& address, Duration time)
-    : client_(address.ip.text(), address.port), deadline_(Clock::now() + time)
+  Connection(const SensorAddress& address, const SensorHttpLimits& limits)
+    : client_(address.ip.text(), address.port),
+      deadline_(Clock::now() + limits.time),
+      most_bytes_(limits.bytes + kMostBytesOfHeaders)
   {
     client_.set_keep_alive(true);
     client_.set_follow_location(false);
     client_.set_url_encode(false);  // it would encode the '+' of set_config_param as %2B
     client_.set_tcp_nodelay(true);
-    watch_ = std::thread([this] { cutAtTheDeadline(); });
+    client_.set_socket_options([this](int socket) { look(socket); });
+    watch_ = std::thread([this] { cutAtTheLimits(); });
   }
 
   ~Connection()
@@ -90,8 +100,24 @@ class SensorHttp::Connection
     client_.set_connection_timeout(left);
     client_.set_read_timeout(left + 1s);  // longer than `left`, so that it is always our thread that ends the request
     client_.set_write_timeout(left + 1s);
+    {
+      const std::lock_guard lock(mutex_);
+      received_before_ = bytesReceived(socket_);
+      is_asking_ = true;
+    }
+    changed_.notify_all();
     const BrokenPipesAreErrors guard;
-    return client_.send(request);
+    httplib::Result result = client_.send(request);
+    const std::lock_guard lock(mutex_);
+    is_asking_ = false;
+    return result;
+  }
+
+  /** More than the answer to the latest request may have. */
+  bool isTooLarge() const
+  {
+    const std::lock_guard lock(mutex_);
+    return is_too_large_;
   }
 
   bool expired() const { return remaining() <= Clock::duration::zero(); }
@@ -106,20 +132,29 @@ class SensorHttp::Connection
   }
 
  private:
+  /** From here on it is this socket's answer that is limited. */
+  void look(int socket)
+  {
+    const std::lock_guard lock(mutex_);
+    socket_ = socket;
+    received_before_ = 0;
+  }
+
   Clock::duration remaining() const
   {
     const std::lock_guard lock(mutex_);
     return deadline_ == Clock::time_point::min() ? Clock::duration::zero() : deadline_ - Clock::now();
   }
 
-  void cutAtTheDeadline()
+  void cutAtTheLimits()
   {
     std::unique_lock lock(mutex_);
     while (!done_)
     {
-      if (Clock::now() < deadline_)
+      is_too_large_ |= is_asking_ && bytesReceived(socket_) > received_before_ + most_bytes_;
+      if (Clock::now() < deadline_ && !is_too_large_)
       {
-        changed_.wait_until(lock, deadline_);
+        changed_.wait_until(lock, is_asking_ ? std::min(deadline_, Clock::now() + kLook) : deadline_);
         continue;
       }
       // Repeatedly: a request that was just about to be sent may open its connection after the first time.
@@ -134,12 +169,16 @@ class SensorHttp::Connection
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Clock::time_point deadline_;
+  std::uint64_t most_bytes_;
+  int socket_ = -1;
+  std::uint64_t received_before_ = 0;  // the request under way
+  bool is_asking_ = false, is_too_large_ = false;
   bool done_ = false;
   std::thread watch_;
 };
 
 SensorHttp::SensorHttp(const SensorAddress& address, const SensorHttpLimits& limits)
-  : address_(address), limits_(limits), connection_(std::make_unique<Connection>(address, limits.time))
+  : address_(address), limits_(limits), connection_(std::make_unique<Connection>(address, limits))
 {
 }
 
@@ -191,7 +230,7 @@ std::optional<std::string> SensorHttp::request(const char* method, const std::st
   };
 
   const httplib::Result result = connection_->send(asked);
-  if (result.error() == httplib::Error::Canceled)
+  if (result.error() == httplib::Error::Canceled || connection_->isTooLarge())
     throw fail(SensorFault::TooLarge,
                fmt::format("the answer has more than {} bytes: this is no sensor's metadata", limits_.bytes));
   if (result.error() != httplib::Error::Success && connection_->expired()) throw timedOut();

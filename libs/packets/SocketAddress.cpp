@@ -1,11 +1,11 @@
 #include "packets/SocketAddress.h"
 
+#include "packets/FileDescriptor.h"
+
 #include <netinet/in.h>
 
 #include <cstddef>
 #include <cstring>
-
-#include "packets/FileDescriptor.h"
 
 namespace scanloom
 {

@@ -41,6 +41,15 @@ struct CropOptions
               "boxes in the frame of one lidar whose inside is removed, for what it sees of its own mount: NAME x0 y0 "
               "z0 x1 y1 z1 in m, several separated by commas"});
   }
+
+  template <typename Self, typename Visitor>
+  static void order(const Self& o, Visitor&& visit)
+  {
+    visit("min_x", o.min_x, "max_x", o.max_x);
+    visit("min_y", o.min_y, "max_y", o.max_y);
+    visit("min_z", o.min_z, "max_z", o.max_z);
+    visit("min_range", o.min_range, "max_range", o.max_range);
+  }
 };
 
 /** Points of a lidar by what removed them. Each is counted once, by the first reason that applies. */

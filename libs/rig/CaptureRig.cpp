@@ -1,11 +1,11 @@
 #include "rig/CaptureRig.h"
 
+#include "lidar/LidarModels.h"
+#include "packets/MergedCaptures.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "lidar/LidarModels.h"
-#include "packets/MergedCaptures.h"
 
 namespace scanloom
 {
@@ -31,6 +31,8 @@ Rig captureRig(const std::vector<std::filesystem::path>& captures, const std::ve
   rig.captures = captures;
   for (const std::string& file : metadata_files)
     rig.lidars.push_back({std::filesystem::path(file).stem().string(), makeDecoder(file, Rigid::identity())});
+
+  refuseOneSensorTwice(rig);
 
   std::vector<CountByPort> lidar_packets(rig.lidars.size()), imu_packets(rig.lidars.size());
   MergedCaptures datagrams(captures);

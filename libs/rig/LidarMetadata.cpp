@@ -1,13 +1,13 @@
 #include "rig/LidarMetadata.h"
 
-#include <fmt/format.h>
-
-#include <future>
-
 #include "core/ConfigError.h"
 #include "lidar/MetadataKeys.h"
 #include "packets/OusterHttp.h"
 #include "packets/SocketAddress.h"
+
+#include <fmt/format.h>
+
+#include <future>
 
 namespace scanloom
 {

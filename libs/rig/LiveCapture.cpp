@@ -1,5 +1,7 @@
 #include "rig/LiveCapture.h"
 
+#include "core/NewFile.h"
+
 #include <fmt/format.h>
 #include <pthread.h>
 
@@ -20,7 +22,7 @@ constexpr auto kPortion = 50ms;
 
 std::filesystem::path newFile(const std::filesystem::path& path)
 {
-  if (std::filesystem::exists(path))
+  if (isTaken(path))  // also a link, which would be followed
     throw std::runtime_error(fmt::format("{} exists: give another pcap_output, or move it away", path.string()));
   return path;
 }

@@ -1,12 +1,13 @@
 #include "rig/LiveSensors.h"
 
+#include "core/AtomicFile.h"
+#include "core/fileNameOf.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <ostream>
 #include <utility>
-
-#include "core/AtomicFile.h"
 
 namespace scanloom
 {
@@ -43,7 +44,7 @@ void LiveSensors::saveMetadata(Lidar& lidar)
   if (capture_.empty()) return;
   const std::string number = ++lidar.saved > 1 ? fmt::format(".{}", lidar.saved) : "";
   std::filesystem::path file = capture_;
-  file.replace_extension(fmt::format(".{}{}.json", lidar.name, number));
+  file.replace_extension(fmt::format(".{}{}.json", fileNameOf(lidar.name), number));
   try
   {
     writeAtomically(file, [&](std::ostream& out) { out << lidar.sensor.metadata->text << '\n'; });

@@ -12,6 +12,7 @@ namespace scanloom
 namespace
 {
 constexpr std::size_t kMostOrigins = 1000;
+constexpr std::size_t kMostStrangersTold = 20;
 
 /** How badly a decoder understands a packet: only the candidates that understand it best are kept. */
 int strangeness(PacketKind kind)
@@ -49,9 +50,10 @@ void refuseWithoutPort(const std::string& label, const LidarAddress& address)
 }
 }  // namespace
 
-PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars) : lidars_(std::move(lidars))
+PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars)
+  : lidars_(std::move(lidars)), senders_(lidars_.size()), of_other_senders_(lidars_.size(), 0)
 {
-  for (const RoutedLidar& lidar : lidars_) refuseWithoutPort(lidar.label, lidar.address);
+  for (LidarIndex i = 0; i < lidars_.size(); ++i) replace(i, lidars_[i].address, lidars_[i].decoder);
 }
 
 void PacketRouter::replace(LidarIndex lidar, const LidarAddress& address, const PacketDecoder* decoder)
@@ -59,15 +61,52 @@ void PacketRouter::replace(LidarIndex lidar, const LidarAddress& address, const 
   refuseWithoutPort(lidars_[lidar].label, address);
   lidars_[lidar].address = address;
   lidars_[lidar].decoder = decoder;
+  if (decoder) senders_[lidar].emplace(decoder->description());
 }
 
 std::optional<RoutedPacket> PacketRouter::route(const DatagramView& datagram)
 {
-  if (const std::optional<Candidate> sender = decide(datagram))
-    return readPacket(sender->lidar, *lidars_[sender->lidar].decoder, sender->kind, datagram.payload,
-                      datagram.received);
-  ++unmatched_[countedOrigin(datagram)];
-  return std::nullopt;
+  const std::optional<Candidate> lidar = decide(datagram);
+  const LidarSender::Verdict sender = lidar ? judgeSender(*lidar, datagram) : LidarSender::Verdict::Refused;
+  if (sender == LidarSender::Verdict::Refused)
+  {
+    ++unmatched_[countedOrigin(datagram)];
+    return std::nullopt;
+  }
+  RoutedPacket packet =
+      readPacket(lidar->lidar, *lidars_[lidar->lidar].decoder, lidar->kind, datagram.payload, datagram.received);
+  packet.of_new_sender = sender == LidarSender::Verdict::TakesOver;
+  return packet;
+}
+
+/** Packets that are not understood are counted for the lidar whoever sends them. */
+LidarSender::Verdict PacketRouter::judgeSender(const Candidate& candidate, const DatagramView& datagram)
+{
+  LidarSender& sender = *senders_[candidate.lidar];
+  const std::optional<IpAddress> kept = sender.address();
+  LidarSender::Verdict verdict = LidarSender::Verdict::Kept;
+  if (candidate.kind == PacketKind::Lidar) verdict = sender.judge(datagram.source, datagram.received);
+  if (candidate.kind == PacketKind::Imu && kept && *kept != datagram.source) verdict = LidarSender::Verdict::Refused;
+  if (verdict == LidarSender::Verdict::Kept) return verdict;
+  of_other_senders_[candidate.lidar] += verdict == LidarSender::Verdict::Refused;
+  warnOfSender(candidate.lidar, datagram.source, *kept, verdict);
+  return verdict;
+}
+
+void PacketRouter::warnOfSender(LidarIndex lidar, const IpAddress& source, const IpAddress& kept,
+                                LidarSender::Verdict verdict)
+{
+  const bool is_told = strangers_.size() >= kMostStrangersTold || !strangers_.emplace(lidar, source).second;
+  if (verdict == LidarSender::Verdict::Refused && !is_told)
+    warnings_.push_back(fmt::format(
+        "lidar '{}': {} sends packets like those of {}, at port {}: they are left out and counted; give the lidar its "
+        "key 'address' (the sensor's own IP address)",
+        lidars_[lidar].label, source.text(), kept.text(), lidars_[lidar].address.lidar_port));
+  if (verdict == LidarSender::Verdict::TakesOver)
+    warnings_.push_back(
+        fmt::format("lidar '{}': its packets come from {} now, no longer from {}; if that is not the lidar, give the "
+                    "lidar its key 'address' (the sensor's own IP address)",
+                    lidars_[lidar].label, source.text(), kept.text()));
 }
 
 /** A network can have more senders than memory should be spent on. */
@@ -80,17 +119,10 @@ Origin PacketRouter::countedOrigin(const DatagramView& datagram) const
 std::optional<PacketRouter::Candidate> PacketRouter::decide(const DatagramView& datagram)
 {
   Candidates best = bestOf(listenersTo(datagram), datagram.payload);
-  if (best.size() == 1)
-  {
-    if (best.front().kind == PacketKind::Lidar) lidars_at_[datagram.source].insert(best.front().lidar);
-    return best.front();
-  }
-  if (best.empty()) return std::nullopt;
-
-  best = fromKnownSource(best, datagram.source);
+  if (best.size() > 1) best = fromKnownSource(best, datagram.source);
   if (best.size() == 1) return best.front();
   if (std::any_of(best.begin(), best.end(), [](const Candidate& c) { return c.kind == PacketKind::Lidar; }))
-    throw ambiguous(datagram, best);
+    warnOfAmbiguity(datagram, best);
   return std::nullopt;
 }
 
@@ -132,21 +164,23 @@ PacketRouter::Candidates PacketRouter::bestOf(Candidates candidates, Bytes packe
 /** Those that have sent from this address before; all if none has. */
 PacketRouter::Candidates PacketRouter::fromKnownSource(const Candidates& candidates, const IpAddress& source) const
 {
-  const auto known = lidars_at_.find(source);
-  if (known == lidars_at_.end()) return candidates;
   Candidates from_there;
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(from_there),
-               [&](const Candidate& c) { return known->second.count(c.lidar) > 0; });
+               [&](const Candidate& c) { return senders_[c.lidar]->address() == source; });
   return from_there.empty() ? candidates : from_there;
 }
 
-std::runtime_error PacketRouter::ambiguous(const DatagramView& datagram, const Candidates& candidates) const
+/** One damaged packet must not end a run, and where all are ambiguous the lidars are silent: that is told at the end.
+ */
+void PacketRouter::warnOfAmbiguity(const DatagramView& datagram, const Candidates& candidates)
 {
+  if (!ambiguous_ports_.insert(datagram.destination_port).second) return;
   std::vector<std::string> labels;
   for (const Candidate& candidate : candidates) labels.push_back(lidars_[candidate.lidar].label);
-  return std::runtime_error(fmt::format(
-      "lidar packet from {} at port {} may be of '{}': it holds no serial number; give each of these lidars its "
-      "key 'address' (the sensor's own IP address) or a 'port' of its own",
+  warnings_.push_back(fmt::format(
+      "a lidar packet from {} at port {} may be of '{}': it holds no serial number, and is left out and counted, as "
+      "all "
+      "like it; give each of these lidars its key 'address' (the sensor's own IP address) or a 'port' of its own",
       datagram.source.text(), datagram.destination_port, fmt::join(labels, "' or '")));
 }
 }  // namespace scanloom

@@ -1,13 +1,14 @@
 #pragma once
 #include "batching/RoutedPacket.h"
 #include "packets/Datagram.h"
+#include "rig/LidarSender.h"
 
 #include <map>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace scanloom
@@ -45,8 +46,9 @@ struct Origin
 
 /**
  * Decides which lidar has sent a datagram, and classifies and reads it once. Tests go from cheap to dear: port and
- * configured source address; size, type and serial number; the checksum, for the lidars that are left; and last, where
- * several could have sent it, the source addresses of lidar packets that only one could have sent.
+ * configured source address; size, type and serial number; the checksum, for the lidars that are left; and last the
+ * source address: where several could have sent it, and against strangers that copy a lidar's serial number (see
+ * LidarSender).
  */
 class PacketRouter
 {
@@ -54,11 +56,7 @@ class PacketRouter
   /** Throws std::invalid_argument if a lidar has no lidar_port. */
   explicit PacketRouter(std::vector<RoutedLidar> lidars);
 
-  /**
-   * None for a datagram that no lidar has sent, and for an IMU packet without serial number that several could have
-   * sent. Throws std::runtime_error for a lidar packet that several could have sent: only the configuration can tell
-   * them apart.
-   */
+  /** None for a datagram that no lidar has sent, that several could have sent, or that comes from a second sender. */
   std::optional<RoutedPacket> route(const DatagramView&);
 
   /** From here on the lidar sends to this address, in this decoder's format. Throws as the constructor does. */
@@ -66,6 +64,12 @@ class PacketRouter
 
   /** Datagrams that were given to no lidar. Origins beyond the first 1000 are counted under port 0 of no address. */
   const std::map<Origin, std::uint64_t>& unmatched() const { return unmatched_; }
+
+  /** Those of them that were like this lidar's, but came from another address than its own. */
+  std::uint64_t ofOtherSenders(LidarIndex lidar) const { return of_other_senders_[lidar]; }
+
+  /** What a person should know and mend in the configuration, since the last call. */
+  std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
 
  private:
   struct Candidate
@@ -79,11 +83,17 @@ class PacketRouter
   Candidates bestOf(Candidates, Bytes packet) const;
   Candidates fromKnownSource(const Candidates&, const IpAddress& source) const;
   std::optional<Candidate> decide(const DatagramView&);
+  LidarSender::Verdict judgeSender(const Candidate&, const DatagramView&);
   Origin countedOrigin(const DatagramView&) const;
-  std::runtime_error ambiguous(const DatagramView&, const Candidates&) const;
+  void warnOfAmbiguity(const DatagramView&, const Candidates&);
+  void warnOfSender(LidarIndex, const IpAddress& source, const IpAddress& kept, LidarSender::Verdict);
 
   std::vector<RoutedLidar> lidars_;
-  std::map<IpAddress, std::set<LidarIndex>> lidars_at_;  // by lidar packets that only one lidar can have sent
+  std::vector<std::optional<LidarSender>> senders_;  // of each lidar; none while it is not known
   std::map<Origin, std::uint64_t> unmatched_;
+  std::vector<std::uint64_t> of_other_senders_;           // of each lidar
+  std::set<std::uint16_t> ambiguous_ports_;               // that were told
+  std::set<std::pair<LidarIndex, IpAddress>> strangers_;  // that were told, up to a limit
+  std::vector<std::string> warnings_;
 };
 }  // namespace scanloom

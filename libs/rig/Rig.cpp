@@ -1,11 +1,11 @@
 #include "rig/Rig.h"
 
+#include "rig/Extrinsics.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
-
-#include "rig/Extrinsics.h"
 
 namespace scanloom
 {
@@ -82,6 +82,22 @@ LiveOptions liveOptions(const RigOptions& options)
 }
 }  // namespace
 
+void refuseOneSensorTwice(const Rig& rig)
+{
+  for (std::size_t i = 0; i < rig.lidars.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+    {
+      const BatchedLidar &one = rig.lidars[j], &other = rig.lidars[i];
+      if (!one.decoder || !other.decoder) continue;
+      const std::string& serial = one.decoder->description().serial;
+      if (serial.empty() || serial != other.decoder->description().serial) continue;
+      throw ConfigError(
+          fmt::format("lidars '{}' and '{}': both have metadata of serial number {}: give each the metadata of its own "
+                      "sensor",
+                      one.name, other.name, serial));
+    }
+}
+
 Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
 {
   refuseUnknownLidars(only, settings.lidars);
@@ -107,6 +123,7 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
     rig.addresses.push_back(addressOf(sensor, decoder.get()));
     rig.lidars.push_back({sensor.options.name, std::move(decoder), fromSeconds(sensor.options.time_offset)});
   }
+  refuseOneSensorTwice(rig);
   if (!settings.rig.imu_csv.empty())
   {
     rig.body_T_imu = poseOf("imu_pose", settings.rig.imu_pose, "imu", settings.rig, poses);

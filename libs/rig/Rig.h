@@ -37,6 +37,9 @@ struct Rig
 /** For a PacketRouter; the rig must outlive it, or its decoders. */
 std::vector<RoutedLidar> routesOf(const Rig&);
 
+/** Throws ConfigError if two lidars have metadata of one sensor: every packet would be of both or of neither. */
+void refuseOneSensorTwice(const Rig&);
+
 /**
  * Reads metadata or asks sensors for them, and reads extrinsics and the body's IMU. `only` names the lidars to use, in
  * any order; empty: all. Throws ConfigError for a name that no lidar has and for a missing pose, and what the readers

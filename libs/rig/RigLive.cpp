@@ -241,7 +241,7 @@ RigAccount RigLive::account() const
   account.input["host_clock_steps"] = receiver_.clockSteps();
   account.input["scans_dropped"] = queue_.dropped(kindOf<Scan>());
   account.input["slices_dropped"] = queue_.dropped(kindOf<ScanPart>());
-  account.input["imu_samples_dropped"] = queue_.dropped(kindOf<SensorImu>());
+  account.input["imu_samples_dropped"] += queue_.dropped(kindOf<SensorImu>());
   account.input["datagrams_not_captured"] = capture_ ? capture_->dropped() : 0;
   account.scans_waiting = queue_.waiting(kindOf<Scan>());
   return account;

@@ -30,9 +30,11 @@ std::optional<SensorEvent> RigReplay::next(Duration)
 std::vector<std::string> RigReplay::takeWarnings()
 {
   std::vector<std::string> warnings = stream_.takeWarnings();
-  const bool is_cut = captures_.counters().truncated;
-  if (is_cut && !std::exchange(warned_of_cut_, true))
+  const CaptureCounters captures = captures_.counters();
+  if (captures.truncated && !std::exchange(warned_of_cut_, true))
     warnings.push_back("a capture ends inside a record: everything before it was read");
+  for (; warned_of_damages_ < captures.damages.size(); ++warned_of_damages_)
+    warnings.push_back(captures.damages[warned_of_damages_]);
   return warnings;
 }
 
@@ -43,6 +45,7 @@ RigAccount RigReplay::account() const
   account.input["datagrams"] = captures.datagrams;
   account.input["datagrams_incomplete"] = captures.fragments_expired;
   account.input["records_malformed"] = captures.malformed + captures.cut_short;
+  account.input[kDamagedInputs] = captures.damages.size();
   return account;
 }
 }  // namespace scanloom

@@ -32,5 +32,6 @@ class RigReplay : public SensorInput
   bool read_ = false;   // the captures are at their end
   bool ended_ = false;  // and every event was given out
   bool warned_of_cut_ = false;
+  std::size_t warned_of_damages_ = 0;
 };
 }  // namespace scanloom

@@ -1,11 +1,11 @@
 #include "rig/RigSensor.h"
 
+#include "core/ConfigError.h"
+#include "lidar/LidarModels.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "core/ConfigError.h"
-#include "lidar/LidarModels.h"
 
 namespace scanloom
 {

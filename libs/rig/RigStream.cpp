@@ -21,6 +21,7 @@ RigStream::RigStream(const Rig& rig, ReceiveTimes times)
   : router_(routesOf(rig)),
     batcher_(makeBatcher(rig.lidars, rig.batcher)),
     imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms)),
+    lidar_imus_(rig.lidars.size()),
     strange_(rig.lidars.size(), 0)
 {
   imu_.addBody(rig.body_imu);
@@ -35,18 +36,44 @@ void RigStream::take(const DatagramView& datagram)
   if (capture_clock_) packet->received = capture_clock_->steady(*packet);
   advance(packet->received);
   if (packet->kind == PacketKind::Imu)
+  {
     takeImu(*packet);
-  else
-    release(batcher_->push(*std::move(packet)));
+    return;
+  }
+  const LidarIndex lidar = packet->lidar;
+  const Timestamp received = packet->received;
+  if (packet->of_new_sender) lidar_imus_[lidar].by_lidar = false;
+  std::vector<Scan> scans = batcher_->push(*std::move(packet));
+  judgeEarlyImu(lidar, received);
+  release(std::move(scans));
 }
 
 void RigStream::takeImu(const RoutedPacket& packet)
 {
+  LidarImu& imu = lidar_imus_[packet.lidar];
   for (ImuSample sample : lidar(packet.lidar).decoder->imuSamples(packet.bytes))
   {
+    const std::optional<Duration> ahead = batcher_->ahead(packet.lidar, sample.stamp, packet.received);
+    if (!imu.continuity.accepts(sample.stamp, packet.received, ahead))
+    {
+      ++imu.implausible;
+      continue;
+    }
     sample.stamp += batcher_->timeOffset(packet.lidar);
     imu_.add({static_cast<int>(packet.lidar), sample});
   }
+}
+
+/** What was ahead of the lidar's clock before the lidar was heard would wait until the end. */
+void RigStream::judgeEarlyImu(LidarIndex lidar, Timestamp received)
+{
+  LidarImu& imu = lidar_imus_[lidar];
+  const std::optional<Duration> ahead =
+      imu.by_lidar ? std::nullopt : batcher_->ahead(lidar, received, received);  // of a clock that shows host time
+  if (!ahead) return;
+  imu.by_lidar = true;
+  const Timestamp shown = received - *ahead + batcher_->timeOffset(lidar);
+  imu.implausible += imu_.dropAfter(static_cast<int>(lidar), shown + kArrivalTolerance);
 }
 
 void RigStream::advance(Timestamp now)
@@ -127,6 +154,14 @@ std::vector<std::string> RigStream::takeWarnings()
     warnings.push_back(textOf(notice, lidar(notice.lidar).name));
     if (notice.kind == Notice::Kind::Restarted) restarted_.push_back(notice.lidar);
   }
+  for (std::string& warning : router_.takeWarnings()) warnings.push_back(std::move(warning));
+  for (LidarIndex i = 0; i < lidar_imus_.size(); ++i)
+    if (lidar_imus_[i].implausible > 0 && !std::exchange(lidar_imus_[i].told, true))
+      warnings.push_back(
+          fmt::format("lidar '{}': IMU samples whose stamps its clock can't have shown are left out and counted "
+                      "(imu_samples_implausible): they are damaged, or another sender's; then give the lidar its key "
+                      "'address'",
+                      lidar(i).name));
   if (const auto step = capture_clock_ ? capture_clock_->takeStep() : std::nullopt)
     warnings.push_back(
         fmt::format("the clock of the computer that captured was set, by {:+.3f} s in all; times of reception are "
@@ -138,9 +173,12 @@ std::vector<std::string> RigStream::takeWarnings()
 RigAccount RigStream::account() const
 {
   RigAccount account;
-  for (LidarIndex i = 0; i < strange_.size(); ++i) account.lidars.push_back({lidar(i).name, batcher_->counters(i)});
+  for (LidarIndex i = 0; i < strange_.size(); ++i)
+    account.lidars.push_back({lidar(i).name, batcher_->counters(i), router_.ofOtherSenders(i)});
   account.unmatched = router_.unmatched();
   account.late_imu_samples = imu_.late();
+  for (const LidarImu& imu : lidar_imus_) account.implausible_imu_samples += imu.implausible;
+  account.input["imu_samples_dropped"] = imu_.dropped();
   return account;
 }
 }  // namespace scanloom

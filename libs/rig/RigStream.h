@@ -1,5 +1,6 @@
 #pragma once
 #include "batching/Batcher.h"
+#include "batching/ImuContinuity.h"
 #include "batching/ImuOrder.h"
 #include "rig/CaptureClock.h"
 #include "rig/PacketRouter.h"
@@ -34,7 +35,7 @@ class RigStream
   RigStream(const RigStream&) = delete;
   RigStream& operator=(const RigStream&) = delete;
 
-  /** In the order of receive times, as far as possible. Throws what PacketRouter::route and Batcher::push throw. */
+  /** In the order of receive times, as far as possible. Throws what Batcher::push throws. */
   void take(const DatagramView&);
 
   /** Every datagram received before `now` was taken. */
@@ -61,7 +62,7 @@ class RigStream
   /** The next event that is ready. */
   std::optional<SensorEvent> next();
 
-  /** The batcher's notices since the last call, as lines of text. */
+  /** The notices of batcher and router since the last call, as lines of text. */
   std::vector<std::string> takeWarnings();
 
   /** Without `input`, which the stream does not know. */
@@ -70,9 +71,19 @@ class RigStream
  private:
   const BatchedLidar& lidar(LidarIndex lidar) const { return batcher_->lidars()[lidar]; }
   void takeImu(const RoutedPacket&);
+  void judgeEarlyImu(LidarIndex, Timestamp received);
   void release(std::vector<Scan> scans);
   void releaseImu(Timestamp horizon);
   void releaseParts(Timestamp end);
+
+  /** Of one lidar. */
+  struct LidarImu
+  {
+    ImuContinuity continuity;
+    std::uint64_t implausible = 0;  // samples
+    bool told = false;              // that there are such samples
+    bool by_lidar = false;          // what came before the lidar was heard is judged by its clock, too
+  };
 
   PacketRouter router_;
   std::optional<CaptureClock> capture_clock_;
@@ -80,6 +91,7 @@ class RigStream
   Duration imu_patience_;  // how long a scan or sample waits for older IMU samples
   Timestamp time_ = Timestamp::min();
   ImuOrder imu_;
+  std::vector<LidarImu> lidar_imus_;
   std::deque<ScanPart> parts_;  // from the batcher, until their scan is given out
   std::deque<SensorEvent> ready_;
   std::vector<std::uint64_t> strange_;  // packets per lidar that fit nothing, as of takeDoubted()

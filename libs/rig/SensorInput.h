@@ -33,7 +33,11 @@ struct LidarAccount
 {
   std::string name;
   LidarCounters counters;
+  std::uint64_t of_other_senders = 0;  // packets like the lidar's, from another address
 };
+
+/** Among the counts of an input: its files that were read only up to a damage. */
+inline constexpr const char* kDamagedInputs = "damaged_files";
 
 /** What became of everything that was received so far. */
 struct RigAccount
@@ -41,6 +45,7 @@ struct RigAccount
   std::vector<LidarAccount> lidars;           // none if the input reads no packets
   std::map<Origin, std::uint64_t> unmatched;  // datagrams that no lidar sent
   std::uint64_t late_imu_samples = 0;
+  std::uint64_t implausible_imu_samples = 0;   // stamps that the lidar's clock can't have shown
   std::map<std::string, std::uint64_t> input;  // what the captures, the sockets or the rawlog counted, by name
   std::size_t scans_waiting = 0;               // live: for whoever calls next()
 };

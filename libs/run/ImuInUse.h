@@ -1,4 +1,6 @@
 #pragma once
+#include "imu/ImuBuffer.h"
+#include "imu/ImuScreening.h"
 #include "rig/SensorInput.h"
 
 #include <deque>
@@ -9,7 +11,7 @@
 
 namespace scanloom
 {
-/** The choice among the input's IMUs: the one that localisation uses, and another one if it falls silent. */
+/** The choice among the input's IMUs: the one that localisation uses, and another one while it is silent. */
 class ImuInUse
 {
  public:
@@ -20,18 +22,18 @@ class ImuInUse
    */
   ImuInUse(const SensorInput&, const std::string& wanted, Duration delay);
 
-  Rigid body_T_imu() const { return setup().body_T_imu.at(sensor_); }
+  Rigid body_T_imu() const { return poseOf(sensor_); }
   bool insideLidar() const { return sensor_ != SensorImu::kBody; }
 
   /** "body" or the name of a lidar; of the one in use, and of the one before it. */
   std::string name() const { return nameOf(sensor_); }
   std::string previousName() const { return nameOf(previous_); }
 
-  /** The sample with its delay subtracted, if it is of the IMU in use. Samples of the others are kept for 5 s. */
-  std::optional<ImuSample> take(const SensorImu&);
-
-  /** An IMU without a sample for so long, by the stamps, is silent. */
-  static constexpr Duration kSilence = 200ms;
+  /**
+   * The samples of the IMU in use that passed its screening with this one, with their delay subtracted; none for
+   * another IMU's. Those of every IMU are kept for 5 s.
+   */
+  std::vector<ImuSample> take(const SensorImu&);
 
   /**
    * How long a scan waits for the IMU to cover it: `imu_wait`, or longer where another IMU may take over, so that the
@@ -44,20 +46,39 @@ class ImuInUse
    * true. recent() are its samples of the last seconds, previous() those of the one before.
    */
   bool changeIfSilent(Timestamp now);
+
+  /**
+   * The same if an IMU that comes before the one in use (the body's, then by lidar) has not been silent for the last
+   * 5 s, and both turned alike: one with other stamps does not return.
+   */
+  bool returnToBetter(Timestamp now);
+
   std::vector<ImuSample> recent() const { return samplesOf(sensor_); }
   std::vector<ImuSample> previous() const { return samplesOf(previous_); }
 
+  /** By the IMU's name; only those with refused samples. */
+  std::map<std::string, RefusedReadings> refused() const;
+
  private:
+  struct Heard
+  {
+    ImuScreening screening;
+    std::deque<ImuSample> kept;  // with their delay
+  };
+
   SensorSetup setup() const { return input_.setup(); }
+  Rigid poseOf(int sensor) const { return setup().body_T_imu.at(sensor); }
   std::string nameOf(int sensor) const;
   bool silent(int sensor, Timestamp now) const;
-  ImuSample withoutDelay(const SensorImu&) const;
+  bool heardWithoutBreak(int sensor) const;
+  void change(int sensor);
+  ImuSample withoutDelay(int sensor, ImuSample) const;
   std::vector<ImuSample> samplesOf(int sensor) const;
 
   const SensorInput& input_;
   bool may_change_;
   int first_, previous_, sensor_;
-  Duration delay_;                                // of the first
-  std::map<int, std::deque<ImuSample>> samples_;  // by sensor, with their delay
+  Duration delay_;              // of the first
+  std::map<int, Heard> heard_;  // by sensor
 };
 }  // namespace scanloom

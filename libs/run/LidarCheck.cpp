@@ -6,7 +6,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kFewest = 3, kMost = 8;   // keyframes; the error's deviation comes from leaving out one of them
+constexpr std::size_t kFewest = 3, kMost = 8;    // keyframes; the error's deviation comes from leaving out one of them
 constexpr std::size_t kNeighbours = 2;           // keyframes to each side of one
 constexpr std::size_t kPointsOfLidar = 1 << 14;  // of a keyframe: memory is bounded
 

@@ -50,6 +50,7 @@ void to_json(nlohmann::json& json, const RunSummary& run)
           {"real_time_factor", run.realTimeFactor()},
           {"path_length_m", run.path_length},
           {"peak_memory_bytes", run.peak_memory}};
+  if (!run.error.empty()) json["error"] = run.error;
   if (run.imu) json["imu"] = *run.imu;
   for (const Finding& lidar : run.lidars)
     json["lidars"][lidar.about][lidar.measure] = {{"verdict", toString(lidar.verdict)}, {"says", lidar.says}};

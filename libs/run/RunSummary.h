@@ -14,10 +14,12 @@
 
 namespace scanloom
 {
+/** All that summary.json says of a run, hence more than a dozen members. */
 struct RunSummary
 {
   std::string command;                          // the line that repeats the run
-  std::string outcome;                          // "OK", "INITIALISING", "DEGENERATE", "LOST", "INTERRUPTED"
+  std::string outcome;                          // "OK", "INITIALISING", "DEGENERATE", "LOST", "INTERRUPTED", "FAILED"
+  std::string error;                            // what ended the run, or which maps are missing and why; empty: nothing
   std::map<std::string, std::string> versions;  // program or library -> version
   std::uint64_t seed = 0;                       // 0: no random numbers
   std::map<std::string, std::uint64_t> counts;  // "scans", "keyframes", "packets.left", ...

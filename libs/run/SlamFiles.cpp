@@ -23,8 +23,9 @@ double distance(const StampedPose& a, const StampedPose& b)
 
 std::vector<std::string> SlamFiles::names()
 {
-  std::vector<std::string> names{"trajectory.tum", "trajectory_imu.tum", "trajectory.csv", "summary.json"};
+  std::vector<std::string> names{"trajectory.tum", "trajectory_imu.tum", "trajectory.csv"};
   for (std::string& name : SlamMaps::names()) names.push_back(std::move(name));
+  names.emplace_back("summary.json");
   return names;
 }
 
@@ -56,7 +57,7 @@ void SlamFiles::add(const StateEstimate& e)
              e.trusted, e.recovered, fmt::join(sigma.begin(), sigma.end(), ","), e.correction.head<3>().norm(),
              180 / M_PI * e.correction.tail<3>().norm());
   for (TumWriter* writer : {&trajectory_, &trajectory_imu_}) writer->flush();
-  csv_.stream().flush();
+  csv_.flush();
   if (maps_ && e.keyframe) maps_->add(*e.keyframe);
 }
 
@@ -71,14 +72,31 @@ void SlamFiles::extendPath(const StampedPose& pose)
     path_.push_back(pose);
 }
 
-void SlamFiles::close(RunSummary summary)
+void SlamFiles::closePoses()
 {
   trajectory_.close();
   trajectory_imu_.close();
   csv_.commit();
+}
+
+/** The failure may have been that a disk is full. */
+void SlamFiles::closePosesAfterFailure()
+{
+  trajectory_.closeAfterFailure();
+  trajectory_imu_.closeAfterFailure();
+  csv_.commitLines();
+}
+
+RunSummary SlamFiles::close(RunSummary summary)
+{
+  if (summary.error.empty())
+    closePoses();
+  else
+    closePosesAfterFailure();
   if (maps_) maps_->close(path_, summary);
   summary.path_length = path_length_;
   summary.peak_memory = peakMemory();
   writeSummary(folder_ / "summary.json", summary);
+  return summary;
 }
 }  // namespace scanloom

@@ -32,21 +32,26 @@ struct OutputOptions
 class SlamFiles
 {
  public:
-  /** All files that close() completes in the folder. */
+  /** All files that close() completes in the folder, the summary last. */
   static std::vector<std::string> names();
 
   /** Creates the folder. Without options of an OctoMap no map is written. Throws std::runtime_error on failure. */
   SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&,
             const std::optional<OctoMapOptions>&);
 
-  /** Writes the poses at once. */
+  /** Writes the poses at once. Throws std::runtime_error if the disk does not take them. */
   void add(const StateEstimate&);
 
-  /** Writes the maps, adds the path length and the memory to the summary, and renames every file to its name. */
-  void close(RunSummary);
+  /**
+   * Writes the maps, adds the path length, the memory and the maps that failed to the summary, and renames every file
+   * to its name. Returns the summary as it was written.
+   */
+  RunSummary close(RunSummary);
 
  private:
   void extendPath(const StampedPose&);
+  void closePoses();
+  void closePosesAfterFailure();
 
   std::filesystem::path folder_;
   TumWriter trajectory_, trajectory_imu_;

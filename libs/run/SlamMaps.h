@@ -10,7 +10,10 @@
 #include "run/RunSummary.h"
 
 #include <filesystem>
+#include <functional>
 #include <future>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,23 +34,31 @@ class SlamMaps
 
   /**
    * Keyframes are drawn by a thread of their own, in order, because an occupancy map takes seconds for one. Waits while
-   * eight of them wait. Throws what the drawing threw.
+   * eight of them wait.
    */
   void add(Keyframe);
 
-  /** Waits for the last keyframe, renames every file to its name, and adds map points and stages to the summary. */
+  /**
+   * Waits for the last keyframe, renames every file to its name, and adds map points and stages to the summary. A map
+   * that could not be drawn or written, for want of memory for example, is left out and named in the summary's error.
+   */
   void close(const Trajectory&, RunSummary&);
 
  private:
   void draw();
   void addToAll(const Keyframe&);
+  void writeAll(const Trajectory&);
+
+  /** One step of a map. If it fails, the map is given up: its further steps are left out. */
+  void attempt(const std::string& files, const std::function<void()>& step);
 
   std::filesystem::path folder_;
   PlyWriter ply_;
   SimpleMapBuilder simple_map_;
-  OctoMapBuilder octomap_;
+  std::optional<OctoMapBuilder> octomap_;  // none once it is given up, for its memory
   MapPicture picture_;
-  StageTimes times_;  // of the thread
+  StageTimes times_;                             // of the thread
+  std::map<std::string, std::string> failures_;  // by files
 
   BoundedQueue<Keyframe> queue_;
   std::shared_future<void> drawn_;  // last: its thread uses all of the above, and it waits for that thread

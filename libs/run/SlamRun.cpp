@@ -4,6 +4,7 @@
 #include "run/ImuInUse.h"
 #include "run/RigCheck.h"
 #include "run/RunCounts.h"
+#include "run/reasonOf.h"
 #include "slam/ConstantMotion.h"
 
 #include <fmt/format.h>
@@ -46,6 +47,8 @@ class SlamRun
   {
     keep(slam_.finish());
     times_.measure("rig_check", [&] { check_.check(); });
+    for (const auto& [name, refused] : imu_.refused())
+      warn_(fmt::format("the IMU '{}': samples were refused: {}", name, refused.toString()));
     for (const std::string& warning : cropWarnings(slam_.cropped(), lidars())) warn_(warning);
   }
 
@@ -53,6 +56,17 @@ class SlamRun
   {
     const double waited = 1e-3 * times_.stages().at("input").total_ms;
     return {input_.progress(), counts_.scans, counts_.recorded(), secondsSince(start_) - waited};
+  }
+
+  bool hasPoses() const { return counts_.poses > 0; }
+
+  SlamRunResult failed(const std::exception& error) const
+  {
+    SlamRunResult result = this->result(false);
+    result.passed = false;
+    result.summary.outcome = "FAILED";
+    result.summary.error = reasonOf(error);
+    return result;
   }
 
   SlamRunResult result(bool interrupted) const
@@ -68,7 +82,8 @@ class SlamRun
     summary.counts["scans_skipped"] = slam_.skippedScans();
     summary.counts["recoveries"] = slam_.recoveries();
     summary.counts["map_restarts"] = slam_.mapRestarts();
-    summary.counts["imu_samples_refused"] = slam_.refusedImuSamples();
+    summary.counts["imu_samples_refused"] = 0;
+    for (const auto& [name, refused] : imu_.refused()) summary.counts["imu_samples_refused"] += refused.sum();
     counts_.addTo(summary.counts);
     addCounts(slam_.cropped(), lidars(), summary.counts);
     summary.stages = slam_.times().stages();
@@ -94,27 +109,36 @@ class SlamRun
 
   void take(const SensorImu& read)
   {
-    const std::optional<ImuSample> sample = imu_.take(read);
-    if (!sample) return;
-    check_.add(*sample);
-    if (motion_.known()) return;
-    slam_.addImu(*sample);
-    if (!settings_.slam.constant_motion) keep(slam_.process());
+    for (const ImuSample& sample : imu_.take(read))
+    {
+      check_.add(sample);
+      if (motion_.known()) continue;
+      slam_.addImu(sample);
+      if (!settings_.slam.constant_motion) keep(slam_.process());
+    }
   }
 
   void take(Scan scan)
   {
     ++counts_.scans;
-    if (!settings_.slam.constant_motion) changeImuIfSilent(scan.end());
+    if (!settings_.slam.constant_motion) chooseImu(scan.end());
     for (const ImuSample& imagined : motion_.samplesUntil(scan.end())) slam_.addImu(imagined);
     keep(slam_.addScan(std::move(scan)));
   }
 
-  void changeImuIfSilent(Timestamp now)
+  void chooseImu(Timestamp now)
   {
-    if (!imu_.changeIfSilent(now)) return;
+    if (imu_.changeIfSilent(now))
+      changeImu(fmt::format("the IMU '{}' is silent: '{}' goes on", imu_.previousName(), imu_.name()));
+    else if (imu_.returnToBetter(now))
+      changeImu(
+          fmt::format("the IMU '{}' is there again: it goes on in place of '{}'", imu_.name(), imu_.previousName()));
+  }
+
+  void changeImu(const std::string& why)
+  {
     ++counts_.imu_changes;
-    warn_(fmt::format("the IMU '{}' is silent: '{}' goes on", imu_.previousName(), imu_.name()));
+    warn_(why);
     check_.changeImu(imu_.body_T_imu());
     slam_.changeImu({{imu_.body_T_imu(), noise()}, imu_.recent(), imu_.previous()});
   }
@@ -149,12 +173,20 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFile
 {
   SlamRun run(input, settings, files, warn);
   bool going = true;
-  while (going && !input.ended())
+  try
   {
-    run.step();
-    going = keepGoing(run.progress());
+    while (going && !input.ended())
+    {
+      run.step();
+      going = keepGoing(run.progress());
+    }
+    run.finish();
   }
-  run.finish();
+  catch (const std::exception& error)
+  {
+    if (!run.hasPoses()) throw;
+    return run.failed(error);
+  }
   return run.result(!going);
 }
 }  // namespace scanloom

@@ -22,7 +22,7 @@ using KeepGoing = std::function<bool(const RunProgress&)>;
 
 struct SlamRunResult
 {
-  RunSummary summary;  // counts, stages, outcome: OK, INITIALISING, DEGENERATE, LOST, NOTHING or INTERRUPTED
+  RunSummary summary;  // counts, stages, outcome: OK, INITIALISING, DEGENERATE, LOST, NOTHING, INTERRUPTED or FAILED
   /**
    * False if there is no pose, if the state was LOST at the end or for more than 5 % of the poses, if the local map was
    * started anew (the trajectory has a break), or if a lidar or the IMU is at fault (RigCheck).
@@ -33,6 +33,9 @@ struct SlamRunResult
 /**
  * Runs to the end of the input and writes every estimate to `files`, which the caller closes with the summary. Throws
  * ConfigError if settings.slam.imu names an IMU that the input does not have, and what requireGravity() throws.
+ *
+ * Whatever else the input or the localisation throws ends the run: the outcome is FAILED, the summary tells the error,
+ * and the estimates so far are kept. Before the first pose there is nothing to keep, and it is thrown on.
  *
  * A scan waits in LidarInertialSlam and nowhere else, by one rule: it is processed as soon as the IMU in use covers it,
  * or when a scan arrives that ends ImuInUse::patience() later. By then, if the IMU is silent and another one is not,

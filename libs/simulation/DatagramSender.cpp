@@ -1,11 +1,11 @@
 #include "simulation/DatagramSender.h"
 
+#include "packets/SocketAddress.h"
+
 #include <fmt/format.h>
 
 #include <cstring>
 #include <stdexcept>
-
-#include "packets/SocketAddress.h"
 
 namespace scanloom
 {

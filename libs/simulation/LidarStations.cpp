@@ -1,5 +1,6 @@
 #include "simulation/LidarStations.h"
 
+#include "core/fileNameOf.h"
 #include "lidar/OusterDecoder.h"
 #include "rig/Extrinsics.h"
 #include "simulation/AssumedOuster.h"
@@ -123,6 +124,11 @@ void refuseSharedPorts(const std::vector<LidarStation>& stations)
           fmt::format("[simulated_lidars] lidar{0}_port: another lidar has port {1} or {2} as well: "
                       "set lidar{0}_port = {3}",
                       station.place + 1, metadata.lidar_port, metadata.imu_port, kOusterLidarPort + 2 * station.place));
+    if (fileNameOf(station.name) != station.name)
+      throw std::invalid_argument(fmt::format(
+          "[simulated_lidars] lidar{}_name = '{}': is also the name of a file: it takes no '/', '\\', '%' or "
+          "control character, and no '.' in front",
+          station.place + 1, fileNameOf(station.name)));
     if (station.name.empty() || !names.insert(station.name).second)
       throw std::invalid_argument(
           fmt::format("[simulated_lidars] lidar{}_name = '{}': must be given, and different for each lidar",

@@ -15,7 +15,7 @@ Assessment assess(const StateEstimate& estimate, bool opens_map, const TrustHist
   else if (initialising)
     a.health = Health::Initialising;
   else
-    a.health = trusted ? Health::Ok : Health::Degenerate;
+    a.health = trusted && !history.separation.exists() && !history.imu_silent ? Health::Ok : Health::Degenerate;
   return a;
 }
 }  // namespace scanloom

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/Field.h"
 #include "slam/Contradiction.h"
+#include "slam/Separation.h"
 #include "slam/StateEstimate.h"
 
 #include <optional>
@@ -35,6 +36,10 @@ struct TrustHistory
   Timestamp last_trusted;
   std::optional<Timestamp> initialising_until;  // none after a start from standstill
   Contradiction contradiction;                  // between registrations and IMU
+  Separation separation{};                      // of estimates from their registrations
+  std::optional<Timestamp> lidar_believed{};    // when the window last began anew at a registration
+  bool imu_silent = false;                      // for kImuSilence or longer up to this scan's end
+  bool lost = false;                            // at the scan before
 };
 
 struct Assessment

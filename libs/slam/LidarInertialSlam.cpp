@@ -13,10 +13,7 @@ LidarInertialSlam::LidarInertialSlam(const SlamSettings& settings, const Rigid& 
 {
 }
 
-void LidarInertialSlam::addImu(const ImuSample& sample)
-{
-  if (!imu_.add(sample)) ++refused_imu_samples_;
-}
+void LidarInertialSlam::addImu(const ImuSample& sample) { imu_.add(sample); }
 
 void LidarInertialSlam::changeImu(const ImuChange& change)
 {
@@ -51,6 +48,7 @@ StateEstimate LidarInertialSlam::process(Scan scan)
 {
   const Timestamp from = state_->smoother.newest().stamp, to = scan.end();
   const bool imu_complete = imu_.covers(from, to);
+  state_->trust.imu_silent = !imu_.coversDensely(from, to, kImuSilence);
   TrackedScan tracked = tracker_.step(std::move(*state_), std::move(scan), imu_.between(from, to), times_);
   state_ = std::move(tracked.state);
   imu_.forgetBefore(to);

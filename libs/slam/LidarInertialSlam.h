@@ -21,7 +21,7 @@ class LidarInertialSlam
   /** `lidars` by sensor id; stems are moved onto their axes only for lidars that are given. Throws as Tracker does. */
   LidarInertialSlam(const SlamSettings&, const Rigid& body_T_imu, const std::vector<MountedLidar>& lidars);
 
-  /** In time order; a sample out of order or not finite is refused and counted. */
+  /** In time order, as ImuScreening passes them on; a sample out of order or not finite is ignored. */
   void addImu(const ImuSample&);
 
   /** From the newest state on. The local map stays. The biases of the new IMU are computed from those of the old one.
@@ -42,7 +42,6 @@ class LidarInertialSlam
   const FixedLagSmoother* smoother() const { return state_ ? &state_->smoother : nullptr; }
 
   const StageTimes& times() const { return times_; }
-  std::uint64_t refusedImuSamples() const { return refused_imu_samples_; }
   std::uint64_t skippedScans() const { return waiting_.skipped(); }
   std::uint64_t recoveries() const { return recoveries_; }
   std::uint64_t mapRestarts() const { return map_restarts_; }
@@ -61,7 +60,7 @@ class LidarInertialSlam
   WaitingScans waiting_;
   std::optional<TrackerState> state_;  // none before the start
   std::vector<CropCounts> cropped_;
-  std::uint64_t refused_imu_samples_ = 0, recoveries_ = 0, map_restarts_ = 0;
+  std::uint64_t recoveries_ = 0, map_restarts_ = 0;
   StageTimes times_;
 };
 }  // namespace scanloom

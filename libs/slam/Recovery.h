@@ -45,21 +45,17 @@ class Recovery
   void forget() { *this = {}; }
 
   /**
-   * Searches around the place where the body was last seen, as far as a machine can drive since then; at most once a
-   * second. The tilt is the IMU's. So is the heading, every other time; in between all headings are tried, because the
-   * IMU may be wrong.
+   * Searches around the place where the body was last seen, as far as a machine can drive since then. The tilt is the
+   * IMU's; all headings are tried, the IMU's first, because the IMU may be wrong. The effort for a scan is limited, by
+   * the number of starts: the next scan goes on with the starts after them.
    */
   std::optional<FoundBody> search(const NdtMap& local_map, const std::vector<View>& seen_from_body, const LostBody&,
                                   const ScanRegistrationOptions&, StageTimes&);
 
  private:
-  struct Search
-  {
-    Timestamp stamp;
-    bool all_headings;
-  };
+  std::vector<Rigid> nextStarts(const SearchArea&);
 
   std::optional<LastSeen> last_seen_;
-  std::optional<Search> last_search_;  // since the body was last found
+  std::size_t next_start_ = 0;  // of the search since the body was last found
 };
 }  // namespace scanloom

@@ -3,10 +3,12 @@
 #include "core/Angle.h"
 #include "core/Matrix6.h"
 #include "ndt/LidarInformation.h"
+#include "ndt/NormalEquations.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace scanloom
 {
@@ -40,6 +42,22 @@ class Pyramid
     return alignCoarseToFine(pairLevels(targets_, sources_), guess, options);
   }
 
+  /** Those with the best scores in cells that are large enough for poses between the starts. */
+  std::vector<Rigid> mostPromising(const std::vector<Rigid>& starts, std::size_t count) const
+  {
+    constexpr std::size_t kLevel = 1;
+    constexpr double kBroad = 0.05;  // d2
+    constexpr int kNeighbours = 7;
+    Neighbourhoods neighbourhoods(targets_[kLevel], sources_[kLevel], kNeighbours);
+    std::vector<std::pair<double, std::size_t>> scores;  // negative, the best first
+    for (std::size_t i = 0; i < starts.size(); ++i)
+      scores.emplace_back(normalEquations(neighbourhoods, starts[i], kBroad).value, i);
+    std::sort(scores.begin(), scores.end());
+    std::vector<Rigid> best;
+    for (std::size_t i = 0; i < std::min(count, scores.size()); ++i) best.push_back(starts[scores[i].second]);
+    return best;
+  }
+
  private:
   std::vector<NdtMap> targets_, sources_;
 };
@@ -58,19 +76,14 @@ bool isPlace(const RegistrationResult& result)
   return result.outcome == Outcome::Converged && result.overlap >= kGoodOverlap &&
          result.covariance.topLeftCorner<3, 3>().trace() < kMostDeviation * kMostDeviation;
 }
-
-std::vector<Rigid> startsWithin(const SearchArea& area)
-{
-  const int reach = static_cast<int>(std::ceil(area.radius / kStep));
-  std::vector<Rigid> starts;
-  for (int heading = 0; heading < area.headings; ++heading)
-    for (int x = -reach; x <= reach; ++x)
-      for (int y = -reach; y <= reach; ++y)
-        starts.push_back(area.map_T_body *
-                         Rigid::fromXyzYawPitchRoll(x * kStep, y * kStep, 0, 2 * M_PI * heading / area.headings, 0, 0));
-  return starts;
-}
 }  // namespace
+
+ScanRegistrationOptions withLimitedEffort(ScanRegistrationOptions options)
+{
+  constexpr int kSteps = 15;
+  options.fine.max_iterations = std::min(options.fine.max_iterations, kSteps);
+  return options;
+}
 
 RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
                                    const ScanRegistrationOptions& options, StageTimes& times)
@@ -100,16 +113,30 @@ Matrix6d covarianceWithin(const SearchArea& area, const RegistrationResult& foun
   return inverseOfPositive(found.information + expected);
 }
 
-std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views, const SearchArea& area,
-                                             const NdtOptions& cells, const RegistrationOptions& options)
+std::vector<Rigid> startsWithin(const SearchArea& area)
 {
-  constexpr double kRivals = 0.8;  // share of the best score with which another place may be the true one
+  const int reach = static_cast<int>(std::ceil(area.radius / kStep));
+  std::vector<Rigid> starts;
+  for (int heading = 0; heading < area.headings; ++heading)
+    for (int x = -reach; x <= reach; ++x)
+      for (int y = -reach; y <= reach; ++y)
+        starts.push_back(area.map_T_body *
+                         Rigid::fromXyzYawPitchRoll(x * kStep, y * kStep, 0, 2 * M_PI * heading / area.headings, 0, 0));
+  return starts;
+}
+std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views,
+                                             const std::vector<Rigid>& starts, const NdtOptions& cells,
+                                             const RegistrationOptions& options)
+{
+  constexpr double kRivals = 0.8;     // share of the best score with which another place may be the true one
+  constexpr std::size_t kOthers = 2;  // that are tried only where the first is a place
   const Pyramid pyramid(map, views, cells);
   std::vector<RegistrationResult> found;
-  for (const Rigid& start : startsWithin(area))
+  for (const Rigid& start : pyramid.mostPromising(starts, 1 + kOthers))
   {
     RegistrationResult result = pyramid.align(start, options);
     if (isPlace(result)) found.push_back(std::move(result));
+    if (found.empty()) return std::nullopt;
   }
   if (found.empty()) return std::nullopt;
   const auto best = std::min_element(found.begin(), found.end(), [](auto& a, auto& b) { return a.score < b.score; });

@@ -16,6 +16,9 @@ struct ScanRegistrationOptions
   RegistrationOptions rough, fine;
 };
 
+/** The same with so few steps that scans of a lost body take little longer than others: most searches fail. */
+ScanRegistrationOptions withLimitedEffort(ScanRegistrationOptions);
+
 /** First alignment (paper, section 2.2); through coarser cells where the guess may be too far off for scan_cells. */
 RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& seen_from_body,
                                    const PoseGuess& map_T_body, const ScanRegistrationOptions&, StageTimes&);
@@ -38,7 +41,15 @@ struct SearchArea
  */
 Matrix6d covarianceWithin(const SearchArea&, const RegistrationResult&);
 
-/** None if no pose in the area is trustworthy, or if another one far from the best is nearly as good. */
+/** Poses of the body from which a search in the area begins, the area's own heading first. */
+std::vector<Rigid> startsWithin(const SearchArea&);
+
+/**
+ * The pose that alignment finds from the start with the best score. None if it is not trustworthy, or if one that is
+ * found from the next starts, far from it, is nearly as good. To fail takes one alignment, however many starts there
+ * are.
+ */
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& seen_from_body,
-                                             const SearchArea&, const NdtOptions& cells, const RegistrationOptions&);
+                                             const std::vector<Rigid>& starts, const NdtOptions& cells,
+                                             const RegistrationOptions&);
 }  // namespace scanloom

@@ -12,7 +12,7 @@ enum class Health
 {
   Initialising,  // the start was neither at rest nor long enough: gravity and biases are rough
   Ok,
-  Degenerate,  // the lidar leaves a direction open, or this scan is not trusted: the pose is the IMU's
+  Degenerate,  // the lidar leaves a direction open, this scan is not trusted, or IMU and lidar are apart (assess())
   Lost,        // the pose has been the IMU's alone for too long
 };
 std::string toString(Health);

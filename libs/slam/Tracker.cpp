@@ -42,7 +42,7 @@ Rigid TrackerState::map_T_local() const
 }
 
 Tracker::Tracker(const SlamSettings& settings, const std::vector<MountedLidar>& lidars)
-  : settings_(settings), crop_(cropOf(settings.crop, lidars))
+  : settings_(settings), limited_effort_(withLimitedEffort(settings.registration)), crop_(cropOf(settings.crop, lidars))
 {
   if (settings.slam.tracking.stem_axes) viewpoints_ = positionsOf(lidars);
 }
@@ -70,6 +70,7 @@ TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSa
   Seen seen = preprocess(std::move(scan), before, samples, state, times);
   locate(seen, predicted, state, estimate, times);
   smooth(before, samples, predicted, state, estimate, times);
+  compareWithRegistration(estimate, state);
   const bool contradicted = judgeAndRecover(seen, state, estimate, times);
   estimate.correction = boxMinus(estimate.map_T_body, predicted.map_T_body);
   state.motion_since_last = estimate.recovered ? Trajectory{} : estimate.since_last;
@@ -117,14 +118,21 @@ void Tracker::locate(const Seen& seen, const Prediction& predicted, TrackerState
   if (state.local_map.empty() || seen.cloud.empty() || !isPositiveDefinite(predicted.covariance)) return;
   const NdtMap& map = state.local_map.ndt();
   const PoseGuess guess(state.map_T_local().inverse() * predicted.map_T_body, predicted.covariance);
-  estimate.registration = registerRoughly(map, seen.views, guess, settings_.registration, times);
-  if (settings_.slam.tracking.refine)
-  {
-    const RegistrationResult& rough = *estimate.registration;
-    const Rigid start = rough.trustworthy() ? rough.target_T_source : guess.target_T_source;
-    estimate.registration = registerFinely(map, seen.views, start, settings_.registration, times);
-  }
+  estimate.registration =
+      state.trust.lost
+          // The effort is the search's: the prediction of an IMU that lost the body is worth little.
+          ? registerFinely(map, seen.views, guess.target_T_source, limited_effort_, times)
+          : registerTwice(map, seen.views, guess, times);
   if (estimate.registration->outcome != Outcome::LowOverlap) addRegistration(guess, state, estimate);
+}
+
+RegistrationResult Tracker::registerTwice(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
+                                          StageTimes& times) const
+{
+  const RegistrationResult rough = registerRoughly(map, views, guess, settings_.registration, times);
+  if (!settings_.slam.tracking.refine) return rough;
+  const Rigid start = rough.trustworthy() ? rough.target_T_source : guess.target_T_source;
+  return registerFinely(map, views, start, settings_.registration, times);
 }
 
 /** The smoother's robust loss follows a registration that contradicts the IMU only slowly; such a one is not trusted.
@@ -136,8 +144,12 @@ void Tracker::addRegistration(const PoseGuess& predicted, TrackerState& state, S
   const Rigid& local_T_body = registration.target_T_source;
   const PoseGuess both(predicted.target_T_source, *predicted.covariance + registration.covariance);
   estimate.surprise = std::sqrt(surprise(both, local_T_body));
-  estimate.trusted = registration.trustworthy() && (options.gate == 0 || estimate.surprise <= options.gate);
-  state.trust.contradiction.add(estimate.stamp, estimate.surprise);
+  const bool usable = state.trust.lost ? registration.outcome == Outcome::Converged : registration.trustworthy();
+  estimate.trusted = usable && (options.gate == 0 || estimate.surprise <= options.gate);
+  if (state.trust.imu_silent)
+    state.trust.contradiction.clear();
+  else
+    state.trust.contradiction.add(estimate.stamp, estimate.surprise);
 
   const Matrix6d information =
       registration.information / registrationsPerMeasurement(state, local_T_body, options.correlation);
@@ -160,10 +172,27 @@ void Tracker::smooth(const NavState& before, const std::vector<ImuSample>& sampl
   estimate.since_last = posesBetween(before, after, samples, smoother.body_T_imu().inverse());
 }
 
-/** Searches the body where it is lost and the lidar does not contradict that. Returns Assessment::contradicted. */
+/** Where IMU and lidar err by much, the estimate between both is near neither. */
+void Tracker::compareWithRegistration(const StateEstimate& estimate, TrackerState& state) const
+{
+  if (!estimate.registration || !estimate.trusted) return;
+  const RegistrationResult& seen = *estimate.registration;
+  const Vector6d apart = boxMinus(state.map_T_local().inverse() * estimate.map_T_body, seen.target_T_source);
+  state.trust.separation.add(apart, estimate.covariance + seen.covariance);
+}
+
+/**
+ * Searches the body where it is lost and the lidar does not contradict that; believes the lidar where the IMU has
+ * carried the estimate away from it. Returns Assessment::contradicted.
+ */
 bool Tracker::judgeAndRecover(const Seen& seen, TrackerState& state, StateEstimate& estimate, StageTimes& times) const
 {
   const Assessment assessed = judge(state, estimate);
+  if (state.trust.separation.lasts())
+  {
+    believeLidar(state, estimate);
+    return assessed.contradicted;
+  }
   const bool blind = assessed.health == Health::Lost && !assessed.contradicted;
   return blind && recover(seen.views, state, estimate, times) ? judge(state, estimate).contradicted
                                                               : assessed.contradicted;
@@ -175,17 +204,14 @@ Assessment Tracker::judge(TrackerState& state, StateEstimate& estimate) const
   const bool opens_map = state.local_map.empty() && estimate.points > 0;
   const Assessment assessed = assess(estimate, opens_map, state.trust, settings_.slam.trust);
   estimate.health = assessed.health;
+  state.trust.lost = assessed.health == Health::Lost;
   state.trust.last_trusted = assessed.last_trusted;
-  if (estimate.trusted)
+  if (estimate.trusted && !state.trust.separation.suspected())
     state.recovery.remember({estimate.registration->target_T_source, estimate.registration->score, state.map_T_local(),
                              state.smoother.newest().bias});
   return assessed;
 }
 
-/**
- * Begins a new window where the body is found. The map frame and the biases are those of the last trusted scan: what
- * the IMU read since then, and registrations that contradicted it, would tilt them.
- */
 bool Tracker::recover(const std::vector<View>& views, TrackerState& state, StateEstimate& estimate,
                       StageTimes& times) const
 {
@@ -193,24 +219,45 @@ bool Tracker::recover(const std::vector<View>& views, TrackerState& state, State
   const LostBody lost{estimate.stamp, (state.map_T_local().inverse() * estimate.map_T_body).rotation,
                       estimate.stamp - state.trust.last_trusted};
   const std::optional<FoundBody> found =
-      state.recovery.search(state.local_map.ndt(), views, lost, settings_.registration, times);
+      state.recovery.search(state.local_map.ndt(), views, lost, limited_effort_, times);
   if (!found) return false;
+  beginAgainAt(*found, state, estimate);
+  state.trust.contradiction.clear();
+  return true;
+}
 
-  const Rigid& local_T_body = found->registration.target_T_source;
+/** An error of the IMU stays in the velocity: without a new window the lidar would pull at it for seconds. */
+void Tracker::believeLidar(TrackerState& state, StateEstimate& estimate) const
+{
+  constexpr Duration kAgain = 10s;  // where lidar and IMU always contradict each other, Contradiction must see it
+  const FoundBody seen{*estimate.registration, estimate.registration->covariance};
+  std::optional<Timestamp>& believed = state.trust.lidar_believed;
+  const bool too_often = believed && estimate.stamp - *believed < kAgain && !state.trust.imu_silent;
+  if (too_often || !state.recovery.lastSeen() || !isPositiveDefinite(seen.covariance)) return;
+  beginAgainAt(seen, state, estimate);
+  believed = estimate.stamp;
+}
+
+/**
+ * Begins a new window where the body is found. The map frame and the biases are those of the last trusted scan: what
+ * the IMU read since then, and registrations that contradicted it, would tilt them.
+ */
+void Tracker::beginAgainAt(const FoundBody& found, TrackerState& state, StateEstimate& estimate) const
+{
+  const Rigid& local_T_body = found.registration.target_T_source;
   const LastSeen& seen = *state.recovery.lastSeen();
   const PlacedImu imu{state.smoother.body_T_imu(), state.smoother.noise()};
   state.smoother = windowFrom(
-      foundAt(seen.map_T_local * local_T_body, found->covariance, newestOf(state.smoother), seen.bias, imu), imu);
+      foundAt(seen.map_T_local * local_T_body, found.covariance, newestOf(state.smoother), seen.bias, imu), imu);
   state.last_registered.reset();
-  state.trust.contradiction.clear();
+  state.trust.separation = {};
   anchorAt(local_T_body, state);
 
-  estimate.registration = found->registration;
+  estimate.registration = found.registration;
   estimate.map_T_body = state.smoother.newestBody();
   estimate.covariance = state.smoother.newestBodyCovariance();
   estimate.velocity = state.smoother.newest().velocity;
   estimate.trusted = estimate.recovered = true;
-  return true;
 }
 
 /** Registrations from now on are relative to the newest body, which is there in the local map. */
@@ -236,7 +283,8 @@ void Tracker::updateMap(Seen& seen, bool contradicted, TrackerState& state, Stat
     state.trust.contradiction.clear();
     state.trust.last_trusted = estimate.stamp;
   }
-  const bool sure = estimate.trusted && !contradicted && estimate.registration->outcome == Outcome::Converged;
+  const bool sure = estimate.trusted && !contradicted && !state.trust.separation.suspected() &&
+                    estimate.registration->outcome == Outcome::Converged;
   if (state.local_map.empty() || (sure && state.local_map.wants(state.map_T_local().inverse() * estimate.map_T_body)))
     times.measure("keyframe", [&] { addKeyframe(seen, state, estimate); });
 }
@@ -261,11 +309,11 @@ void Tracker::addKeyframe(Seen& seen, TrackerState& state, StateEstimate& estima
 
 TrackerState Tracker::changeImu(TrackerState state, const ImuChange& change) const
 {
-  const Rigid map_T_local = state.map_T_local();
+  const Rigid local_T_body = state.map_T_local().inverse() * state.smoother.newestBody();
   const bool anchored = state.smoother.hasAnchor();
   const NavEstimate start = continuedBy(change, newestOf(state.smoother), state.smoother.body_T_imu());
   state.smoother = windowFrom(start, change.imu);
-  if (anchored) anchorAt(map_T_local.inverse() * state.smoother.newestBody(), state);
+  if (anchored) anchorAt(local_T_body, state);
   state.recovery.changeBias(start.state.bias);
   return state;
 }

@@ -68,17 +68,22 @@ class Tracker
   Prediction predict(const std::vector<ImuSample>&, TrackerState&, StageTimes&) const;
   Seen preprocess(Scan, const NavState& before, const std::vector<ImuSample>&, const TrackerState&, StageTimes&) const;
   void locate(const Seen&, const Prediction&, TrackerState&, StateEstimate&, StageTimes&) const;
+  RegistrationResult registerTwice(const NdtMap&, const std::vector<View>&, const PoseGuess&, StageTimes&) const;
   void addRegistration(const PoseGuess& predicted, TrackerState&, StateEstimate&) const;
   void smooth(const NavState& before, const std::vector<ImuSample>&, const Prediction&, TrackerState&, StateEstimate&,
               StageTimes&) const;
+  void compareWithRegistration(const StateEstimate&, TrackerState&) const;
   bool judgeAndRecover(const Seen&, TrackerState&, StateEstimate&, StageTimes&) const;
   Assessment judge(TrackerState&, StateEstimate&) const;
   bool recover(const std::vector<View>&, TrackerState&, StateEstimate&, StageTimes&) const;
+  void believeLidar(TrackerState&, StateEstimate&) const;
+  void beginAgainAt(const FoundBody&, TrackerState&, StateEstimate&) const;
   void anchorAt(const Rigid& local_T_body, TrackerState&) const;
   void updateMap(Seen&, bool contradicted, TrackerState&, StateEstimate&, StageTimes&) const;
   void addKeyframe(Seen&, TrackerState&, StateEstimate&) const;
 
   SlamSettings settings_;
+  ScanRegistrationOptions limited_effort_;  // for a lost body
   Crop crop_;
   std::vector<Eigen::Vector3d> viewpoints_;  // of the lidars in the body frame; empty: stems stay where they are seen
 };

@@ -11,24 +11,49 @@ namespace scanloom
 {
 namespace
 {
+/** Derivatives of the new IMU's state by that of the one before; its biases are other ones where they are not known. */
+Matrix15d byStateBefore(const Rigid& old_T_new, bool biases_known)
+{
+  Matrix15d j = Matrix15d::Zero();
+  j.topLeftCorner<6, 6>() = bodyStepByImuStep(old_T_new);
+  j.block<3, 3>(6, 6).setIdentity();
+  if (!biases_known) return j;
+  const Eigen::Matrix3d new_R_old = old_T_new.rotation.conjugate().toRotationMatrix();
+  j.block<3, 3>(9, 9) = j.block<3, 3>(12, 12) = new_R_old;
+  return j;
+}
+
+/** Tilt and bias of the one before are wrong together, and so are they of the new one. */
 Matrix15d covarianceOf(const ImuChange& change, const Matrix15d& known, const Rigid& old_T_new, bool biases_known)
 {
   constexpr double kTilt = 0.005, kVelocity = 0.3;            // rad, m/s
   constexpr double kGyroBias = 0.02, kKnownGyroBias = 0.001;  // rad/s
   constexpr double kKnownAccelBias = 0.02;                    // m/s2, by the lever's accelerations
-  const Eigen::Matrix3d new_R_old = old_T_new.rotation.conjugate().toRotationMatrix();
-  const Matrix6d step = bodyStepByImuStep(old_T_new);
-  Matrix15d covariance = Matrix15d::Zero();
-  covariance.topLeftCorner<6, 6>() = step * known.topLeftCorner<6, 6>() * step.transpose();
-  covariance.block<3, 3>(6, 6) = known.block<3, 3>(6, 6);
+  const double accel_bias = biases_known ? kKnownAccelBias : change.imu.noise.accel_bias_sigma;
+  const Matrix15d j = byStateBefore(old_T_new, biases_known);
+  Matrix15d covariance = j * known * j.transpose();
   covariance.diagonal().segment<3>(3).array() += kTilt * kTilt;
   covariance.diagonal().segment<3>(6).array() += kVelocity * kVelocity;
-  covariance.diagonal().segment<3>(9).setConstant(std::pow(biases_known ? kKnownGyroBias : kGyroBias, 2));
-  covariance.diagonal().segment<3>(12).setConstant(std::pow(change.imu.noise.accel_bias_sigma, 2));
-  if (biases_known)
-    covariance.bottomRightCorner<3, 3>() = new_R_old * known.bottomRightCorner<3, 3>() * new_R_old.transpose() +
-                                           std::pow(kKnownAccelBias, 2) * Eigen::Matrix3d::Identity();
+  covariance.diagonal().segment<3>(9).array() += std::pow(biases_known ? kKnownGyroBias : kGyroBias, 2);
+  covariance.diagonal().segment<3>(12).array() += accel_bias * accel_bias;
   return covariance;
+}
+
+/**
+ * The accelerometer's bias that follows from the IMU before is more than this one may have: the difference is tilt,
+ * which is measured where the better accelerometer takes over.
+ */
+NavEstimate withExpectedBias(const NavEstimate& estimate, double accel_bias_sigma)
+{
+  const Matrix15d& p = estimate.covariance;
+  const Eigen::Matrix3d innovation =
+      p.bottomRightCorner<3, 3>() + std::pow(accel_bias_sigma, 2) * Eigen::Matrix3d::Identity();
+  const Eigen::Matrix<double, 15, 3> gain = p.rightCols<3>() * innovation.inverse();
+  NavEstimate corrected;
+  corrected.state = boxPlus(estimate.state, Vector15d(-gain * estimate.state.bias.accel));
+  const Matrix15d covariance = p - gain * p.bottomRows<3>();
+  corrected.covariance = 0.5 * (covariance + covariance.transpose());
+  return corrected;
 }
 
 Eigen::Vector3d rateAt(Timestamp stamp, const std::vector<ImuSample>& samples, const ImuBias& bias)
@@ -47,7 +72,8 @@ NavEstimate continuedBy(const ImuChange& change, const NavEstimate& newest, cons
   state.map_T_imu = state.map_T_imu * old_T_new;
   const Eigen::Vector3d lever = old_T_new.rotation.conjugate() * old_T_new.translation;
   state.velocity += state.map_T_imu.rotation * rateAt(state.stamp, change.samples, state.bias).cross(lever);
-  return {state, covarianceOf(change, newest.covariance, old_T_new, bias.has_value())};
+  const NavEstimate continued{state, covarianceOf(change, newest.covariance, old_T_new, bias.has_value())};
+  return bias ? withExpectedBias(continued, change.imu.noise.accel_bias_sigma) : continued;
 }
 
 NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, const NavEstimate& newest,

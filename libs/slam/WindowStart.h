@@ -25,8 +25,9 @@ struct ImuChange
 
 /**
  * The newest state of the IMU before, as the state of the new one. Its biases follow from those of the IMU before where
- * both have samples of the same time (biasOfReplacement). The covariance covers the motion while the IMU before was
- * silent and its last sample was held.
+ * both have samples of the same time (biasOfReplacement). The new one's accel_bias_sigma then corrects the tilt: an
+ * accelerometer that is known well levels the map of one that is not. The covariance covers the motion while the IMU
+ * before was silent and its last sample was held.
  */
 NavEstimate continuedBy(const ImuChange&, const NavEstimate& newest, const Rigid& body_T_imu_before);
 

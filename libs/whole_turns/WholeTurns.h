@@ -63,6 +63,9 @@ class WholeTurns : public Batcher
 
   Duration timeOffset(LidarIndex lidar) const override { return inputs_[lidar].time_offset; }
 
+  /** None: host time is not used. */
+  std::optional<Duration> ahead(LidarIndex, Timestamp, Timestamp) const override { return std::nullopt; }
+
   /** Never called: a turn has no slices. */
   void onSlice(SliceSink) override {}
 

@@ -79,8 +79,45 @@ TEST_F(Edit, aDryRunChecksAndWritesNothing)
 
 TEST_F(Edit, whatIsNoValueIsStatus2)
 {
-  for (const std::string operation : {"--crop-box '0 0 0 1 1'", "--voxel 0", "--from-time yesterday"})
+  for (const std::string operation :
+       {"--crop-box '0 0 0 1 1'", "--crop-box '0 0 0 1 1 nan'", "--voxel 0", "--voxel nan", "--from-time yesterday",
+        "--from-time nan", "--from-index -1", "--to-index -1", "--keep-every -1", "--rebatch nan", "--max-range nan",
+        "--min-range inf", "--time-offset imu=nan"})
+  {
     EXPECT_EQ(edit(files + operation).status, 2) << operation;
+    EXPECT_FALSE(std::filesystem::exists(out)) << operation;
+  }
+}
+
+TEST_F(Edit, anOutputIsNeverAnInput)
+{
+  const std::string before = contentOf(in);
+  const std::string link = (folder / "link.rawlog").string();
+  std::filesystem::create_symlink(in, link);
+  const std::string path = (folder / "t.tum").string();
+  writeTum(path, straightOn());
+  for (const std::string& arguments : {" -o " + in + " --keep-every 2", " -o " + link + " --keep-every 2",
+                                       " -o " + path + " --deskew " + path, " --export-tum " + in})
+  {
+    const Ended ended = edit("-w -i " + in + arguments);
+    EXPECT_EQ(ended.status, 2) << arguments;
+    EXPECT_THAT(ended.output, HasSubstr("is also read by this command")) << arguments;
+    EXPECT_TRUE(contentOf(in) == before) << arguments;
+  }
+}
+
+TEST_F(Edit, anExportReplacesAllCloudsOfAnEarlierOne)
+{
+  const std::string folder_of_clouds = " --export-pcd " + (folder / "clouds").string();
+  ASSERT_EQ(edit("-i " + in + folder_of_clouds).status, 0);
+  std::ofstream(folder / "clouds/lidar/mine.txt") << "mine";
+  ASSERT_EQ(edit("-w -i " + in + " --to-index 6" + folder_of_clouds).status, 0);
+
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "clouds/lidar"))
+    names.push_back(entry.path().filename().string());
+  EXPECT_THAT(names, testing::UnorderedElementsAre("000000.pcd", "times.txt", "mine.txt"));
+  EXPECT_EQ(contentOf(folder / "clouds/lidar/times.txt"), "1700000000.000000000\n");
 }
 
 TEST_F(Edit, anInputThatIsMissingIsStatus1)

@@ -39,6 +39,9 @@ std::vector<std::string> outcomesOf(const TemporaryFolder& folder)
   return outcomes;
 }
 
+/** A run that is not lost, within a metre; a lidar with 16 beams may leave a direction open. */
+auto found(const std::string& lidars) { return testing::MatchesRegex(lidars + " (OK|DEGENERATE) 0\\..*"); }
+
 TEST(ExperimentVerb, givesTheSameRowsInTheSameOrderWithAnyNumberOfJobs)
 {
   const TemporaryFolder one, two;
@@ -48,7 +51,7 @@ TEST(ExperimentVerb, givesTheSameRowsInTheSameOrderWithAnyNumberOfJobs)
 
   const std::vector<std::string> outcomes = outcomesOf(one);
   ASSERT_EQ(outcomes.size(), 2U);
-  EXPECT_THAT(outcomes[0], HasSubstr("left OK 0."));
+  EXPECT_THAT(outcomes[0], found("left"));
   EXPECT_THAT(outcomes[1], HasSubstr("left,right OK 0."));
   EXPECT_EQ(outcomesOf(two), outcomes);
 }
@@ -72,7 +75,7 @@ TEST(ExperimentVerb, aFailedRunIsARowAndStatusFour)
   const Ended ended = experiment(folder, "--set 'experiment.lidars=middle left'");
 
   EXPECT_EQ(ended.status, 4);
-  EXPECT_THAT(outcomesOf(folder), ElementsAre("middle FAILED ", HasSubstr("left OK")));
+  EXPECT_THAT(outcomesOf(folder), ElementsAre("middle FAILED ", found("left")));
   EXPECT_THAT(contentOf(folder / "sweep/results.csv"), HasSubstr("no lidar is called 'middle'"));
 }
 
@@ -85,7 +88,7 @@ TEST(ExperimentVerb, aDriveThatCannotBeSimulatedIsARowForEachOfItsRuns)
                                  "'experiment.axis1_values=OS0-16 | OS9-16' --set experiment.lidars=left");
 
   EXPECT_EQ(ended.status, 4);
-  EXPECT_THAT(outcomesOf(folder), ElementsAre(HasSubstr("left OK"), "left FAILED "));
+  EXPECT_THAT(outcomesOf(folder), ElementsAre(found("left"), "left FAILED "));
   EXPECT_THAT(contentOf(folder / "sweep/results.csv"), HasSubstr("simulate ended with status 2: "));
 }
 

@@ -4,12 +4,15 @@
 #include "formats/Trajectory.h"
 #include "maps/OctoMapFile.h"
 #include "maps/SimpleMapReader.h"
+#include "support/ChildProcess.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/opengl/COpenGLScene.h>
+#include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -105,6 +108,44 @@ TEST_F(Map, aDryRunEstimatesAndWritesNothing)
   EXPECT_EQ(ended.status, 0);
   EXPECT_THAT(ended.output, HasSubstr("0.1 m / 20 m"));
   EXPECT_FALSE(std::filesystem::exists(name("m.bt")));
+}
+
+TEST_F(Map, anInterruptedMapReplacesNoWholeOne)
+{
+  writeSmallRawlog(rawlog, 100);
+  Trajectory poses;
+  for (int i = 0; i < 300; ++i) poses.push_back({kSmallStart + i * 50ms, {{1, 0, 0, 0}, {0.5 * i, 0, 0}}});
+  writeTum(path, poses);
+  const std::string options = "--preset fine -o " + name("m.bt");
+  const auto start = std::chrono::steady_clock::now();
+  ASSERT_EQ(map(options).status, 0);
+  const std::chrono::duration<double, std::micro> length = std::chrono::steady_clock::now() - start;
+  const std::string whole = contentOf(name("m.bt"));
+  std::ofstream(name("m.bt")) << "good";
+  for (const double share : {0.5, 0.7})
+  {
+    ChildProcess child(SCANLOOM_BIN_DIR "/scanloom map -w -q -i " + rawlog + " --trajectory " + path +
+                           " --keyframe-distance 0.9 " + options,
+                       folder / "log.txt");
+    usleep(static_cast<unsigned>(share * length.count()));
+    child.send(SIGTERM);
+    const int status = child.wait();
+    const std::string now = contentOf(name("m.bt"));
+    ASSERT_TRUE(now == (status == 0 ? whole : "good")) << status << ": " << child.log();
+    std::ofstream(name("m.bt")) << "good";
+  }
+}
+
+TEST_F(Map, anOutputIsNeverAnInput)
+{
+  ASSERT_EQ(map("-o " + name("m.ot") + " -o " + name("m.simplemap")).status, 0);
+  const std::string before = contentOf(name("m.ot")), trajectory = contentOf(path);
+  std::filesystem::create_symlink(name("m.ot"), name("link.ot"));
+  EXPECT_EQ(scanloomRuns("map -w -i " + name("m.ot") + " -o " + name("link.ot")).status, 2);
+  EXPECT_EQ(scanloomRuns("map -w -i " + path + " -o " + path).status, 2);
+  EXPECT_EQ(scanloomRuns("map -w -i " + name("m.simplemap") + " -o " + name("m.simplemap")).status, 2);
+  EXPECT_TRUE(contentOf(name("m.ot")) == before);
+  EXPECT_EQ(contentOf(path), trajectory);
 }
 
 TEST_F(Map, aTrajectoryOfAnotherDayIsStatus1)

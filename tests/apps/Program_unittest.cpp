@@ -12,6 +12,7 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -51,6 +52,9 @@ struct WeaveArguments
   int jobs = 0;
   bool json = false;
   std::string failure;
+  double speed = 1;
+  std::optional<double> share;
+  std::optional<std::uint64_t> first;
 };
 
 WeaveArguments g_parsed;  // what the latest run was given
@@ -78,6 +82,9 @@ std::function<int()> addWeave(CLI::App& app)
   addJobs(app, arguments->jobs);
   addJson(app, arguments->json);
   addOption(app, "--fail", arguments->failure, "an error");
+  addOption(app, "--speed", arguments->speed, "of the loom").positive();
+  addOption(app, "--share", arguments->share, "of the yarn").between(0, 1);
+  addOption(app, "--first", arguments->first, "thread");
   return [arguments] { return weave(*arguments); };
 }
 
@@ -181,6 +188,23 @@ TEST_F(Program, saysWhichValuesAnOptionTakes)
   EXPECT_EQ(ended.status, kWrongUsage);
   EXPECT_THAT(ended.messages, testing::HasSubstr("--jobs"));
   EXPECT_THAT(ended.messages, testing::HasSubstr("many"));
+}
+
+TEST_F(Program, takesNoNumberThatIsNone)
+{
+  const std::vector<std::pair<const char*, const char*>> values{
+      {"--jobs", "many"}, {"--jobs", "-1"},     {"--jobs", "1.5"}, {"--seed", "-1"},   {"--speed", "nan"},
+      {"--speed", "inf"}, {"--speed", "1e999"}, {"--speed", "-2"}, {"--share", "nan"}, {"--first", "-1"},
+  };
+  for (const auto& [option, value] : values)
+  {
+    const Ended ended = run({"weave", option, value});
+    EXPECT_EQ(ended.status, kWrongUsage) << option << ' ' << value;
+    EXPECT_THAT(ended.messages, testing::HasSubstr(option));
+    EXPECT_THAT(ended.messages, testing::HasSubstr(std::string("'") + value + "' must be "));
+    EXPECT_LT(ended.messages.size(), 200U) << "no limit of 309 digits";
+  }
+  EXPECT_EQ(run({"weave", "--speed", "1e-3", "--share", "0.5", "--first", "0"}).status, kQualityGate);
 }
 
 TEST_F(Program, writesTheDefaultsOfAVerb)

@@ -27,9 +27,9 @@ struct Recorder
   explicit Recorder(const RecordedLidars& lidars, const std::string& arguments = "")
   {
     std::ofstream(folder / "live.ini") << lidars.section() << "pcap_output = " << capture.string() << '\n';
-    child.emplace(fmt::format("{}/scanloom record -c {} -o {} {}", SCANLOOM_BIN_DIR, (folder / "live.ini").string(),
-                              rawlog.string(), arguments),
-                  folder / "log.txt");
+    command = fmt::format("{}/scanloom record -c {} -o {} {}", SCANLOOM_BIN_DIR, (folder / "live.ini").string(),
+                          rawlog.string(), arguments);
+    child.emplace(command, folder / "log.txt");
     lidars.waitForReceiver();
   }
 
@@ -37,6 +37,7 @@ struct Recorder
   std::filesystem::path rawlog = folder / "live.rawlog";
   std::filesystem::path part = folder / "live.rawlog.part";
   std::filesystem::path capture = folder / "live.pcap";
+  std::string command;
   std::optional<ChildProcess> child;
 };
 
@@ -116,6 +117,42 @@ TEST(RecordLive, rawlogAndCaptureAreReadableUpToTheLastSecondAfterKill)
   std::smatch found;
   ASSERT_TRUE(std::regex_search(stock, found, std::regex(": +lidar */ *([0-9]+) "))) << stock;
   EXPECT_GE(std::stoul(found[1]), scans.size() - 1) << "MRPT's own reader goes on from member to member";
+}
+
+TEST(RecordLive, whatAKillLeftOutlivesTheSameCommandAgain)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  const RecordedLidars lidars(recording, kDatagrams);
+  Recorder recorder(lidars);
+  lidars.send();
+  recorder.child->send(SIGKILL);
+  recorder.child->wait();
+  const std::string rawlog = contentOf(recorder.part), capture = contentOf(recorder.capture);
+  ASSERT_GT(rawlog.size(), 100'000u);
+
+  ChildProcess again(recorder.command + " -w", recorder.folder / "again.txt");
+  lidars.waitForReceiver();
+  for (int i = 0; i < 100 && !std::filesystem::exists(recorder.part); ++i) usleep(10'000);
+  again.send(SIGKILL);
+  again.wait();
+  EXPECT_TRUE(contentOf(recorder.part.string() + ".1") == rawlog);
+  EXPECT_TRUE(contentOf(recorder.folder / "live.replaced.pcap") == capture);
+  EXPECT_THAT(again.log(), HasSubstr("live.rawlog.part.1"));
+}
+
+TEST(RecordLive, withoutAScanReplacesNothing)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  const RecordedLidars lidars(recording, 10);
+  Recorder recorder(lidars, "--seconds 0.3");
+  EXPECT_EQ(recorder.child->wait(), 1) << "nobody sent";
+  std::ofstream(recorder.rawlog) << "good";
+  std::ofstream(recorder.capture) << "good capture";
+
+  ChildProcess again(recorder.command + " -w", recorder.folder / "again.txt");
+  EXPECT_EQ(again.wait(), 1);
+  EXPECT_EQ(contentOf(recorder.rawlog), "good");
+  EXPECT_EQ(contentOf(recorder.folder / "live.replaced.pcap"), "good capture");
 }
 
 TEST(RecordLive, stopsByItselfAfterTheSecondsThatWereAskedFor)

@@ -197,5 +197,17 @@ TEST(RegisterRecorded, findsThePairOfSmallGicp)
   EXPECT_LT(json.at("error_deg"), 0.3);
   EXPECT_EQ(json.at("points").at("source"), 69792);
 }
+
+TEST(RegisterRecorded, aPoseThatALittleOverlapSuggestsIsOnlyTrustedWhereTheOtherWayRoundConfirmsIt)
+{
+  SCANLOOM_NEEDS_DATA(folder, "registration/koide3+small_gicp/data");
+  for (const int yaw : {60, 90, -150})  // these converge, 39 to 133 deg off
+  {
+    const Ended ended =
+        registered(fmt::format("{0}/target.ply {0}/source.ply --guess '0 0 0 {1} 0 0'", folder.string(), yaw));
+    EXPECT_EQ(ended.status, 3) << yaw;
+    EXPECT_THAT(ended.output, HasSubstr("not confirmed")) << yaw;
+  }
+}
 }  // namespace
 }  // namespace scanloom

@@ -17,6 +17,10 @@ struct LoopbackOptions
   int sensors = 2;
   double seconds = 10;  // of the host
   double speed = 1;     // seconds of the lidars per second of the host
+  int spoofed = 0;      // packets per second that copy the first lidar's half a turn ahead, from another address
+  int flood = 0;        // IMU packets per second with stamps of any time, from the first lidar's own address
+
+  bool hasStrangers() const { return spoofed > 0 || flood > 0; }
 };
 
 class LoopbackLidars
@@ -47,7 +51,9 @@ class LoopbackLidars
       const Rigid body_T_sensor = Rigid::fromXyzYawPitchRoll(0.5 * n, 1, 2, 0.7 * n, 0.1, -0.05);
       rig.lidars.push_back(
           {"lidar" + std::to_string(i), std::make_shared<OusterDecoder>(metadata_, body_T_sensor), Duration{0}});
-      rig.addresses.push_back({ports_[i], 0, addresses_[i]});
+      // Where addresses are configured strangers do not even get in.
+      rig.addresses.push_back(
+          {ports_[i], ports_[i], options_.hasStrangers() ? std::nullopt : std::optional(addresses_[i])});
     }
     return rig;
   }
@@ -71,6 +77,7 @@ class LoopbackLidars
   void go() { shared_->go = true; }
   bool finished() const { return shared_->finished; }
   std::uint64_t sent() const { return shared_->sent; }
+  std::uint64_t sentByStrangers() const { return shared_->by_strangers; }
   std::size_t packetBytes() const { return shared_->packet_bytes; }
 
   /** When, by CLOCK_MONOTONIC, the lidars' clocks show `stamp`. */
@@ -84,7 +91,7 @@ class LoopbackLidars
   {
     std::atomic<bool> go{false}, finished{false};
     std::atomic<std::int64_t> begin{0};  // CLOCK_MONOTONIC at kBegin, ns
-    std::atomic<std::uint64_t> sent{0};
+    std::atomic<std::uint64_t> sent{0}, by_strangers{0};
     std::atomic<std::size_t> packet_bytes{0};
   };
 
@@ -108,10 +115,26 @@ class LoopbackLidars
         for (std::size_t i = 0; i < turns.size(); ++i)
           sender.send(datagram(static_cast<int>(i), turns[i].packets()[p]));
         shared_->sent += turns.size();
+        sendStrangers(sender, turns.front().packets()[(p + kPacketsPerTurn / 2) % kPacketsPerTurn],
+                      (Clock::now() - begin).count() * 1e-9);
       }
       for (Turn& t : turns) t.advance();
     }
     shared_->finished = true;
+  }
+
+  /** Those that are due `after` so many seconds. */
+  void sendStrangers(UdpSender& sender, const Packet& copied, double after)
+  {
+    DatagramView copy = datagram(0, copied), imu = datagram(0, imu_);
+    copy.source = IpAddress::parse("127.0.0.99");
+    for (; spoofed_ < after * options_.spoofed; ++spoofed_, ++shared_->by_strangers) sender.send(copy);
+    for (; flooded_ < after * options_.flood; ++flooded_, ++shared_->by_strangers)
+    {
+      store(imu_, 0, std::uint64_t{flooded_} * 1'000'000'007'000'001 % 4'000'000'000'000'000'000);
+      store(imu_, ouster_legacy_imu::kGyroStamp, load<std::uint64_t>(imu_, 0));
+      sender.send(imu);
+    }
   }
 
   DatagramView datagram(int lidar, const Packet& packet) const
@@ -127,6 +150,8 @@ class LoopbackLidars
   OusterMetadata metadata_;
   std::vector<std::uint16_t> ports_;
   std::vector<IpAddress> addresses_;
+  Packet imu_ = Packet(48, 0);  // LEGACY
+  std::uint64_t spoofed_ = 0, flooded_ = 0;
   Shared* shared_ = nullptr;
   pid_t process_ = 0;
 };

@@ -6,6 +6,7 @@
  *   scanloom_bench_live --sensors 8 --seconds 120             latency
  *   scanloom_bench_live --sensors 8 --seconds 600 --speed 3   a soak
  *   scanloom_bench_live --sensors 2 --seconds 600 --busy 4    with all cores under stress
+ *   scanloom_bench_live --spoofed 10 --flood 1000             with strangers, without configured addresses
  */
 #include "LoopbackLidars.h"
 #include "rig/RigLive.h"
@@ -128,6 +129,7 @@ Observed observe(RigLive& live, const LoopbackLidars& lidars)
   {
     if (const auto event = live.next(50ms))
     {
+      if (std::holds_alternative<SensorImu>(*event)) continue;
       const Scan& scan = std::get<Scan>(*event);
       const bool cut = observed.scans == 0 || lidars.finished();
       ++observed.scans;
@@ -179,11 +181,13 @@ bool report(const Arguments& arguments, const LoopbackLidars& lidars, const RigL
   const auto input = [&](const char* name) { return account.input.at(name); };
   const std::uint64_t lost = input("datagrams_dropped") + input("datagrams_dropped_by_kernel");
   LidarCounters sum;
-  bool exact = input("datagrams") + lost == lidars.sent();
+  std::uint64_t of_other_senders = 0;
+  bool exact = input("datagrams") + lost == lidars.sent() + lidars.sentByStrangers();
   for (const LidarAccount& lidar : account.lidars)
   {
     const LidarCounters& c = lidar.counters;
     exact &= c.received == c.emitted + c.late + c.duplicate + c.invalid + c.before_start + c.implausible + c.dropped;
+    of_other_senders += lidar.of_other_senders;
     sum.packets += c.packets;
     sum.received += c.received;
     sum.emitted += c.emitted;
@@ -206,6 +210,9 @@ bool report(const Arguments& arguments, const LoopbackLidars& lidars, const RigL
              sum.packets, input("datagrams_restamped"));
   fmt::print("  blocks received {}, emitted {}, late {}, dropped {}, lost {}\n", sum.received, sum.emitted, sum.late,
              sum.dropped, sum.lost);
+  if (arguments.loopback.hasStrangers())
+    fmt::print("  strangers sent {}; refused: {} packets of other senders, {} IMU samples\n", lidars.sentByStrangers(),
+               of_other_senders, account.implausible_imu_samples);
   for (const auto& [name, cpu] : observed.cpu)
     fmt::print("  thread {:<16} {:5.1f} % of a core, {:.2f} us per datagram\n", name, 100 * cpu / observed.elapsed,
                1e6 * cpu / static_cast<double>(lidars.sent()));
@@ -246,6 +253,10 @@ int main(int argc, char** argv)
   app.add_option("--deadline-ms", arguments.deadline_ms, "ms")->check(CLI::NonNegativeNumber);
   app.add_option("--busy", arguments.busy, "processes that keep the processor busy meanwhile")
       ->check(CLI::Range(0, 256));
+  app.add_option("--spoofed", arguments.loopback.spoofed, "copies of the first lidar's packets per second")
+      ->check(CLI::Range(0, 1000));
+  app.add_option("--flood", arguments.loopback.flood, "IMU packets with wrong stamps per second")
+      ->check(CLI::Range(0, 100000));
   CLI11_PARSE(app, argc, argv);
   return run(arguments);
 }

@@ -154,6 +154,41 @@ TEST(Configuration, acceptsNoNumberThatIsNotFinite)
   EXPECT_EQ(problemOfNdt("cell_size = +1.5e-1"), "");
 }
 
+TEST(Configuration, acceptsNoNumberWithoutMeaning)
+{
+  for (const char* text : {"1e300", "-1e10", "1e-300"})
+    EXPECT_NE(problemOfNdt(std::string("cell_size = ") + text), "") << text;
+  EXPECT_EQ(problemOfNdt("cell_size = 1e-9"), "");
+}
+
+struct BoxOptions
+{
+  double low = -4, high = 10;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.low, Field{"low", "m", "rear"});
+    visit(o.high, Field{"high", "m", "front"});
+  }
+  template <typename Self, typename Visitor>
+  static void order(const Self& o, Visitor&& visit)
+  {
+    visit("low", o.low, "high", o.high);
+  }
+};
+
+TEST(Configuration, namesTheLimitsThatAreInTheWrongOrder)
+{
+  const auto problems = [](const std::string& text)
+  { return problemsOf([&] { from(text).read<BoxOptions>("crop", {}, "lidar1_"); }); };
+  EXPECT_THAT(problems("[crop]\nlidar1_low = 20\n"),
+              ElementsAre("harvester.ini:2: [crop] lidar1_low = 20: must be <= lidar1_high = 10"));
+  EXPECT_THAT(problems("[crop]\n\nlidar1_high = -5\n"),
+              ElementsAre("harvester.ini:3: [crop] lidar1_low = -4: must be <= lidar1_high = -5"));
+  EXPECT_THAT(problems("[crop]\nlidar1_low = 10\n"), ElementsAre());
+}
+
 TEST(Configuration, reportsAllProblemsTogether)
 {
   EXPECT_THAT(

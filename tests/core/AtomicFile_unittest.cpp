@@ -1,6 +1,7 @@
 #include "core/AtomicFile.h"
 
 #include "core/ConfigError.h"
+#include "support/FullDisk.h"
 #include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
@@ -90,12 +91,50 @@ TEST_F(AtomicFileTest, saysWhyItCannotBeWritten)
 
 TEST_F(AtomicFileTest, failsWhenTheDiskIsFull)
 {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  const auto file = folder / "full.csv";
-  std::filesystem::create_symlink("/dev/full", folder / ("full.partial-" + std::to_string(::getpid()) + ".csv"));
+  const FullDisk full(1000);
+  EXPECT_THROW(writeAtomically(folder / "full.csv", [](std::ostream& out) { out << std::string(100'000, 'x'); }),
+               std::runtime_error);
+  EXPECT_EQ(files(), 0);
+}
 
-  EXPECT_THROW(writeAtomically(file, [](std::ostream& out) { out << "x"; }), std::runtime_error);
-  EXPECT_FALSE(std::filesystem::exists(file));
+TEST_F(AtomicFileTest, leavesAloneWhatHasItsTemporaryNameAlsoALink)
+{
+  std::ofstream(folder / "victim") << "precious";
+  const auto taken = folder / ("a.partial-" + std::to_string(::getpid()) + ".tum");
+  std::filesystem::create_symlink(folder / "victim", taken);
+
+  writeAtomically(folder / "a.tum", [](std::ostream& out) { out << "new"; });
+
+  EXPECT_EQ(contentOf(folder / "victim"), "precious");
+  EXPECT_TRUE(std::filesystem::is_symlink(taken));
+  EXPECT_EQ(contentOf(folder / "a.tum"), "new");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder / "a.tum"));
+}
+
+TEST_F(AtomicFileTest, isPutBesideAWholeFileIfItIsPartial)
+{
+  const auto writePartial = [&](const std::string& text)
+  {
+    AtomicFile file(folder / "map.bt");
+    std::ofstream(file.temporary()) << text;
+    return file.commit(Completeness::Partial);
+  };
+  EXPECT_EQ(writePartial("first"), folder / "map.bt") << "there was no file";
+  EXPECT_EQ(writePartial("second"), folder / "map.partial.bt");
+  EXPECT_EQ(writePartial("third"), folder / "map.partial-2.bt");
+  EXPECT_EQ(contentOf(folder / "map.bt"), "first");
+  EXPECT_EQ(contentOf(folder / "map.partial.bt"), "second");
+}
+
+TEST_F(AtomicFileTest, inputsAreNoOutputsByWhateverName)
+{
+  std::ofstream(folder / "in.rawlog") << "precious";
+  std::filesystem::create_symlink(folder / "in.rawlog", folder / "link.rawlog");
+  std::filesystem::create_hard_link(folder / "in.rawlog", folder / "twin.rawlog");
+
+  EXPECT_NO_THROW(refuseInputsAsOutputs({folder / "in.rawlog", ""}, {folder / "out.rawlog"}));
+  for (const char* name : {"in.rawlog", "link.rawlog", "twin.rawlog", "./in.rawlog"})
+    EXPECT_THROW(refuseInputsAsOutputs({folder / "other", folder / "in.rawlog"}, {folder / name}), UsageError) << name;
 }
 
 TEST_F(AtomicFileTest, refusesToReplaceFilesUnlessAsked)

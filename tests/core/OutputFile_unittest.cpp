@@ -1,11 +1,9 @@
 #include "core/OutputFile.h"
 
+#include "support/FullDisk.h"
 #include "support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-
-#include <csignal>
 
 namespace scanloom
 {
@@ -25,18 +23,12 @@ TEST(OutputFile, appearsWhenItIsCommitted)
 TEST(OutputFile, noticesThatTheDiskTookNoMore)
 {
   const TemporaryFolder folder;
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  const rlimit small{1000, before.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &small);
-  std::signal(SIGXFSZ, SIG_IGN);
   {
+    const FullDisk full(1000);
     OutputFile file(folder / "a");
     file.stream() << std::string(100'000, 'x');
     EXPECT_THROW(file.commit(), std::runtime_error);
   }
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_DFL);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 }  // namespace

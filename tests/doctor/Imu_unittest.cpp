@@ -10,6 +10,7 @@
 #include "imu/GyroAgreement.h"
 #include "imu/GyroScale.h"
 #include "imu/MeanForce.h"
+#include "support/peakMemory.h"
 
 using namespace scanloom;
 
@@ -161,6 +162,35 @@ TEST(GyroAgreement, findsTheLagOfTheLaterClock)
   const auto agreed = gyroAgreement({a, {}}, {b, {}});
   ASSERT_TRUE(agreed);
   EXPECT_NEAR(1e3 * seconds(agreed->lag), 137, 5);
+}
+
+TEST(GyroAgreement, aMonthWithoutSamplesIsNoMotionOfAMonth)
+{
+  auto a = swayingImu({}, 30, 200, 1), b = swayingImu({}, 30, 100, 2, 137ms);
+  const auto without = gyroAgreement({a, {}}, {b, {}});
+  const long before = peakMegabytes();
+  for (auto* samples : {&a, &b})
+  {
+    samples->push_back(samples->back());
+    samples->back().stamp += 30 * 24h;
+  }
+  const auto agreed = gyroAgreement({a, {}}, {b, {}});
+  ASSERT_TRUE(agreed);
+  EXPECT_EQ(agreed->rotation, without->rotation);
+  EXPECT_EQ(agreed->lag, without->lag);
+  EXPECT_LT(peakMegabytes() - before, 50);
+}
+
+TEST(GyroAgreement, goesOnBehindAGap)
+{
+  auto a = swayingImu({}, 60, 200, 1), b = swayingImu({}, 60, 100, 2);
+  for (auto* samples : {&a, &b})
+    for (ImuSample& sample : *samples)
+      if (sample.stamp >= kStart + 20s) sample.stamp += 365 * 24h;
+  const auto agreed = gyroAgreement({a, {}}, {b, {}});
+  ASSERT_TRUE(agreed);
+  EXPECT_LT(agreed->rotation.norm() / kDegree, 1);
+  EXPECT_NEAR(agreed->scale, 1, 0.02);
 }
 
 TEST(GyroAgreement, saysNothingOfABodyThatTurnsAboutOneAxisOrNotAtAll)

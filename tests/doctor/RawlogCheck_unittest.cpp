@@ -3,12 +3,16 @@
 
 #include "edit/CloudObservation.h"
 #include "edit/KeepEvery.h"
+#include "edit/RawlogReport.h"
 #include "edit/TimeOffset.h"
 #include "edit/smallRawlog.h"
+#include "support/peakMemory.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include <limits>
 
 namespace scanloom
 {
@@ -135,12 +139,71 @@ TEST_F(RawlogCheck, samplesThatComeAfterTheirScanAreLate)
   EXPECT_EQ(account().late_imu, 19u) << "the first of two, behind every scan but the last";
 }
 
+TEST_F(RawlogCheck, pointsThatNoLidarMeasuresAreCountedAndLeftOut)
+{
+  spoil(
+      [](const ObservationPtr& o, int i)
+      {
+        const auto cloud = o->sensorLabel == "lidar" ? cloudIn(o) : nullptr;
+        if (cloud && i >= 3 && i < 6)
+          for (const float nowhere : {std::numeric_limits<float>::quiet_NaN(), 1e30F})
+            cloud->pointcloud->setPointFast(static_cast<std::size_t>(2 * i + (nowhere > 0)), nowhere, 1, 1);
+        return Observations{o};
+      });
+  EXPECT_EQ(account().labels.at("lidar").of_clouds.impossible, 6u);
+  EXPECT_EQ(verdictOf("lidar", "points"), Verdict::Warning);
+  const CheckedRawlog check = checkRawlog(in, [](std::uint64_t) { return true; });
+  EXPECT_EQ(check.rig.lidars.size(), 2u) << "it also ends";
+}
+
+TEST_F(RawlogCheck, oneStampOfNextYearTakesNoMemory)
+{
+  for (const std::string label : {"imu", "lidar"})
+  {
+    const long before = peakMegabytes();
+    spoil(
+        [&](const ObservationPtr& o, int i)
+        {
+          if (o->sensorLabel == label && i == 19) o->timestamp += mrpt::Clock::duration(365 * 864'000'000'000);
+          return Observations{o};
+        });
+    const CheckedRawlog check = checkRawlog(in, [](std::uint64_t) { return true; });
+    EXPECT_EQ(check.account.labels.at(label).gaps, 1u);
+    EXPECT_LT(peakMegabytes() - before, 50) << label;
+  }
+}
+
 TEST_F(RawlogCheck, damageAndAMissingHeaderAreNotFit)
 {
   std::filesystem::resize_file(in, std::filesystem::file_size(in) / 2);
   EXPECT_EQ(verdictOf("rawlog", "file"), Verdict::NotFit);
   spoil([](const ObservationPtr& o, int) { return o->sensorLabel.empty() ? Observations{} : Observations{o}; });
   EXPECT_EQ(verdictOf("rawlog", "header"), Verdict::NotFit);
+}
+
+TEST_F(RawlogCheck, aLabelThatIsNoTextIsToldAllTheSame)
+{
+  spoil(
+      [](const ObservationPtr& o, int i)
+      {
+        if (i == 3) o->sensorLabel = "\xC3(";
+        return Observations{o};
+      });
+  const auto json = nlohmann::json::parse(toJson(checkRawlog(in, [](std::uint64_t) { return true; })));
+  EXPECT_EQ(json["rawlog"]["labels"]["\uFFFD("]["count"], 2);
+  EXPECT_NO_THROW(toJson(rawlogInfo(in)));
+}
+
+TEST_F(RawlogCheck, aHeaderWithoutLidarsHarmsNothing)
+{
+  {
+    RawlogWriter writer(in, RecordingHeader{});
+    for (int i = 0; i < 3; ++i) writer.write(*toObservation(someScan(kSmallStart + i * 100ms)));
+    writer.close();
+  }
+  const CheckedRawlog check = checkRawlog(in, [](std::uint64_t) { return true; });
+  EXPECT_TRUE(check.rig.lidars.empty());
+  EXPECT_EQ(check.account.labels.at("lidar").of_clouds.points, 360u);
 }
 
 TEST_F(RawlogCheck, isToldAsJson)

@@ -44,6 +44,13 @@ TEST(SnapshotTaker, keepsAFewHoweverLongItTakes)
   }
 }
 
+TEST(EvenSelection, keepsAFewAlsoWhereNumbersJump)
+{
+  EvenSelection<int> selection;
+  for (std::int64_t number = 0; number < 1000; ++number) selection.at(1024 * number);
+  EXPECT_LE(std::move(selection).taken().size(), 12u);
+}
+
 TEST(RigExamination, tellsHowFarAwayIsWhatComesBack)
 {
   Snapshot snapshot;

@@ -28,7 +28,7 @@ struct EditOperations : testing::Test
   {
     return editOperations(options, in, [this](const std::string& line) { notices += line + '\n'; });
   }
-  void edit() { edited(in, chained(operations(), in), out); }
+  void edit() { edited(in, chained(operations(), in, operations().back().outputs), out); }
   std::string complaint()
   {
     try
@@ -112,7 +112,7 @@ TEST_F(EditOperations, trajectoriesOfAllThreeFormatsDeskewAndMap)
     options = {};
     options.to_simplemap = folder / (name + ".simplemap");
     options.trajectory = folder / name;
-    readRawlog(in, chained(operations(), in), [](std::uint64_t) { return true; });
+    readRawlog(in, chained(operations(), in, operations().back().outputs), [](std::uint64_t) { return true; });
     EXPECT_TRUE(std::filesystem::exists(options.to_simplemap)) << name;
   }
 }

@@ -72,6 +72,29 @@ TEST_F(ExportClouds, pcdHoldsAllFields)
   EXPECT_EQ(readCloud(out / "lidar" / "000001.pcd").points.size(), 0u) << "the last scan is empty";
 }
 
+TEST_F(ExportClouds, labelsNameNoFilesOutsideOfTheFolder)
+{
+  for (const std::string& label : {std::string("../../evil"), (folder / "evil").string(), std::string("..")})
+  {
+    const auto renamed = [&](const ObservationPtr& observation)
+    {
+      if (observation) observation->sensorLabel = label;
+      return observation ? Observations{observation} : Observations{};
+    };
+    exported(chained(renamed, exportClouds(CloudFormat::Ply, out, someHeader())));
+    exported(chained(renamed, exportCsv(out)));
+    std::filesystem::remove(in);
+    in = writeSmallRawlog(folder / "in.rawlog", 2);
+  }
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    names.push_back(entry.path().filename().string());
+  EXPECT_THAT(names, testing::UnorderedElementsAre("in.rawlog", "out"));
+  EXPECT_TRUE(std::filesystem::exists(out / "%2E./000000.ply"));
+  EXPECT_TRUE(std::filesystem::exists(out / "%2E.%2F..%2Fevil.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path().parent_path() / "evil"));
+}
+
 TEST_F(ExportClouds, plyHoldsThePointsOfEachLabel)
 {
   exported(chained(splitLidars(someHeader()), exportClouds(CloudFormat::Ply, out, someHeader())));

@@ -56,13 +56,6 @@ TEST_F(RawlogEdit, whatIsNotChangedKeepsItsBytes)
   EXPECT_EQ(result.damage, "");
 }
 
-TEST_F(RawlogEdit, mayReplaceItsInput)
-{
-  const std::string before = uncompressed(in);
-  edited(in, unchanged, in);
-  EXPECT_TRUE(uncompressed(in) == before);
-}
-
 TEST_F(RawlogEdit, aCutFileIsEditedUpToTheCutAndSaidToBeCut)
 {
   std::filesystem::resize_file(in, std::filesystem::file_size(in) * 2 / 3);
@@ -91,6 +84,16 @@ TEST_F(RawlogEdit, keepsWhatItHasWhenItIsStopped)
   int seen = 0;
   editRawlog(in, unchanged, out, [&](std::uint64_t) { return ++seen < 5; });
   EXPECT_EQ(observationsIn(out).size(), 5u);
+}
+
+TEST_F(RawlogEdit, replacesNoWholeFileWhenItIsStopped)
+{
+  edited(in, unchanged, out);
+  const RawlogEdited stopped = editRawlog(in, unchanged, out, [](std::uint64_t) { return false; });
+  EXPECT_TRUE(stopped.stopped);
+  EXPECT_EQ(stopped.output, folder / "out.partial.rawlog");
+  EXPECT_EQ(observationsIn(stopped.output).size(), 1u);
+  EXPECT_EQ(observationsIn(out).size(), 17u);
 }
 
 TEST_F(RawlogEdit, chainedOperationsSeeEachOthersLateResults)

@@ -89,14 +89,23 @@ struct Pose
 {
   StampedPose pose;
   std::string health;
-  double error;  // m, agreed at the first pose
+  double error;     // m, agreed at the first pose
+  double tilt_deg;  // between the estimate's vertical and the true one
 };
+
+double tiltBetween(const Rigid& estimate, const Rigid& truth)
+{
+  const Eigen::Vector3d up(0, 0, 1);
+  const Eigen::Vector3d seen = estimate.rotation.conjugate() * up, there = truth.rotation.conjugate() * up;
+  return std::acos(std::min(1.0, seen.dot(there))) * 180 / M_PI;
+}
 
 struct LeftBehind
 {
   std::vector<Pose> poses;
   nlohmann::json summary;
   std::string csv;
+  std::string warnings;
   bool passed;
 
   std::uint64_t count(const char* name) const { return summary.at("counts").at(name).get<std::uint64_t>(); }
@@ -129,11 +138,12 @@ LeftBehind localise(const Fault& fault, const std::vector<int>& imus = {SensorIm
   const TemporaryFolder folder;
   FaultyInput input(fault, imus);
   SlamFiles files(folder.path(), input.setup().header.lidars, std::nullopt);
+  LeftBehind outcome;
   const SlamRunResult result = runSlam(
-      input, {}, files, [](const RunProgress&) { return true; }, [](const std::string&) {});
+      input, {}, files, [](const RunProgress&) { return true; },
+      [&](const std::string& warning) { outcome.warnings += warning + '\n'; });
   files.close(result.summary);
 
-  LeftBehind outcome;
   outcome.passed = result.passed;
   outcome.csv = contentOf(folder / "trajectory.csv");
   outcome.summary = nlohmann::json::parse(contentOf(folder / "summary.json"));
@@ -145,8 +155,9 @@ LeftBehind localise(const Fault& fault, const std::vector<int>& imus = {SensorIm
   for (std::size_t i = 0; i < std::min(healths.size(), trajectory.size()); ++i)
   {
     const Eigen::Vector3d at = world_T_map * trajectory[i].map_T_body.translation;
+    const Rigid truth = smallDrive().bodyAt(trajectory[i].stamp);
     outcome.poses.push_back(
-        {trajectory[i], healths[i], (at - smallDrive().bodyAt(trajectory[i].stamp).translation).norm()});
+        {trajectory[i], healths[i], (at - truth.translation).norm(), tiltBetween(trajectory[i].map_T_body, truth)});
   }
   EXPECT_EQ(outcome.csv.find("nan"), std::string::npos);
   EXPECT_EQ(outcome.count("poses") + outcome.count("scans_skipped"), outcome.count("scans"));
@@ -293,4 +304,133 @@ TEST(FaultyImu, silentForGoodAnotherOneGoesOnAsIfNothingWereMissing)
     EXPECT_EQ(outcome.summary.at("outcome"), "OK") << imus.size();
     EXPECT_LT(outcome.largestErrorWhile("OK"), 0.15) << imus.size();
   }
+}
+
+namespace
+{
+const std::vector<int> kBodyAlone{SensorImu::kBody}, kAll{SensorImu::kBody, 0, 1};
+
+bool isWithin(Duration at, Duration from, Duration length) { return at >= from && at < from + length; }
+
+/** Adds this specific force for so long, along the IMU's x axis. */
+Fault push(double force, Duration length)
+{
+  return [=](ImuSample sample, Duration at)
+  {
+    if (isWithin(at, kGone, length)) sample.accel.x() += force;
+    return sample;
+  };
+}
+
+std::uint64_t samplesWithin(Duration from, Duration length)
+{
+  std::uint64_t samples = 0;
+  for (const SensorEvent& event : smallDrive().events)
+    if (const auto* imu = std::get_if<SensorImu>(&event); imu && imu->sensor == SensorImu::kBody)
+      samples += isWithin(smallDrive().since(imu->sample.stamp), from, length);
+  return samples;
+}
+}  // namespace
+
+TEST(FaultyImu, oneReadingOf200IsRefusedAndNothingIsOff)
+{
+  const LeftBehind outcome = localise(push(200, 5ms));
+  EXPECT_EQ(outcome.count("imu_samples_refused"), 1u);
+  EXPECT_EQ(outcome.summary.at("outcome"), "OK");
+  EXPECT_LT(outcome.largestErrorWhile("OK"), 0.1);
+  EXPECT_NE(outcome.warnings.find("the IMU 'body': samples were refused: 1 beyond its range"), std::string::npos)
+      << outcome.warnings;
+}
+
+TEST(FaultyImu, aPushThatNoNeighbourKnowsIsRefusedAndNothingIsOff)
+{
+  const LeftBehind outcome = localise(push(20, 20ms));
+  EXPECT_EQ(outcome.count("imu_samples_refused"), samplesWithin(kGone, 20ms));
+  EXPECT_EQ(outcome.summary.at("outcome"), "OK");
+  EXPECT_LT(outcome.largestErrorWhile("OK"), 0.1);
+}
+
+TEST(FaultyImu, aTurnRateThatNoSensorMeasuresIsRefusedAndNothingIsOff)
+{
+  const LeftBehind outcome = localise(
+      [](ImuSample sample, Duration at)
+      {
+        if (isWithin(at, kGone, 5ms)) sample.gyro.z() = 1e6;
+        return sample;
+      });
+  EXPECT_EQ(outcome.count("imu_samples_refused"), 1u);
+  EXPECT_EQ(outcome.summary.at("outcome"), "OK");
+  EXPECT_LT(outcome.largestErrorWhile("OK"), 0.1);
+}
+
+TEST(FaultyImu, vibrationAndShocksOfAHarvesterAreReadings)
+{
+  const LeftBehind outcome = localise(
+      [](ImuSample sample, Duration at)
+      {
+        const double t = seconds(at), since_shock = std::fmod(t, 3.1);
+        sample.accel.z() += 0.6 * 9.8 * std::sin(2 * M_PI * 47 * t);
+        if (t > 4 && since_shock < 0.02) sample.accel.y() += 1.5 * 9.8 * std::sin(2 * M_PI * since_shock / 0.02);
+        return sample;
+      });
+  EXPECT_EQ(outcome.count("imu_samples_refused"), 0u);
+}
+
+TEST(FaultyImu, constantReadingsAreSilence)
+{
+  for (const auto& imus : {kBodyAlone, kAll})
+  {
+    std::optional<ImuSample> first;
+    const auto isFrozen = [](Duration at) { return isWithin(at, kGone, kBack - kGone); };
+    const LeftBehind frozen = localise(
+        [&](ImuSample sample, Duration at)
+        {
+          if (!isFrozen(at)) return sample;
+          if (!first) first = sample;
+          return ImuSample{sample.stamp, first->gyro, first->accel};
+        },
+        imus);
+    const LeftBehind silent =
+        localise([&](const ImuSample& sample, Duration at)
+                 { return isFrozen(at) && sample.stamp > first->stamp ? std::nullopt : std::optional(sample); },
+                 imus);
+    EXPECT_EQ(frozen.csv, silent.csv) << imus.size();
+    EXPECT_EQ(frozen.count("imu_changes"), silent.count("imu_changes")) << imus.size();
+    EXPECT_EQ(frozen.count("imu_samples_refused"), samplesWithin(kGone, kBack - kGone) - 1) << imus.size();
+  }
+}
+
+TEST(FaultyImu, missingAtTheStartTheBodysIsUsedWhenItIsThereAndItsAttitudeHolds)
+{
+  constexpr Duration kComes = 3s;
+  const LeftBehind outcome = localise(
+      [&](const ImuSample& sample, Duration at) { return at < kComes ? std::nullopt : std::optional(sample); }, kAll);
+  EXPECT_EQ(outcome.count("imu_changes"), 2u);
+  EXPECT_NE(outcome.warnings.find("the IMU 'body' is there again: it goes on in place of"), std::string::npos)
+      << outcome.warnings;
+  EXPECT_EQ(outcome.summary.at("outcome"), "OK");
+  EXPECT_LT(outcome.poses.back().tilt_deg, 0.35);  // that of the body's: 0.05 m/s2 over gravity
+  EXPECT_LT(outcome.largestErrorWhile("OK"), 0.5);
+}
+
+TEST(FaultyImu, aPushAsHardAsAShockMayLeaveNothingOffThatIsOk)
+{
+  for (const double force : {8.0, 12.0, 15.0})
+    for (const Duration length : std::initializer_list<Duration>{20ms, 40ms, 200ms})
+    {
+      const LeftBehind outcome = localise(push(force, length));
+      EXPECT_LT(outcome.largestErrorWhile("OK"), 0.35) << force << " m/s2 for " << seconds(length) << " s";
+    }
+}
+
+TEST(FaultyImu, silentWithoutAnotherOneNoPoseIsOk)
+{
+  const LeftBehind outcome = localise([](const ImuSample& sample, Duration at)
+                                      { return at >= kGone && at < kBack ? std::nullopt : std::optional(sample); });
+  for (const Pose& p : outcome.poses)
+  {
+    const Duration at = smallDrive().since(p.pose.stamp);
+    EXPECT_FALSE(at > kGone + 300ms && at < kBack && p.health == "OK") << seconds(at);
+  }
+  EXPECT_LT(outcome.largestErrorWhile("OK"), 0.15);
 }

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -168,6 +169,22 @@ TEST_F(CloudFiles, areRefusedWhenCutShort)
   const std::string packed = contentOf(gzip(folder / "a.bin"));
   refuses("b.bin.gz", packed.substr(0, packed.size() - 9), "cut short");
   refuses("b.bin.gz", packed.substr(0, 12) + "damage" + packed.substr(18), "damaged");
+}
+
+TEST_F(CloudFiles, thatUnpackToNothingButZerosAreRefusedWithoutTheirMemory)
+{
+  const std::filesystem::path packed = folder / "bomb.ply.gz";
+  ASSERT_EQ(std::system(("(printf 'ply\\nformat binary_little_endian 1.0\\nelement vertex 80000000\\nproperty float "
+                         "x\\nproperty float y\\nproperty float z\\nend_header\\n'; head -c 960000000 /dev/zero) | "
+                         "gzip -1 > " +
+                         packed.string())
+                            .c_str()),
+            0);
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  EXPECT_THAT([&] { readCloud(packed); }, ThrowsMessage<std::runtime_error>(HasSubstr("no cloud does")));
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 50'000) << "kB";
 }
 
 TEST_F(CloudFiles, areRefusedWhenTheirHeaderPromisesMoreThanThereIs)

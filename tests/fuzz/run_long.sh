@@ -10,8 +10,8 @@ mkdir -p "$corpus"
 for i in $(seq "$millions"); do
   log=$(mktemp)
   # shellcheck disable=SC2086 # options are several words
-  nice -n 19 "$root/build/fuzz/bin/scanloom_fuzz_$target" "$corpus" -runs=1000000 -seed="$i" -print_final_stats=1 \
-    -artifact_prefix="$3/$target-" $options >"$log" 2>&1 || { cat "$log"; exit 1; }
+  nice -n 19 "$root/build/fuzz/bin/scanloom_fuzz_$target" "$corpus" $options -runs=1000000 -seed="$i" \
+    -print_final_stats=1 -artifact_prefix="$3/$target-" >"$log" 2>&1 || { cat "$log"; exit 1; }
   echo "$target $i: $(sed -n 's/stat::average_exec_per_sec: *//p' "$log") executions per s"
   rm "$log"
 done

@@ -149,6 +149,27 @@ TEST(Preintegration, isAsUnsureAcrossAGapAsAMovingMachineIsUnseenThere)
   EXPECT_LT(nees, 9);
 }
 
+TEST(Preintegration, isAsUnsureWhereReadingsWereRefusedAsAShockThereMayHaveBeen)
+{
+  // 2 g for 15 ms, of which the IMU's samples say nothing.
+  const Eigen::Vector3d shock(2 * kGravity, 0, 0);
+  std::vector<ImuSample> samples;
+  for (Duration t = 0ms; t <= 100ms; t += 5ms)
+  {
+    if (t > 40ms && t < 60ms) continue;
+    samples.push_back({Timestamp{t}, {0, 0, 0}, {0, 0, kGravity}});
+    samples.back().after_refused = t == 60ms;
+  }
+  for (const Timestamp cut : {Timestamp{100ms}, Timestamp{52ms}})
+  {
+    const Preintegration motion = preintegrate(ImuBuffer(samples).between(Timestamp{0ms}, cut), {}, {});
+    const double sigma = std::sqrt(motion.covariance(3, 3));
+    const double missed = shock.x() * std::min(0.015, seconds(cut - Timestamp{40ms}));
+    EXPECT_LT(missed, 3 * sigma);
+    EXPECT_GT(missed, 0.5 * sigma);
+  }
+}
+
 TEST(Preintegration, biasJacobiansEqualCentralDifferences)
 {
   const auto samples = kDrive.samples(Timestamp{1s}, Timestamp{2s}, 5ms, kBias);

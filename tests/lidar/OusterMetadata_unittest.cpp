@@ -70,6 +70,15 @@ TEST_P(MetadataOf, everyFirmwareIsReadAndWrittenBackWithoutLoss)
 INSTANTIATE_TEST_SUITE_P(Folders, MetadataOf, testing::Values("metadata", "pcaps"),
                          [](const auto& p) { return p.param; });
 
+TEST(OusterMetadata, bringsNothingThatATerminalObeys)
+{
+  nlohmann::json json = nested();
+  json["sensor_info"]["prod_line"] = "OS-0\x1b[2J-128";
+  EXPECT_EQ(parseOusterMetadata(json.dump(), "left.json").product_line, "OS-0?[2J-128");
+  json["lidar_data_format"]["udp_profile_lidar"] = "\x1b]0;owned\x07";
+  EXPECT_THAT(complaintAbout(json), HasSubstr("'?]0;owned?' is unknown"));
+}
+
 TEST(OusterMetadata, theFlatAndTheNestedFileOfOneSensorSayTheSame)
 {
   for (const std::string name : {"2_1_2_os1-991913000010-64", "2_2_os-992119000444-128", "2_3_1_os-992146000760-128",

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "lidar/LidarModels.h"
+#include "packets/CaptureReader.h"
+#include "support/TestData.h"
 #include "velodynePackets.h"
 
 using namespace scanloom;
@@ -130,6 +132,35 @@ TEST_P(EveryVelodyne, refusesWhatIsNotItsOwn)
   EXPECT_EQ(decoder.kind(packet), PacketKind::Malformed);
   EXPECT_EQ(decoder.kind(std::vector<std::uint8_t>(512)), PacketKind::Other) << "a position packet";
   EXPECT_EQ(decoder.kind({}), PacketKind::Malformed);
+}
+
+TEST(VelodyneDecoder, readsAnEarlyVlp16ThatSaysItIsAnHdl32eAndNoHdl32e)
+{
+  VelodyneContent early;
+  early.product_id = 0x21;
+  EXPECT_EQ(vlp16().kind(velodynePacket(early)), PacketKind::Lidar);
+  early.azimuth_step = 17;  // 46.08 us of an HDL-32E at 600 rpm
+  EXPECT_EQ(vlp16().kind(velodynePacket(early)), PacketKind::Foreign);
+
+  VelodyneMetadata named = velodyneMetadata("vlp16");
+  named.early_product_id = 0;  // as where the file has a product_id
+  early.azimuth_step = 40;
+  EXPECT_EQ(VelodyneDecoder(named, Rigid::identity()).kind(velodynePacket(early)), PacketKind::Foreign);
+}
+
+TEST(VelodyneDecoder, readsARealVlp16ThatSaysItIsAnHdl32eAndNoRealHdl32e)
+{
+  SCANLOOM_NEEDS_DATA(early, "other-lidars/jerry73204+rust-lidar-utils/velodyne-test/test_files/velodyne_vlp16.pcap");
+  SCANLOOM_NEEDS_DATA(hdl32e, "other-lidars/MRPT+mrpt/modules/mrpt_data/tests/sample_velodyne_hdl32.pcap");
+  const auto taken = [](const std::filesystem::path& capture)
+  {
+    int packets = 0;
+    CaptureReader reader(capture);
+    for (Datagram datagram; reader.next(datagram);) packets += vlp16().kind(datagram.payload) == PacketKind::Lidar;
+    return packets;
+  };
+  EXPECT_EQ(taken(early), 84);  // INVENTORY
+  EXPECT_EQ(taken(hdl32e), 0);
 }
 
 TEST(VelodyneDecoder, firesOneLaserAfterAnother)

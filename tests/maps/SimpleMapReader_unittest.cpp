@@ -2,13 +2,13 @@
 
 #include "mrpt_bridge/Conversions.h"
 #include "support/TemporaryFolder.h"
+#include "support/peakMemory.h"
 
 #include <gmock/gmock.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
-#include <sys/resource.h>
 #include <zlib.h>
 
 #include <cmath>
@@ -202,13 +202,6 @@ TEST(SimpleMapReader, refusesAMapThatIsCutAnywhere)
   const std::string sound = smallMap(folder);
   for (std::size_t length = 0; length < sound.size(); length += 7)
     EXPECT_NE(refusalOfBytes(folder, sound.substr(0, length)), "taken") << length;
-}
-
-long peakMegabytes()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss / 1024;
 }
 
 std::string ownMap(const TemporaryFolder& folder)

@@ -1,20 +1,36 @@
 /** RawlogWriter, RawlogReader and RawlogInfo on files. */
+#include "mrpt_bridge/CGenericPointsMap.h"
+#include "mrpt_bridge/GzipArchive.h"
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogInfo.h"
+#include "mrpt_bridge/RawlogInput.h"
 #include "mrpt_bridge/RawlogReader.h"
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/RecordingHeaderJson.h"
 #include "mrpt_bridge/registerClasses.h"
 #include "someScan.h"
+#include "support/FullDisk.h"
 #include "support/TemporaryFolder.h"
+#include "support/peakMemory.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/maps/CColouredPointsMap.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/maps/CWeightedPointsMap.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CRawlog.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPosePDFGaussian.h>
 
 #include <unistd.h>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 namespace scanloom
 {
@@ -54,6 +70,35 @@ class Rawlog : public testing::Test
   TemporaryFolder folder_;
   fs::path path_ = folder_ / "some.rawlog";
 };
+
+/** Objects as they are in a rawlog before it is compressed; readers take such a file, too. */
+std::string serialised(const fs::path& path, const std::vector<const mrpt::serialization::CSerializable*>& objects)
+{
+  GzipArchive archive = GzipArchive::writing(path, 0);
+  for (const auto* object : objects) archive << *object;
+  archive.close();
+  std::string plain(GzipArchive::uncompressedBytes(path), '\0');
+  GzipArchive::reading(path).ReadBuffer(plain.data(), plain.size());
+  return plain;
+}
+
+/** The text with another number in the four bytes before it. */
+std::string withLengthBefore(std::string bytes, const std::string& text, std::uint32_t length)
+{
+  const std::size_t at = bytes.find(text);
+  EXPECT_NE(at, std::string::npos) << text;
+  std::memcpy(&bytes[at - sizeof length], &length, sizeof length);
+  return bytes;
+}
+
+mrpt::obs::CObservationPointCloud labelledCloud(mrpt::maps::CPointsMap::Ptr points)
+{
+  mrpt::obs::CObservationPointCloud cloud;
+  cloud.sensorLabel = "label of the cloud";
+  points->insertPoint(1, 2, 3);
+  cloud.pointcloud = std::move(points);
+  return cloud;
+}
 
 int scansIn(RawlogReader& reader)
 {
@@ -155,8 +200,7 @@ TEST_F(Rawlog, saysWhichFileItCouldNotOpen)
 
 TEST_F(Rawlog, saysSoWhenTheDiskIsFull)
 {
-  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  fs::create_symlink("/dev/full", path_.string() + ".part");
+  const FullDisk full(100);
   EXPECT_THROW(
       {
         RawlogWriter writer(path_, someHeader());
@@ -164,6 +208,52 @@ TEST_F(Rawlog, saysSoWhenTheDiskIsFull)
         writer.close();
       },
       std::runtime_error);
+}
+
+TEST_F(Rawlog, thatACrashLeftIsKeptByTheNextRecordingOfThatName)
+{
+  {
+    RawlogWriter crashed(path_, someHeader());
+    crashed.write(*toObservation(someScan(fromNanoseconds(kStart))));
+  }
+  RawlogWriter next(path_, someHeader());
+  next.close();
+
+  EXPECT_EQ(next.earlierPart(), path_.string() + ".part.1");
+  RawlogReader abandoned(next.earlierPart());
+  EXPECT_EQ(scansIn(abandoned), 1);
+}
+
+TEST_F(Rawlog, replacesNoOtherIfItIsPartial)
+{
+  written(1);
+  RawlogWriter interrupted(path_, someHeader());
+  EXPECT_EQ(interrupted.close(Completeness::Partial), folder_ / "some.partial.rawlog");
+  EXPECT_EQ(rawlogInfo(path_).observations(), 3u);
+}
+
+TEST_F(Rawlog, givesNoScanOfALidarThatItsHeaderDoesNotName)
+{
+  RawlogWriter writer(path_, someHeader());
+  for (int i = 0; i < 5; i++)
+  {
+    Scan scan = someScan(fromNanoseconds(kStart) + i * 100ms);
+    if (i == 1 || i == 3) scan.points.sensor_id[7] = 7;
+    writer.write(*toObservation(scan));
+  }
+  writer.close();
+
+  RawlogInput input(path_);
+  int scans = 0;
+  while (const auto event = input.next()) scans += std::holds_alternative<Scan>(*event);
+  EXPECT_EQ(scans, 3);
+  EXPECT_EQ(input.account().input.at("rawlog_scans_refused"), 2u);
+  const auto warnings = input.takeWarnings();
+  ASSERT_EQ(warnings.size(), 1u) << "for the first one";
+  EXPECT_EQ(
+      warnings[0],
+      "the scan at 1700000000.100000000 s has points of sensor_id 7, but the header names 2 lidars: such scans are "
+      "left out");
 }
 
 TEST_F(Rawlog, isReadUpToWhereItWasCut)
@@ -240,5 +330,224 @@ TEST_F(Rawlog, holdsXyziCloudsIfAskedTo)
 {
   const RawlogInfo info = rawlogInfo(written(1, {}, CloudClass::CPointsMapXYZI));
   EXPECT_EQ(info.sensors.at(1).cloud_class, "mrpt::maps::CPointsMapXYZI");
+}
+
+TEST_F(Rawlog, givesNoPointsThatNoLidarMeasures)
+{
+  {
+    Scan scan = someScan(fromNanoseconds(kStart));
+    scan.points.y[4] = std::numeric_limits<float>::quiet_NaN();
+    for (const std::size_t i : {9, 10, 11}) scan.points.x[i] = std::numeric_limits<float>::infinity();
+    scan.points.z[30] = -1e30F;
+    RawlogWriter writer(path_, someHeader());
+    writer.write(*toObservation(scan));
+    writer.close();
+  }
+  RawlogReader reader(path_);
+  const auto event = reader.next();
+  const Scan& scan = std::get<RecordedScan>(event.value()).scan;
+  ASSERT_EQ(scan.points.size(), 115u);
+  for (std::size_t i = 0; i < scan.points.size(); ++i) EXPECT_LT(scan.points.position(i).norm(), 100) << i;
+  ASSERT_EQ(scan.columns.size(), 39u) << "one column lost all its points";
+  EXPECT_EQ(scan.columns_of, (std::vector<std::uint32_t>{20, 19}));
+  EXPECT_EQ(scan.columns[1].first_point, 3u);
+  EXPECT_EQ(scan.columns[1].count, 2u);
+  EXPECT_EQ(scan.columns[2].stamp, someScan(fromNanoseconds(kStart)).columns[2].stamp);
+}
+
+TEST_F(Rawlog, aSampleThatIsNotANumberIsNoSample)
+{
+  RawlogWriter writer(path_, someHeader());
+  for (const double accel : {1.0, std::numeric_limits<double>::quiet_NaN(), 2.0})
+    writer.write(*toObservation(ImuSample{fromNanoseconds(kStart), {1, 2, 3}, {accel, 5, 6}}, kBodyTImu));
+  writer.close();
+  RawlogReader reader(path_);
+  std::string kinds;
+  while (const auto event = reader.next()) kinds += std::holds_alternative<RecordedImu>(*event) ? 'i' : '-';
+  EXPECT_EQ(kinds, "i-i");
+}
+
+TEST_F(Rawlog, anImpossiblePoseIsDamage)
+{
+  {
+    RawlogWriter writer(path_, someHeader());
+    writer.write(*toObservation(someScan(fromNanoseconds(kStart))));
+    auto imu = toObservation(ImuSample{fromNanoseconds(kStart), {1, 2, 3}, {4, 5, 6}}, kBodyTImu);
+    imu->sensorPose.x(std::numeric_limits<double>::quiet_NaN());
+    writer.write(*imu);
+    writer.write(*toObservation(someScan(fromNanoseconds(kStart) + 100ms)));
+    writer.close();
+  }
+  RawlogReader reader(path_);
+  EXPECT_EQ(scansIn(reader), 1) << "what is before the damage is given";
+  EXPECT_THAT(reader.damage(), testing::HasSubstr("after 3 objects: an observation of 'imu'"));
+}
+
+TEST_F(Rawlog, aScanOfNextYearHoldsNoOtherBack)
+{
+  {
+    RawlogWriter writer(path_, someHeader());
+    for (int i = 0; i < 5; ++i)
+    {
+      const Timestamp start = fromNanoseconds(kStart) + i * 100ms;
+      writer.write(*toObservation(someScan(i == 1 ? start + 365 * 24h : start)));
+      writer.write(*toObservation(ImuSample{start + 10ms, {1, 2, 3}, {4, 5, 6}}, kBodyTImu));
+    }
+    writer.close();
+  }
+  RawlogReader reader(path_);
+  std::string order;
+  while (const auto event = reader.next()) order += std::holds_alternative<RecordedScan>(*event) ? 's' : 'i';
+  EXPECT_EQ(order, "isisisisis");
+}
+
+/** A length before a text, or the number of points of a map, that asks for gigabytes. */
+TEST_F(Rawlog, takesNoGigabytesForAFalseLength)
+{
+  mrpt::obs::CObservationComment comment;
+  comment.text = "text of the comment";
+  mrpt::obs::CObservationIMU imu;
+  imu.sensorLabel = "label of the imu";
+  auto generic = mrpt::maps::CGenericPointsMap::Create();
+  generic->registerField_float("name of the field");
+  const auto cloud = labelledCloud(generic);
+  mrpt::obs::CObservationPointCloud external;
+  external.setAsExternalStorage("name of a file",
+                                mrpt::obs::CObservationPointCloud::ExternalStorageFormat::KittiBinFile);
+
+  const long before = peakMegabytes();
+  for (const std::uint32_t length : {0x10000000u, 0x7FFFFFFFu, 0xFFFFFFFFu})
+  {
+    const auto expectDamage = [&](const mrpt::serialization::CSerializable& object, const std::string& text)
+    {
+      overwrite(withLengthBefore(serialised(path_, {&object}), text, length));
+      EXPECT_NE(rawlogInfo(path_).damage, "") << text;
+      EXPECT_LT(peakMegabytes() - before, 100) << text;
+    };
+    expectDamage(comment, comment.text);
+    expectDamage(imu, imu.sensorLabel);
+    expectDamage(cloud, cloud.sensorLabel);
+    expectDamage(cloud, "name of the field");
+    expectDamage(external, "name of a file");
+  }
+}
+
+template <typename Map>
+struct RawlogOfMaps : Rawlog
+{
+};
+using MapsOfMrpt =
+    testing::Types<mrpt::maps::CGenericPointsMap, mrpt::maps::CPointsMapXYZI, mrpt::maps::CSimplePointsMap,
+                   mrpt::maps::CColouredPointsMap, mrpt::maps::CWeightedPointsMap>;
+TYPED_TEST_SUITE(RawlogOfMaps, MapsOfMrpt);
+
+TYPED_TEST(RawlogOfMaps, takesNoGigabytesForAFalseNumberOfPoints)
+{
+  const auto cloud = labelledCloud(TypeParam::Create());
+  mrpt::obs::CSensoryFrame frame;
+  frame.insert(std::make_shared<mrpt::obs::CObservationPointCloud>(cloud));
+  const long before = peakMegabytes();
+  const std::string sound = serialised(this->path_, {&frame});
+  const float x_y_z[] = {1, 2, 3};
+  for (const std::uint32_t points : {0x10000000u, 0x7FFFFFFFu, 0xFFFFFFFFu})
+  {
+    const std::string position(reinterpret_cast<const char*>(x_y_z), sizeof x_y_z);
+    this->overwrite(withLengthBefore(sound, position, points));
+    EXPECT_NE(rawlogInfo(this->path_).damage, "");
+    EXPECT_LT(peakMegabytes() - before, 100);
+  }
+}
+
+mrpt::obs::CActionCollection actionsOf(mrpt::obs::CActionRobotMovement2D::TDrawSampleMotionModel model)
+{
+  mrpt::obs::CActionRobotMovement2D movement;
+  mrpt::obs::CActionRobotMovement2D::TMotionModelOptions options;
+  options.modelSelection = model;
+  options.thrunModel.nParticlesCount = 123;
+  movement.computeFromOdometry({1, 2, 3}, options);
+  mrpt::obs::CActionCollection actions;
+  actions.insert(movement);
+  return actions;
+}
+
+TEST_F(Rawlog, passesOverMovements)
+{
+  using Movement = mrpt::obs::CActionRobotMovement2D;
+  for (const auto model : {Movement::mmGaussian, Movement::mmThrun})
+  {
+    const auto actions = actionsOf(model);
+    const auto cloud = labelledCloud(mrpt::maps::CPointsMapXYZI::Create());
+    overwrite(serialised(path_, {&actions, &cloud, &actions}));
+    const RawlogInfo info = rawlogInfo(path_);
+    EXPECT_EQ(info.damage, "");
+    EXPECT_EQ(info.observations(), 1u);
+  }
+}
+
+/** MRPT would draw them all. */
+TEST_F(Rawlog, aMovementOfABillionParticlesIsDamage)
+{
+  const auto actions = actionsOf(mrpt::obs::CActionRobotMovement2D::mmThrun);
+  std::string bytes = serialised(path_, {&actions});
+  const std::size_t at = bytes.find(std::string("\173\0\0\0", 4));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 3] = 0x40;
+  overwrite(bytes);
+  EXPECT_THAT(rawlogInfo(path_).damage, testing::HasSubstr("1073741947 particles"));
+}
+
+/** MRPT would follow the null pointer, here and below. */
+TEST_F(Rawlog, anActionThatIsNoneIsDamage)
+{
+  auto actions = actionsOf(mrpt::obs::CActionRobotMovement2D::mmGaussian);
+  actions.insert(mrpt::obs::CActionRobotMovement2D());
+  std::string bytes = serialised(path_, {&actions});
+  const std::string action = "mrpt::obs::CActionRobotMovement2D";
+  const std::size_t second = bytes.find(action, bytes.find(action) + 1);
+  ASSERT_NE(second, std::string::npos);
+  overwrite(bytes.replace(second - 1, 1 + action.size(), "\x87nullptr\x88"));
+  EXPECT_THAT(rawlogInfo(path_).damage, testing::HasSubstr("an action of class 'nullptr'"));
+}
+
+TEST_F(Rawlog, anObservationOfAFrameThatIsNoneIsPassedOver)
+{
+  mrpt::obs::CSensoryFrame frame;
+  for (int i = 0; i < 2; ++i) frame.insert(toObservation(ImuSample{fromNanoseconds(kStart), {}, {}}, kBodyTImu));
+  std::string bytes = serialised(path_, {&frame});
+  const std::string imu = "mrpt::obs::CObservationIMU";
+  const std::size_t first = bytes.find(imu) - 1, second = bytes.find(imu, first + 2) - 1;
+  overwrite(bytes.replace(first, second - first, "\x87nullptr\x88"));
+  const RawlogInfo info = rawlogInfo(path_);
+  EXPECT_EQ(info.damage, "");
+  EXPECT_EQ(info.observations(), 1u);
+}
+
+TEST_F(Rawlog, aMovementWithoutAPoseIsDamage)
+{
+  mrpt::obs::CActionRobotMovement2D movement;
+  movement.estimationMethod = mrpt::obs::CActionRobotMovement2D::emScan2DMatching;
+  movement.poseChange = mrpt::poses::CPosePDFGaussian::Create();
+  mrpt::obs::CActionCollection actions;
+  actions.insert(movement);
+  std::string bytes = serialised(path_, {&actions});
+  const std::string pose = "mrpt::poses::CPosePDFGaussian";
+  const std::size_t at = bytes.find(pose);
+  ASSERT_NE(at, std::string::npos);
+  overwrite(bytes.replace(at - 1, 1 + pose.size(), "\x87nullptr\x88"));
+  EXPECT_THAT(rawlogInfo(path_).damage, testing::HasSubstr("without a pose"));
+}
+
+TEST_F(Rawlog, isNotUnpackedIntoMoreThanItsSizeCanMean)
+{
+  auto points = mrpt::maps::CPointsMapXYZI::Create();
+  points->resize(6'000'000);  // 96 MB of zeros, packed into 0.1 MB
+  mrpt::obs::CObservationPointCloud bomb;
+  bomb.pointcloud = points;
+  {
+    GzipArchive archive = GzipArchive::writing(path_, 9);
+    archive << bomb;
+    archive.close();
+  }
+  EXPECT_THAT(rawlogInfo(path_).damage, testing::HasSubstr("an object of more than 64 MB"));
 }
 }  // namespace scanloom

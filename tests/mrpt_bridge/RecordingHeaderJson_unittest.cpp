@@ -2,6 +2,7 @@
 
 #include "someScan.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -66,5 +67,30 @@ TEST(RecordingHeaderJson, refusesAPoseThatIsNoRotation)
   auto json = nlohmann::json::parse(toJson(someHeader()));
   json["scanloom"]["lidars"][0]["body_T_sensor"][0][0] = 7;
   EXPECT_THROW(recordingHeaderFromJson(json.dump()), std::invalid_argument);
+}
+
+TEST(RecordingHeaderJson, refusesWhatNoRigHasAndNamesIt)
+{
+  const auto refusalOf = [](const std::string& pointer, const nlohmann::json& value) -> std::string
+  {
+    auto json = nlohmann::json::parse(toJson(someHeader()));
+    json["scanloom"][nlohmann::json::json_pointer(pointer)] = value;
+    try
+    {
+      recordingHeaderFromJson(json.dump());
+    }
+    catch (const std::invalid_argument& e)
+    {
+      return e.what();
+    }
+    return "taken";
+  };
+  EXPECT_EQ(refusalOf("/scan_rate", 20), "taken");
+  for (const double rate : {1e-9, -1.0, 1e300})
+    EXPECT_THAT(refusalOf("/scan_rate", rate), testing::HasSubstr("scan_rate")) << rate;
+  EXPECT_THAT(refusalOf("/recorded_scan_rate", 1e-12), testing::HasSubstr("recorded_scan_rate"));
+  EXPECT_THAT(refusalOf("/lidars/1/body_T_sensor/0/3", 1e30), testing::HasSubstr("'right'"));
+  const nlohmann::json lidar = nlohmann::json::parse(toJson(someHeader()))["scanloom"]["lidars"][0];
+  EXPECT_THAT(refusalOf("/lidars", std::vector<nlohmann::json>(257, lidar)), testing::HasSubstr("257 lidars"));
 }
 }  // namespace scanloom

@@ -55,6 +55,22 @@ TEST(CaptureInfo, listsWhoSentWhatToWhichPort)
   EXPECT_EQ(datagrams, 4u);
 }
 
+TEST(CaptureInfo, creditsAnImuPacketToTheLidarThatSendsFromItsAddress)
+{
+  SCANLOOM_NEEDS_DATA(capture, kFolder + "same_ports.pcap");  // of each sensor a lidar and an IMU packet, one port
+  SCANLOOM_NEEDS_DATA(first, kFolder + "same_ports.1.json");
+  SCANLOOM_NEEDS_DATA(second, kFolder + "same_ports.2.json");
+  const CaptureInfo info = captureInfo(capture, {first.string(), second.string()}, Digests::No);
+  for (const DecodedCapture& lidar : info.lidars)
+  {
+    EXPECT_EQ(lidar.packets.at("lidar"), 1u) << lidar.lidar.serial;
+    EXPECT_EQ(lidar.packets.at("imu"), 1u) << lidar.lidar.serial;
+    EXPECT_EQ(lidar.imu_samples, 1u) << lidar.lidar.serial;
+  }
+  const CaptureInfo alone = captureInfo(capture, {first.string()}, Digests::No);
+  EXPECT_EQ(alone.lidars.front().packets.at("imu"), 1u);
+}
+
 TEST(CaptureInfo, aCaptureIsKnownByItsFirstBytes)
 {
   SCANLOOM_NEEDS_DATA(capture, kFolder + "empty_pcap.pcap");

@@ -233,14 +233,11 @@ TEST(CaptureReader, saysWhereADamagedFileBreaksAndDeliversWhatWasBefore)
   Datagram datagram;
 
   EXPECT_TRUE(reader.next(datagram));
-  try
+  for (int again = 0; again < 2; ++again)
   {
-    reader.next(datagram);
-    FAIL() << "an absurd length went unnoticed";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("damaged after record 1"));
+    EXPECT_FALSE(reader.next(datagram));
+    ASSERT_EQ(reader.counters().damages.size(), 1u) << "an absurd length went unnoticed";
+    EXPECT_THAT(reader.counters().damages[0], HasSubstr("damaged after record 1"));
   }
 }
 

@@ -41,15 +41,15 @@ TEST(MergedCaptures, keepTheOrderWithinAFileEvenWhereItsTimeGoesBack)
   EXPECT_EQ(marksOf(merged), "abc");
 }
 
-TEST(MergedCaptures, loseNothingBeforeADamage)
+TEST(MergedCaptures, endTheDamagedFileOnly)
 {
   HandmadeCapture a, b;
   const auto damaged = capture(a, {{1s, 'a'}});
   std::ofstream(damaged, std::ios::binary | std::ios::app) << std::string(16, '\xff') << std::string(100, 'x');
-  MergedCaptures merged({damaged, capture(b, {{2s, 'b'}})});
-  Datagram datagram;
-  EXPECT_TRUE(merged.next(datagram));
-  EXPECT_THROW(merged.next(datagram), std::runtime_error);
+  MergedCaptures merged({damaged, capture(b, {{2s, 'b'}, {3s, 'c'}})});
+  EXPECT_EQ(marksOf(merged), "abc");
+  ASSERT_EQ(merged.counters().damages.size(), 1u);
+  EXPECT_EQ(merged.counters().damages[0].rfind(damaged.string() + ": damaged after record 1", 0), 0u);
 }
 
 TEST(MergedCaptures, needAFile) { EXPECT_THROW(MergedCaptures({}), std::invalid_argument); }

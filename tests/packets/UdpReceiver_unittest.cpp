@@ -44,8 +44,8 @@ std::uint64_t arrived(const UdpReceiver& receiver)
 }
 
 /**
- * Waits until all datagrams `sent` have arrived, then ends the reception: on a busy machine the kernel passes a datagram
- * on some time after it was sent.
+ * Waits until all datagrams `sent` have arrived, then ends the reception: on a busy machine the kernel passes a
+ * datagram on some time after it was sent.
  */
 void stopAndWait(UdpReceiver& receiver, std::uint64_t sent)
 {

@@ -1,11 +1,10 @@
 #include "rig/LiveCapture.h"
 
 #include "packets/CaptureReader.h"
+#include "support/FullDisk.h"
 #include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
-#include <signal.h>
-#include <sys/resource.h>
 
 namespace scanloom
 {
@@ -17,30 +16,15 @@ Datagram datagramAt(Duration time, std::size_t size)
 {
   return {Timestamp{1000s} + time, IpAddress::parse("10.0.0.1"), 4000, 7502, std::vector<std::uint8_t>(size, 7)};
 }
-
-/** No file of this process may be longer, as on a full disk. */
-class FullDisk
-{
- public:
-  explicit FullDisk(rlim_t bytes) : previous_(signal(SIGXFSZ, SIG_IGN))
-  {
-    getrlimit(RLIMIT_FSIZE, &limits_);
-    const rlimit few{bytes, limits_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &few);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-  ~FullDisk()
-  {
-    setrlimit(RLIMIT_FSIZE, &limits_);
-    signal(SIGXFSZ, previous_);
-  }
-
- private:
-  void (*previous_)(int);
-  rlimit limits_{};
-};
 }  // namespace
+
+TEST(LiveCapture, followsNoLink)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink(folder / "victim", folder / "a.pcap");
+  EXPECT_THROW(LiveCapture(folder / "a.pcap"), std::runtime_error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "victim"));
+}
 
 TEST(LiveCapture, writesAllInOrderWithNanoseconds)
 {

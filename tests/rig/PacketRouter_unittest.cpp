@@ -16,7 +16,12 @@ using testing::HasSubstr;
 class FakeDecoder : public PacketDecoder
 {
  public:
-  explicit FakeDecoder(char serial) : serial_(serial) {}
+  explicit FakeDecoder(char serial) : serial_(serial)
+  {
+    description_.columns_per_frame = description_.columns_per_packet = 16;  // a packet a turn
+    description_.last_column = 15;
+    description_.frame_rate = 100;
+  }
 
   PacketKind kindByHeader(Bytes packet) const override
   {
@@ -127,20 +132,48 @@ TEST(PacketRouter, doesNotGuessAnImuWhenTwoLidarsSendFromOneAddress)
   EXPECT_EQ(route(router, datagram("I-", 7503)), "none");
 }
 
-TEST(PacketRouter, asksThePersonWhereLidarPacketsCouldBeOfTwo)
+TEST(PacketRouter, leavesOutAndTellsOnceWhatCouldBeOfTwoLidars)
 {
   PacketRouter router = twoLidars({7502, 7503, {}}, {7502, 7505, {}});
-  try
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(route(router, datagram("L-", 7502, "10.0.0.5")), "none");
+  EXPECT_EQ(route(router, datagram("La", 7502, "10.0.0.1")), "0L") << "the others go on";
+  EXPECT_EQ(router.unmatched().at({7502, IpAddress::parse("10.0.0.5")}), 3u);
+  EXPECT_THAT(router.takeWarnings(),
+              testing::ElementsAre(testing::AllOf(HasSubstr("10.0.0.5 at port 7502"), HasSubstr("'left' or 'right'"),
+                                                  HasSubstr("'address'"))));
+}
+
+TEST(PacketRouter, keepsTheFirstSenderOfASerialNumberAndTellsOfAnother)
+{
+  PacketRouter router = twoLidars({7502, 7502, {}}, {7502, 7502, {}});
+  EXPECT_EQ(route(router, datagram("La", 7502, "10.0.0.1")), "0L");
+  EXPECT_EQ(route(router, datagram("La", 7502, "10.0.0.9")), "none");
+  EXPECT_EQ(route(router, datagram("Ia", 7502, "10.0.0.9")), "none");
+  EXPECT_EQ(route(router, datagram("La", 7502, "10.0.0.1")), "0L");
+  EXPECT_EQ(router.ofOtherSenders(0), 2u);
+  EXPECT_EQ(router.ofOtherSenders(1), 0u);
+  EXPECT_EQ(router.unmatched().at({7502, IpAddress::parse("10.0.0.9")}), 2u);
+  EXPECT_THAT(router.takeWarnings(),
+              testing::ElementsAre(testing::AllOf(HasSubstr("'left'"), HasSubstr("10.0.0.9"), HasSubstr("10.0.0.1"),
+                                                  HasSubstr("'address'"))));
+}
+
+TEST(PacketRouter, followsALidarToANewAddressOnceTheOldOneIsSilent)
+{
+  PacketRouter router = twoLidars({7502, 7502, {}}, {7504, 7504, {}});
+  const auto at = [](Duration time, const char* source)
   {
-    router.route(datagram("L-", 7502, "10.0.0.5"));
-    FAIL() << "guessed";
-  }
-  catch (const std::runtime_error& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("10.0.0.5 at port 7502"));
-    EXPECT_THAT(error.what(), HasSubstr("'left' or 'right'"));
-    EXPECT_THAT(error.what(), HasSubstr("'address'"));
-  }
+    Datagram d = datagram("La", 7502, source);
+    d.received = Timestamp{time};
+    return d;
+  };
+  for (int turn = 0; turn < 100; ++turn) EXPECT_EQ(route(router, at(turn * 10ms, "10.0.0.1")), "0L");
+  EXPECT_EQ(route(router, at(1s, "10.0.0.2")), "none");
+  EXPECT_EQ(route(router, at(3s, "10.0.0.2")), "0L");
+  const auto taken_over = router.route(at(3010ms, "10.0.0.2"));
+  ASSERT_TRUE(taken_over);
+  EXPECT_FALSE(taken_over->of_new_sender) << "that was the packet before";
+  EXPECT_EQ(route(router, at(3020ms, "10.0.0.1")), "none");
 }
 
 TEST(PacketRouter, needsAPortForEveryLidar) { EXPECT_THROW(twoLidars({7502, 0, {}}, {}), std::invalid_argument); }

@@ -1,4 +1,5 @@
-/** Lidars over the loopback interface, in real time. Fault cases: see the table in doc/batching.md. */
+/** Lidars over the loopback interface, in real time. Fault cases: see the table in doc/faults.md. */
+#include "lidar/OusterLayout.h"
 #include "liveRig.h"
 #include "support/RecordedLidars.h"
 #include "support/TemporaryFolder.h"
@@ -222,6 +223,83 @@ TEST(RigLive, tellsTwoLidarsOnOnePortApartByTheirSerialNumbers)  // F20
     else
       ahead += known.count(datagram.source) == 0;
   EXPECT_EQ(strangers, ahead) << "IMU packets bear no serial number: their address is known from a lidar packet's on";
+}
+
+/** No addresses are configured. One stranger copies the first lidar, one floods its IMU from the lidar's own address.
+ */
+TEST(RigLive, aSpoofingAndAFloodingSenderCostAFewPacketsAtTheStart)
+{
+  const TemporaryFolder folder;
+  FakeLidarOptions with_imu;
+  with_imu.has_imu = true;
+  LiveRig lidars(2, LiveRig::Ports::Several, with_imu);
+  const auto datagrams = lidars.drive(2s);
+  const std::uint16_t port = lidars.rig.addresses[0].lidar_port;
+  const IpAddress stranger = IpAddress::parse("127.0.0.9");
+  std::vector<Datagram> all = datagrams;
+  const auto add = [&](Duration after, const IpAddress& source, std::vector<std::uint8_t> payload) {
+    all.push_back({Timestamp{1000s} + after, source, 0, port, std::move(payload)});
+  };
+  const auto copies = lidars.lidar->drive(Timestamp{1000s + 100ms}, 2s, 1);
+  for (int n = 0; n < 3; ++n) add(-60ms + n * 20ms, stranger, copies[n]);
+  for (int n = 0; n < 20; ++n) add(n * 100ms, stranger, copies[8 * n]);
+  for (int n = 0; n < 2000; ++n)
+    add(20ms + n * 1ms - n % 2 * 1ms, LiveRig::addressOf(0), FakeLidar::imuPacket(Timestamp{n * 1'000'003s}, -1));
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Datagram& a, const Datagram& b) { return a.received < b.received; });
+
+  for (LidarAddress& address : lidars.rig.addresses) address.source.reset();
+  lidars.rig.addresses[0].imu_port = port;
+  lidars.rig.live.capture = folder / "live.pcap";
+  std::vector<SensorEvent> events;
+  RigAccount account;
+  std::vector<std::string> warnings;
+  {
+    RigLive live(lidars.rig);
+    events = sendAndRead(all, live);
+    account = live.account();
+    warnings = live.takeWarnings();
+  }
+
+  const std::uint64_t of_each = datagrams.size() / 2;
+  EXPECT_GE(account.lidars[0].counters.packets, of_each - 3) << "the stranger's first three came first";
+  EXPECT_EQ(account.lidars[1].counters.packets, of_each);
+  for (const LidarAccount& lidar : account.lidars) EXPECT_EQ(lidar.counters.late, 0u) << lidar.name;
+  EXPECT_GE(account.lidars[0].of_other_senders, 20u);
+  EXPECT_GE(account.implausible_imu_samples, 1900u) << "but for those while the stranger was taken for the lidar";
+  EXPECT_THAT(warnings, testing::Contains(HasSubstr("127.0.0.9")));
+  EXPECT_THAT(warnings, testing::Contains(HasSubstr("imu_samples_implausible")));
+  expectTheSame(events, replayOf(lidars.rig, folder / "live.pcap"));
+}
+
+/** Of two lidars on one port without addresses: from a stranger, and with serial number 0. */
+TEST(RigLive, aPacketThatMayBeOfTwoLidarsIsLeftOutAndTheRunGoesOn)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  const TemporaryFolder folder;
+  const RecordedLidars lidars(recording, 2000, RecordedLidars::Ports::One);
+  const Configuration configuration =
+      Configuration::fromText(lidars.section() + "pcap_output = " + (folder / "live.pcap").string() + "\n", "live.ini");
+  const Rig rig = makeRig(readRigSettings(configuration, "lidars"));
+  std::vector<Datagram> datagrams = lidars.datagrams();
+  const auto some = std::find_if(datagrams.begin() + 1000, datagrams.end(),
+                                 [](const Datagram& datagram) { return datagram.payload.size() > 1000; });
+  Datagram ambiguous = *some;
+  ambiguous.source = IpAddress::parse("127.0.0.9");
+  const ByteField serial = headerFields(OusterHeader::Standard).serial;
+  std::fill_n(ambiguous.payload.begin() + static_cast<std::ptrdiff_t>(serial.offset), serial.count, 0);
+  std::fill_n(ambiguous.payload.end() - 8, 8, 0);  // as firmware that computes no checksum
+  datagrams.insert(some, ambiguous);
+
+  std::vector<SensorEvent> events;
+  {
+    RigLive live(rig);
+    events = sendAndRead(datagrams, live);
+    EXPECT_EQ(live.account().unmatched.at({ambiguous.destination_port, ambiguous.source}), 1u);
+    EXPECT_THAT(live.takeWarnings(), testing::Contains(HasSubstr("may be of 'left' or 'right'")));
+  }
+  EXPECT_GE(scansIn(events).size(), 20u);
+  expectTheSame(events, replayOf(rig, folder / "live.pcap"));
 }
 
 TEST(RigLive, givesScansAgainAtOnceAfterThreeSecondsOfSilence)  // F24

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lidar/LidarModels.h"
 #include "support/TestData.h"
 
 using namespace scanloom;
@@ -72,6 +73,25 @@ TEST(Rig, namesTheKeyOfAnAddressThatIsNone)
             "bind_address: '10.0.0' is no IP address: write it as 192.168.1.10 or fe80::1");
   EXPECT_EQ(complaint("lidar2_address = left\n"),
             "lidar 'right', key 'address': 'left' is no IP address: write it as 192.168.1.10 or fe80::1");
+}
+
+TEST(Rig, saysThatTwoLidarsHaveTheMetadataOfOneSensor)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  std::string ini = iniOf(folder.string());
+  ini.replace(ini.find("/right.json"), 11, "/left.json");
+  const Configuration configuration = Configuration::fromText(ini, "x.ini");
+  const std::string serial = makeDecoder((folder / "left.json").string(), Rigid::identity())->description().serial;
+  try
+  {
+    makeRig(readRigSettings(configuration, "rig"));
+    FAIL() << "accepted";
+  }
+  catch (const ConfigError& error)
+  {
+    EXPECT_EQ(std::string(error.what()), "lidars 'left' and 'right': both have metadata of serial number " + serial +
+                                             ": give each the metadata of its own sensor");
+  }
 }
 
 TEST(RigReplay, weavesBothLidarsOfARecordingWithExactAccounts)

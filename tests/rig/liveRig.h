@@ -21,36 +21,40 @@ struct LiveRig
     Several
   };
 
-  explicit LiveRig(std::size_t lidars, Ports ports = Ports::Several)
+  explicit LiveRig(std::size_t lidars, Ports ports = Ports::Several, const FakeLidarOptions& options = {})
+    : lidar(std::make_shared<FakeLidar>(options))
   {
     rig.batcher.deadline_ms = 300;  // a busy machine may keep the sender waiting in the middle of a round
     const std::uint16_t shared = freeUdpPort();
     for (std::size_t i = 0; i < lidars; ++i)
     {
       rig.lidars.push_back({"lidar" + std::to_string(i), lidar, {}});
-      rig.addresses.push_back(
-          {ports == Ports::One ? shared : freeUdpPort(), 0, IpAddress::parse("127.0.0." + std::to_string(2 + i))});
+      rig.addresses.push_back({ports == Ports::One ? shared : freeUdpPort(), 0, addressOf(i)});
     }
   }
+
+  static IpAddress addressOf(std::size_t lidar) { return IpAddress::parse("127.0.0." + std::to_string(2 + lidar)); }
 
   /** What they send in `length`, stamped from `first` on, in the order of time; received when its last block ends. */
   std::vector<Datagram> drive(Duration length, Timestamp first = Timestamp{1000s}) const
   {
     std::vector<Datagram> datagrams;
+    std::size_t of = 0;
     const LidarDescription& description = lidar->description();
     const Duration packet = description.blockPeriod() * description.columns_per_packet;
     for (const LidarAddress& address : rig.addresses)
     {
       Timestamp end = first;
       for (auto& payload : lidar->drive(first, length))
-        datagrams.push_back({end += packet, *address.source, 0, address.lidar_port, std::move(payload)});
+        datagrams.push_back({end += packet, addressOf(of), 0, address.lidar_port, std::move(payload)});
+      ++of;
     }
     std::stable_sort(datagrams.begin(), datagrams.end(),
                      [](const Datagram& a, const Datagram& b) { return a.received < b.received; });
     return datagrams;
   }
 
-  std::shared_ptr<const FakeLidar> lidar = std::make_shared<FakeLidar>();
+  std::shared_ptr<const FakeLidar> lidar;
   Rig rig;
 };
 

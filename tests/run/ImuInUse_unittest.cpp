@@ -33,7 +33,14 @@ class InputWithImus : public SensorInput
 
 constexpr int kBody = SensorImu::kBody, kLeft = 0, kRight = 1;
 
-SensorImu sampleAt(int sensor, Duration t) { return {sensor, ImuSample{Timestamp{t}}}; }
+/** A reading that differs from every other one, on a machine that sways. */
+SensorImu sampleAt(int sensor, Duration t)
+{
+  ImuSample sample{Timestamp{t}};
+  sample.gyro.setConstant(0.1 * std::sin(3 * seconds(t)));
+  sample.accel.setConstant(seconds(t));
+  return {sensor, sample};
+}
 
 TEST(ImuInUse, isTheBodysOrElseTheFirstLidarsThatHasOne)
 {
@@ -65,8 +72,8 @@ TEST(ImuInUse, givesWayToAnotherAfterAFifthOfASecondOfSilenceWithWhatThatSaidSin
 {
   const InputWithImus input({kLeft, kRight});
   ImuInUse imu(input, "auto", {});
-  EXPECT_TRUE(imu.take(sampleAt(kLeft, 1s)));
-  for (const Duration t : {1s + 0ms, 1s + 100ms, 1s + 300ms}) EXPECT_FALSE(imu.take(sampleAt(kRight, t)));
+  EXPECT_EQ(imu.take(sampleAt(kLeft, 1s)).size(), 1u);
+  for (const Duration t : {1s + 0ms, 1s + 100ms, 1s + 300ms}) EXPECT_TRUE(imu.take(sampleAt(kRight, t)).empty());
 
   EXPECT_FALSE(imu.changeIfSilent(Timestamp{1200ms}));
   EXPECT_TRUE(imu.changeIfSilent(Timestamp{1300ms}));
@@ -76,7 +83,7 @@ TEST(ImuInUse, givesWayToAnotherAfterAFifthOfASecondOfSilenceWithWhatThatSaidSin
   EXPECT_EQ(imu.body_T_imu().translation.x(), kRight);
   EXPECT_EQ(imu.recent().size(), 3U);
   EXPECT_EQ(imu.previous().size(), 1U);
-  EXPECT_TRUE(imu.take(sampleAt(kRight, 1400ms)));
+  EXPECT_EQ(imu.take(sampleAt(kRight, 1400ms)).size(), 1u);
   EXPECT_FALSE(imu.changeIfSilent(Timestamp{1400ms})) << "the first one has not come back";
 }
 
@@ -90,7 +97,8 @@ TEST(ImuInUse, thatReadsNothingButNanOrOldStampsIsSilent)
     imu.take(sampleAt(kRight, 2s));
     SensorImu useless = sampleAt(kLeft, nan ? 2s : 500ms);
     if (nan) useless.sample.gyro.setConstant(NAN);
-    EXPECT_TRUE(imu.take(useless)) << "for whoever counts what is refused";
+    EXPECT_TRUE(imu.take(useless).empty());
+    EXPECT_EQ(imu.refused().at("left").unusable, 1u);
 
     EXPECT_TRUE(imu.changeIfSilent(Timestamp{2s})) << nan;
   }
@@ -132,16 +140,69 @@ TEST(ImuInUse, hasItsDelayTakenOffAndOthersDoNot)
 {
   const InputWithImus input({kBody, kLeft});
   ImuInUse imu(input, "auto", 20ms);
-  EXPECT_EQ(imu.take(sampleAt(kBody, 1s))->stamp, Timestamp{980ms});
+  EXPECT_EQ(imu.take(sampleAt(kBody, 1s)).at(0).stamp, Timestamp{980ms});
   imu.take(sampleAt(kLeft, 2s));
 
   ASSERT_TRUE(imu.changeIfSilent(Timestamp{2s}));
   EXPECT_EQ(imu.recent().front().stamp, Timestamp{2s});
-  EXPECT_EQ(imu.take(sampleAt(kLeft, 3s))->stamp, Timestamp{3s});
+  EXPECT_EQ(imu.take(sampleAt(kLeft, 3s)).at(0).stamp, Timestamp{3s});
 
   imu.take(sampleAt(kBody, 4s));
   ASSERT_TRUE(imu.changeIfSilent(Timestamp{4s}));
   EXPECT_EQ(imu.recent().back().stamp, Timestamp{3980ms});
+}
+
+TEST(ImuInUse, thatHangsIsSilent)
+{
+  const InputWithImus input({kBody, kLeft});
+  ImuInUse imu(input, "auto", {});
+  for (Duration t = 1s; t <= 1500ms; t += 10ms)
+  {
+    SensorImu frozen = sampleAt(kBody, 1s);
+    frozen.sample.stamp = Timestamp{t};
+    imu.take(frozen);
+    imu.take(sampleAt(kLeft, t));
+    EXPECT_EQ(imu.changeIfSilent(Timestamp{t}), t == 1210ms) << seconds(t);
+  }
+}
+
+/** The body's IMU is there from 2 s on, with stamps late by `late`. The time of the return to it. */
+std::optional<Duration> returnOfTheBodys(Duration late)
+{
+  const InputWithImus input({kBody, kLeft});
+  ImuInUse imu(input, "auto", {});
+  for (Duration t = 1s; t <= 20s; t += 10ms)
+  {
+    SensorImu of_body = sampleAt(kBody, t);
+    of_body.sample.stamp += late;
+    if (t >= 2s) imu.take(of_body);
+    imu.take(sampleAt(kLeft, t));
+    imu.changeIfSilent(Timestamp{t});
+    if (imu.returnToBetter(Timestamp{t})) return t;
+  }
+  return std::nullopt;
+}
+
+TEST(ImuInUse, returnsToTheBodysWhenThatWasHeardForFiveSecondsAndTurnsLikeTheOther)
+{
+  const std::optional<Duration> back = returnOfTheBodys(0ms);
+  ASSERT_TRUE(back);
+  EXPECT_NEAR(seconds(*back), 7, 0.3);
+  EXPECT_FALSE(returnOfTheBodys(1s));
+}
+
+TEST(ImuInUse, doesNotReturnToOneThatFallsSilentAgainAndAgain)
+{
+  const InputWithImus input({kBody, kLeft});
+  ImuInUse imu(input, "auto", {});
+  for (Duration t = 0s; t <= 20s; t += 10ms)
+  {
+    if (t > 1s && t % 3s > 300ms) imu.take(sampleAt(kBody, t));
+    imu.take(sampleAt(kLeft, t));
+    imu.changeIfSilent(Timestamp{t});
+    EXPECT_FALSE(imu.returnToBetter(Timestamp{t}));
+  }
+  EXPECT_EQ(imu.name(), "left");
 }
 }  // namespace
 }  // namespace scanloom

@@ -33,4 +33,38 @@ TEST(Assessment, isLostWhereRegistrationsContradictTheImuForTenSeconds)
   EXPECT_TRUE(assessed.contradicted);
   EXPECT_EQ(assessed.health, Health::Lost);
 }
+
+TEST(Assessment, isNotOkWhileTheImuIsSilent)
+{
+  TrustHistory history{Timestamp{10s}, {}, {}};
+  history.imu_silent = true;
+  EXPECT_EQ(assess(estimateAt(11s, true), false, history, {}).health, Health::Degenerate);
+}
+
+TEST(Assessment, isNotOkWhereTheEstimateIsFarFromItsOwnRegistration)
+{
+  const Matrix6d covariance = 1e-4 * Matrix6d::Identity();  // 1 cm, 0.6 deg
+  const auto healthAfter = [&](int registrations, double metres)
+  {
+    TrustHistory history{Timestamp{10s}, {}, {}};
+    for (int i = 0; i < registrations; ++i) history.separation.add(metres * Vector6d::Unit(1), covariance);
+    return assess(estimateAt(11s, true), false, history, {}).health;
+  };
+  EXPECT_EQ(healthAfter(100, 0.07), Health::Ok);
+  EXPECT_EQ(healthAfter(3, 0.12), Health::Ok) << "a registration may be wrong";
+  EXPECT_EQ(healthAfter(4, 0.12), Health::Degenerate);
+  EXPECT_EQ(healthAfter(1, 0.2), Health::Degenerate);
+}
+
+TEST(Separation, makesTheLidarBelievedAfterThreeThatAreFarOffInARow)
+{
+  const Matrix6d covariance = 1e-4 * Matrix6d::Identity();
+  Separation separation;
+  for (int i = 0; i < 2; ++i) separation.add(0.2 * Vector6d::Unit(1), covariance);
+  EXPECT_FALSE(separation.lasts()) << "registrations may be wrong: of a lidar with 16 beams that begins to drive";
+  separation.add(0.2 * Vector6d::Unit(1), covariance);
+  EXPECT_TRUE(separation.lasts());
+  separation.add(Vector6d::Zero(), covariance);
+  EXPECT_FALSE(separation.suspected());
+}
 }  // namespace scanloom

@@ -10,6 +10,9 @@
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
 #include <thread>
 
 namespace scanloom
@@ -41,11 +44,16 @@ class GrabberLiveParams : public testing::TestWithParam<LiveParams>
   TemporaryFolder folder;
   fs::path ini = kParams / "rawlog-grabber" / GetParam().file;
 
-  /** A sensor's metadata under every name that the files know. */
+  /** A sensor's metadata under every name that the files know, each with a serial number of its own. */
   void copyMetadata(const fs::path& recording) const
   {
+    nlohmann::json metadata = nlohmann::json::parse(contentOf(recording / "left.json"));
+    int serial_number = 1000;
     for (const char* name : {"top", "left", "right", "front_left", "front_right", "rear_left", "rear_right"})
-      fs::copy_file(recording / "left.json", folder / (std::string(name) + ".json"));
+    {
+      metadata.at("prod_sn") = std::to_string(++serial_number);
+      std::ofstream(folder / (std::string(name) + ".json")) << metadata;
+    }
   }
   std::string inFolder(const std::string& command) const { return "env -C " + folder.path().string() + " " + command; }
 };

@@ -18,20 +18,23 @@ struct FakeLidarOptions
   Duration fixed_block_period{0};
   Duration stamp_modulus{0};
   bool has_init_id = false;
+  bool has_imu = false;
   std::uint64_t frame_id_modulus = 65536;
 };
 
 /**
  * Packet: {u32 init id, u32 flags}, then per block {i64 stamp, u32 frame, u16 measurement id, u16 valid}. The three
- * points carry the stamp in x.
+ * points carry the stamp in x. IMU packet: {i64 stamp, i64 reading}, the reading is the gyroscope's x.
  */
 class FakeLidar : public PacketDecoder
 {
  public:
   static constexpr std::size_t kHeaderSize = 8;
   static constexpr std::size_t kBlockSize = 16;
+  static constexpr std::size_t kImuSize = 16;
 
-  explicit FakeLidar(const FakeLidarOptions& options = {}) : has_init_id_(options.has_init_id)
+  explicit FakeLidar(const FakeLidarOptions& options = {})
+    : has_init_id_(options.has_init_id), has_imu_(options.has_imu)
   {
     description_.model = "fake";
     description_.channels = 3;
@@ -49,6 +52,7 @@ class FakeLidar : public PacketDecoder
   const LidarDescription& description() const override { return description_; }
   PacketKind kindByHeader(Bytes packet) const override
   {
+    if (has_imu_ && packet.size() == kImuSize) return PacketKind::Imu;
     return packet.size() == kHeaderSize + kBlockSize * static_cast<std::size_t>(description_.columns_per_packet)
                ? PacketKind::Lidar
                : PacketKind::Malformed;
@@ -93,7 +97,19 @@ class FakeLidar : public PacketDecoder
       points.sensor_id[i] = sensor_id;
     }
   }
-  std::vector<ImuSample> imuSamples(Bytes) const override { return {}; }
+  std::vector<ImuSample> imuSamples(Bytes packet) const override
+  {
+    const auto reading = static_cast<double>(load<std::int64_t>(packet, 8));
+    return {{fromNanoseconds(load<std::int64_t>(packet, 0)), {reading, 0, 0}, {0, 0, 9.81}}};
+  }
+
+  static std::vector<std::uint8_t> imuPacket(Timestamp stamp, std::int64_t reading)
+  {
+    std::vector<std::uint8_t> packet(kImuSize);
+    store<std::int64_t>(packet, 0, nanoseconds(stamp));
+    store<std::int64_t>(packet, 8, reading);
+    return packet;
+  }
 
   /** All packets that this lidar sends in [first, first + length), turn by turn; the first one opens frame `frame`. */
   std::vector<std::vector<std::uint8_t>> drive(Timestamp first, Duration length, std::uint32_t frame = 0) const
@@ -136,5 +152,6 @@ class FakeLidar : public PacketDecoder
 
   LidarDescription description_;
   bool has_init_id_;
+  bool has_imu_;
 };
 }  // namespace scanloom

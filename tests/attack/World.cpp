@@ -1,0 +1,224 @@
+#include "World.h"
+
+#include "LimitedRun.h"
+#include "support/TemporaryFolder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+namespace fs = std::filesystem;
+
+constexpr const char* kScene =
+    "[simulated_drive]\nduration = 3\nstandstill = 1\nspeed_up = 0.5\n"
+    "[simulated_stand]\nstems_per_hectare = 400\n"
+    "[simulated_lidars]\nlidar1_name = left\nlidar1_model = OS0-16\nlidar1_mode = 512x10\n"
+    "lidar1_pose = 1.5 1.2 2.5 30 15 -25\nlidar2_name = right\nlidar2_pose = 1.5 -1.2 2.5 -30 15 25\n";
+
+constexpr const char* kRig =
+    "[lidars]\ndriver = CMultiLidarSensor\nprocess_rate = 100\npcap_input = drive/recording.pcap\n"
+    "extrinsics = drive/extrinsics.txt\nimu_csv = drive/imu.csv\n"
+    "lidar1_name = left\nlidar1_metadata = drive/left.json\n"
+    "lidar2_name = right\nlidar2_metadata = drive/right.json\nscan_rate = 10\n"
+    "[map_cells]\ncell_size = 0.5\n[output]\nmaps = false\n";
+
+void write(const fs::path& file, const std::string& content) { std::ofstream(file, std::ios::binary) << content; }
+
+std::uint32_t number(const std::string& bytes, std::size_t at)
+{
+  std::uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + at, sizeof value);
+  return value;
+}
+
+std::string block(std::uint32_t type, std::string body)
+{
+  body.resize((body.size() + 3) / 4 * 4);
+  const auto text = [](std::uint32_t value)
+  { return std::string(reinterpret_cast<const char*>(&value), sizeof value); };
+  const auto length = static_cast<std::uint32_t>(body.size() + 12);
+  return text(type) + text(length) + body + text(length);
+}
+
+/** The same packets as pcapng; `pcap` has stamps in microseconds, as libpcap writes them, or nanoseconds. */
+std::string pcapngOf(const std::string& pcap)
+{
+  constexpr std::size_t kFileHeader = 24, kPacketHeader = 16;
+  const bool nanoseconds = number(pcap, 0) == 0xA1B23C4D;
+  const auto text = [](auto value) { return std::string(reinterpret_cast<const char*>(&value), sizeof value); };
+  std::string file =
+      block(0x0A0D0D0A, text(std::uint32_t{0x1A2B3C4D}) + text(std::uint32_t{1}) + text(~std::uint64_t{0}));
+  const std::string resolution =
+      text(std::uint16_t{9}) + text(std::uint16_t{1}) + text(nanoseconds ? 9U : 6U) + text(0U);
+  file += block(1, text(static_cast<std::uint32_t>(number(pcap, 20))) + text(0U) + resolution);
+  for (std::size_t at = kFileHeader; at + kPacketHeader <= pcap.size();)
+  {
+    const std::uint32_t size = number(pcap, at + 8);
+    const std::uint64_t stamp =
+        number(pcap, at) * (nanoseconds ? 1'000'000'000ULL : 1'000'000ULL) + number(pcap, at + 4);
+    file +=
+        block(6, text(0U) + text(static_cast<std::uint32_t>(stamp >> 32)) + text(static_cast<std::uint32_t>(stamp)) +
+                     text(size) + text(size) + pcap.substr(at + kPacketHeader, size));
+    at += kPacketHeader + size;
+  }
+  return file;
+}
+
+constexpr RunLimits kPatient{600, 600, std::uint64_t{8} << 30};
+
+class Maker
+{
+ public:
+  Maker(fs::path scanloom, fs::path folder) : scanloom_(std::move(scanloom)), folder_(std::move(folder)) {}
+
+  void run(const std::string& arguments) const
+  {
+    std::vector<std::string> command = wordsOf(arguments);
+    command.insert(command.begin(), scanloom_.string());
+    const RunResult result = limitedRun(command, folder_, kPatient);
+    if (result.signal != 0 || (result.status != 0 && result.status != 3))
+      throw std::runtime_error(fmt::format("scanloom {}: status {}: {}", arguments, result.status, result.errors));
+  }
+  void pack(const std::string& file) const { write(folder_ / (file + ".gz"), packed(contentOf(folder_ / file))); }
+  void copy(const std::string& from, const std::string& to) const
+  {
+    fs::copy_file(folder_ / from, folder_ / to, fs::copy_options::overwrite_existing);
+  }
+
+ private:
+  fs::path scanloom_, folder_;
+};
+}  // namespace
+
+std::string Target::name() const
+{
+  std::string name = arguments;
+  for (std::size_t at = 0; (at = name.find("{}", at)) != std::string::npos;) name.replace(at, 2, "<" + file + ">");
+  return name;
+}
+
+std::vector<std::string> wordsOf(const std::string& command)
+{
+  std::vector<std::string> words{""};
+  bool quoted = false;
+  for (const char c : command)
+    if (c == '\'')
+      quoted = !quoted;
+    else if (c == ' ' && !quoted)
+      words.emplace_back();
+    else
+      words.back() += c;
+  words.erase(std::remove(words.begin(), words.end(), ""), words.end());
+  return words;
+}
+
+void makeWorld(const fs::path& scanloom, const fs::path& folder)
+{
+  fs::create_directories(folder / "out");
+  write(folder / "scene.ini", kScene);
+  write(folder / "rig.ini", kRig);
+  const Maker maker(scanloom, folder);
+  maker.run("simulate -c scene.ini --out-dir drive");
+  write(folder / "drive.pcapng", pcapngOf(contentOf(folder / "drive/recording.pcap")));
+  maker.copy("drive/recording.pcap", "drive.pcap");
+  maker.pack("drive.pcap");
+  maker.pack("drive.pcapng");
+  maker.run("record -c rig.ini -o drive.rawlog");
+  maker.run("edit -q -i drive.rawlog -o short.rawlog --to-index 300");
+  maker.run("edit -q -i short.rawlog -o split.rawlog --split-lidars");
+  maker.run("edit -q -i short.rawlog -o xyzi.rawlog --convert-clouds CPointsMapXYZI");
+  maker.run("edit -q -i short.rawlog --export-ply ply");
+  maker.run("edit -q -i short.rawlog --export-pcd pcd");
+  maker.run("edit -q -i short.rawlog --export-kitti kitti");
+  maker.copy("ply/lidar/000000.ply", "a.ply");
+  maker.copy("pcd/lidar/000000.pcd", "a.pcd");
+  maker.copy("kitti/lidar/velodyne/000000.bin", "a.bin");
+  for (const char* cloud : {"a.ply", "a.pcd", "a.bin"}) maker.pack(cloud);
+  maker.run(
+      "map -q -i short.rawlog --trajectory drive/groundtruth.tum --preset preview -o map.bt -o map.ot "
+      "-o map.simplemap");
+  maker.copy("drive/groundtruth.tum", "true.tum");
+  maker.run("map -q -i true.tum -o true.csv");
+  maker.run("config --default slam");
+}
+
+const std::vector<Target>& targets()
+{
+  using C = Content;
+  static const std::string kMetadata = "--metadata drive/left.json --metadata drive/right.json";
+  static const std::vector<Target> kTargets{
+      {"drive.pcap", C::Binary, "info {} " + kMetadata},
+      {"drive.pcap", C::Binary, "doctor {} " + kMetadata},
+      {"drive.pcap", C::Binary, "record -c rig.ini --set lidars.pcap_input={} -o out/a.rawlog"},
+      {"drive.pcap", C::Binary, "slam -c rig.ini --set lidars.pcap_input={} --out-dir out/slam"},
+      {"drive.pcapng", C::Binary, "info {} " + kMetadata},
+      {"drive.pcapng", C::Binary, "doctor {} " + kMetadata},
+      {"drive.pcapng", C::Binary, "record -c rig.ini --set lidars.pcap_input={} -o out/a.rawlog"},
+      {"drive.pcap.gz", C::Packed, "info {}"},
+      {"drive.pcapng.gz", C::Packed, "info {}"},
+      {"drive/left.json", C::Text, "info drive.pcap --metadata {} --digests"},
+      {"drive/left.json", C::Text, "doctor drive.pcap --metadata {} --metadata drive/right.json"},
+      {"drive/left.json", C::Text, "record -c rig.ini --set lidars.lidar1_metadata={} -o out/a.rawlog"},
+      {"drive/left.json", C::Binary, "slam -c rig.ini --set lidars.lidar1_metadata={} --out-dir out/slam"},
+      {"drive/imu.csv", C::Text, "record -c rig.ini --set lidars.imu_csv={} -o out/a.rawlog"},
+      {"drive/imu.csv", C::Text, "doctor -c rig.ini --set lidars.imu_csv={}"},
+      {"drive/imu.csv", C::Text, "slam -c rig.ini --set lidars.imu_csv={} --out-dir out/slam"},
+      {"drive/extrinsics.txt", C::Text, "doctor -c rig.ini --set lidars.extrinsics={}"},
+      {"drive/extrinsics.txt", C::Text, "slam -c rig.ini --set lidars.extrinsics={} --out-dir out/slam"},
+      {"drive/extrinsics.txt", C::Text, "edit -q -i short.rawlog -o out/a.rawlog --apply-extrinsics {}"},
+      {"rig.ini", C::Text, "record -c {} -o out/a.rawlog"},
+      {"rig.ini", C::Text, "slam -c {} --out-dir out/slam"},
+      {"drive/configuration.ini", C::Text, "simulate -c {} --out-dir out/drive --truth"},
+      {"drive.rawlog", C::Packed, "info {} --json"},
+      {"drive.rawlog", C::Packed, "doctor {}"},
+      {"drive.rawlog", C::Packed, "edit -q -i {} --check --json"},
+      {"drive.rawlog", C::Packed, "slam -c rig.ini -i {} --out-dir out/slam"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --split-lidars"},
+      {"split.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --merge-lidars"},
+      {"split.rawlog", C::Packed, "edit -q -i {} --check"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --keep-lidars left"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --rebatch 25"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --voxel 0.5"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --crop-box '-2 -2 -2 2 2 2'"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --max-range 20"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --apply-extrinsics drive/extrinsics.txt"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --time-offset imu=0.01"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --deskew imu"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --deskew true.tum"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --convert-clouds CPointsMapXYZI"},
+      {"xyzi.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --convert-clouds CGenericPointsMap"},
+      {"short.rawlog", C::Packed, "edit -q -i {} --export-ply out/ply"},
+      {"short.rawlog", C::Packed, "edit -q -i {} --export-pcd out/pcd"},
+      {"short.rawlog", C::Packed, "edit -q -i {} --export-csv out/csv"},
+      {"short.rawlog", C::Packed, "map -q -i {} --trajectory true.tum --preset preview -o out/a.bt -o out/a.simplemap"},
+      {"xyzi.rawlog", C::Packed, "view {} --png out/a.png --width 64 --height 64"},
+      {"a.ply", C::Binary, "register {} a.pcd"},
+      {"a.pcd", C::Binary, "register a.ply {}"},
+      {"a.bin", C::Binary, "register a.ply {}"},
+      {"a.ply.gz", C::Packed, "register {} a.ply"},
+      {"a.pcd.gz", C::Packed, "register {} a.ply"},
+      {"a.bin.gz", C::Packed, "register {} a.ply"},
+      {"a.ply", C::Binary, "view {} --png out/a.png --width 64 --height 64"},
+      {"true.tum", C::Text, "evaluate --trajectory {} --reference drive/groundtruth.tum"},
+      {"true.csv", C::Text, "evaluate --trajectory {} --reference drive/groundtruth.tum --json"},
+      {"drive/total_station.csv", C::Text, "evaluate --trajectory true.tum --reference {}"},
+      {"true.tum", C::Text, "edit -q -i short.rawlog -o out/a.rawlog --deskew {}"},
+      {"true.tum", C::Text, "map -q -i short.rawlog --trajectory {} --preset preview -o out/a.bt"},
+      {"true.tum", C::Text, "map -q -i {} -o out/a.csv"},
+      {"map.bt", C::Binary, "map -q -i {} -o out/a.ply"},
+      {"map.ot", C::Binary, "map -q -i {} -o out/a.bt -o out/a.ply --cubes"},
+      {"map.ot", C::Binary, "view {} --png out/a.png --width 64 --height 64"},
+      {"map.simplemap", C::Packed, "map -q -i {} --preset preview -o out/a.bt -o out/a.ply"},
+      {"map.simplemap", C::Packed, "view {} --png out/a.png --width 64 --height 64"},
+  };
+  return kTargets;
+}
+}  // namespace scanloom
