@@ -2,25 +2,18 @@
 
 #include "core/Angle.h"
 #include "imu/ImuStep.h"
+#include "imu/SlowMotion.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 
 namespace scanloom
 {
 namespace
 {
-constexpr int kParts = 8;
-
-// Noise of the sensors in the mean of one part: allowed in addition to max_slow_share.
-constexpr double kQuietAccel = 0.01;           // m/s2
-constexpr double kQuietGyro = 0.05 * kDegree;  // rad/s
-
 /** Standard deviations at the start. */
 struct StartUncertainty
 {
@@ -37,69 +30,11 @@ constexpr double kMovingGyroBias = 1.0 * kDegree;  // rad/s, of a cheap sensor
 constexpr double kMovingAcceleration = 0.5;        // m/s2
 constexpr double kOriginSigma = 1e-3;              // m and rad: position and yaw define the map, they are not measured
 
-struct Means
+bool isAtRest(const SlowMotion& m, const StandstillOptions& o)
 {
-  Eigen::Vector3d gyro = Eigen::Vector3d::Zero();
-  Eigen::Vector3d accel = Eigen::Vector3d::Zero();
-};
-
-template <typename Iterator>
-Means meansOf(Iterator first, Iterator last)
-{
-  Means sum;
-  for (auto s = first; s != last; ++s)
-  {
-    sum.gyro += s->gyro;
-    sum.accel += s->accel;
-  }
-  const auto n = static_cast<double>(std::distance(first, last));
-  return {sum.gyro / n, sum.accel / n};
-}
-
-/** Root of the mean squared distance from `centre`, as (gyro, accel). */
-template <typename Readings>
-Eigen::Vector2d deviationsFrom(const Means& centre, const Readings& readings)
-{
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const auto& r : readings)
-    sum += Eigen::Vector2d((r.gyro - centre.gyro).squaredNorm(), (r.accel - centre.accel).squaredNorm());
-  return (sum / static_cast<double>(std::size(readings))).cwiseSqrt();
-}
-
-/** Standard deviations are over three axes; the slow ones are of the means of kParts equal parts. */
-struct ImuStatistics
-{
-  Eigen::Vector3d mean_gyro = Eigen::Vector3d::Zero();   // rad/s
-  Eigen::Vector3d mean_accel = Eigen::Vector3d::Zero();  // m/s2
-  double gyro_deviation = 0;                             // rad/s
-  double accel_deviation = 0;                            // m/s2
-  double slow_gyro_deviation = 0;                        // rad/s
-  double slow_accel_deviation = 0;                       // m/s2
-};
-
-ImuStatistics statisticsOf(const std::vector<ImuSample>& samples)
-{
-  if (samples.empty()) return {};
-  const Means mean = meansOf(samples.begin(), samples.end());
-  const Eigen::Vector2d deviation = deviationsFrom(mean, samples);
-
-  std::vector<Means> parts;
-  for (std::size_t k = 0; k < kParts; ++k)
-  {
-    const auto cut = [&](std::size_t part) { return static_cast<std::ptrdiff_t>(samples.size() * part / kParts); };
-    if (cut(k) != cut(k + 1)) parts.push_back(meansOf(samples.begin() + cut(k), samples.begin() + cut(k + 1)));
-  }
-  const Eigen::Vector2d slow = deviationsFrom(mean, parts);
-  return {mean.gyro, mean.accel, deviation.x(), deviation.y(), slow.x(), slow.y()};
-}
-
-bool isAtRest(const ImuStatistics& s, const StandstillOptions& o)
-{
-  return s.accel_deviation <= o.max_accel_deviation && s.gyro_deviation <= o.max_gyro_deviation_deg * kDegree &&
-         s.slow_accel_deviation <= kQuietAccel + o.max_slow_share * s.accel_deviation &&
-         s.slow_gyro_deviation <= kQuietGyro + o.max_slow_share * s.gyro_deviation &&
-         s.mean_gyro.norm() <= o.max_mean_gyro_deg * kDegree &&
-         std::abs(s.mean_accel.norm() - kGravity) <= o.max_gravity_error;
+  return m.accel <= o.max_slow_accel && m.gyro <= o.max_slow_gyro_deg * kDegree &&
+         m.mean_gyro.norm() <= o.max_mean_gyro_deg * kDegree &&
+         std::abs(m.mean_accel.norm() - kGravity) <= o.max_gravity_error;
 }
 
 /** map_T_imu with the body at the origin, its yaw 0, and `up` (in the IMU's frame) along the map's z. */
@@ -144,32 +79,33 @@ std::optional<NavEstimate> initialiseAtRest(const std::vector<ImuSample>& sample
   if (samples.empty() || samples.back().stamp - samples.front().stamp < fromSeconds(options.duration)) return {};
   const Timestamp start = samples.back().stamp - fromSeconds(options.duration);
   const auto isBefore = [](const ImuSample& s, Timestamp t) { return s.stamp < t; };
-  const ImuStatistics statistics =
-      statisticsOf({std::lower_bound(samples.begin(), samples.end(), start, isBefore), samples.end()});
-  if (!isAtRest(statistics, options)) return {};
+  const SlowMotion motion =
+      slowMotion({std::lower_bound(samples.begin(), samples.end(), start, isBefore), samples.end()});
+  if (!isAtRest(motion, options)) return {};
 
-  const Eigen::Vector3d up = statistics.mean_accel.normalized();
+  const Eigen::Vector3d up = motion.mean_accel.normalized();
   NavEstimate initial;
   initial.state.stamp = samples.back().stamp;
   initial.state.map_T_imu = levelled(up, body_T_imu);
-  initial.state.bias = {statistics.mean_gyro, statistics.mean_accel - kGravity * up};
-  const double gyro_bias = std::hypot(kGyroBiasWalk, statistics.slow_gyro_deviation / std::sqrt(kParts));
-  const double mean_accel = statistics.slow_accel_deviation / std::sqrt(kParts);
-  initial.covariance = covarianceOf(up, body_T_imu, accel_bias_sigma,
-                                    {kRestVelocity, gyro_bias, mean_accel, std::hypot(kLocalGravity, mean_accel)});
+  initial.state.bias = {motion.mean_gyro, motion.mean_accel - kGravity * up};
+  const double gyro_bias = std::hypot(kGyroBiasWalk, motion.gyro_sigma);
+  initial.covariance =
+      covarianceOf(up, body_T_imu, accel_bias_sigma,
+                   {kRestVelocity, gyro_bias, motion.accel_sigma, std::hypot(kLocalGravity, motion.accel_sigma)});
   return initial;
 }
 
 NavEstimate gravityOnly(const std::vector<ImuSample>& samples, const Rigid& body_T_imu, double accel_bias_sigma)
 {
   requireIncreasingStamps(samples);
-  const ImuStatistics statistics = statisticsOf(samples);
-  if (!(statistics.mean_accel.norm() > 0.1 * kGravity))
+  Eigen::Vector3d mean(0, 0, 0);
+  for (const ImuSample& sample : samples) mean += sample.accel / static_cast<double>(samples.size());
+  if (!(mean.norm() > 0.1 * kGravity))
     throw std::invalid_argument(fmt::format(
         "mean accelerometer of {} samples = {:.3g} m/s2: cannot tell which way is up (is its unit m/s2, not g?)",
-        samples.size(), statistics.mean_accel.norm()));
+        samples.size(), mean.norm()));
 
-  const Eigen::Vector3d up = statistics.mean_accel.normalized();
+  const Eigen::Vector3d up = mean.normalized();
   NavEstimate initial;
   initial.state.stamp = samples.back().stamp;
   initial.state.map_T_imu = levelled(up, body_T_imu);

@@ -9,30 +9,26 @@
 
 namespace scanloom
 {
-/** Limits for samples at rest. An idling engine is within them, a slow motion is not. */
+/** Limits for samples at rest. An engine, however strong, is within them; a slow motion is not. */
 struct StandstillOptions
 {
   double duration = 2.0;
-  double max_accel_deviation = 1.0;
-  double max_gyro_deviation_deg = 3.0;
-  double max_slow_share = 0.3;
+  double max_slow_accel = 0.1;
+  double max_slow_gyro_deg = 0.5;
   double max_mean_gyro_deg = 2.0;
   double max_gravity_error = 0.5;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.duration, Field{"duration", "s", "length of the standstill", above(0)});
-    visit(o.max_accel_deviation,
-          Field{"max_accel_deviation", "m/s2",
-                "largest standard deviation (3 axes) at rest, for the engine's vibration", above(0)});
-    visit(o.max_gyro_deviation_deg,
-          Field{"max_gyro_deviation_deg", "deg/s",
-                "largest standard deviation (3 axes) at rest, for the engine's vibration", above(0)});
-    visit(o.max_slow_share, Field{"max_slow_share", "",
-                                  "largest share of the deviation that is left in means over 1/8 of the duration: "
-                                  "vibration averages out, motion does not",
-                                  between(0, 1)});
+    visit(o.duration, Field{"duration", "s", "length of the standstill", atLeast(1)});
+    visit(o.max_slow_accel,
+          Field{"max_slow_accel", "m/s2",
+                "largest change of the specific force at rest (root mean square of 3 axes, below 3 Hz): the engine's "
+                "vibration is faster, motion is not",
+                above(0)});
+    visit(o.max_slow_gyro_deg, Field{"max_slow_gyro_deg", "deg/s",
+                                     "largest change of the turn rate at rest, as for max_slow_accel", above(0)});
     visit(o.max_mean_gyro_deg, Field{"max_mean_gyro_deg", "deg/s",
                                      "largest mean rate that can be a bias; a larger one is a turn", above(0)});
     visit(o.max_gravity_error,
