@@ -13,8 +13,8 @@ namespace scanloom
 struct StandstillOptions
 {
   double duration = 2.0;
-  double max_slow_accel = 0.1;
-  double max_slow_gyro_deg = 0.5;
+  double max_slow_accel = 0.03;
+  double max_slow_gyro_deg = 0.15;
   double max_mean_gyro_deg = 2.0;
   double max_gravity_error = 0.5;
 
