@@ -13,7 +13,7 @@ struct LocalMapOptions
 {
   double keyframe_distance = 4.0;
   double keyframe_turn_deg = 20.0;
-  int keyframes = 3;
+  int keyframes = 12;
   double radius = 0;
 
   template <typename Self, typename Visitor>

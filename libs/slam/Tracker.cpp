@@ -54,7 +54,8 @@ FixedLagSmoother Tracker::windowFrom(const NavEstimate& start, const PlacedImu& 
 
 TrackerState Tracker::begin(const NavEstimate& start, const PlacedImu& imu) const
 {
-  TrackerState state{windowFrom(start, imu), LocalMap(settings_.local_map, settings_.map_cells), {}, {}, {}, {}, {}};
+  TrackerState state{
+      windowFrom(start, imu), LocalMap(settings_.local_map, settings_.map_cells), {}, {}, {}, {}, {}, {}};
   state.trust.last_trusted = start.state.stamp;
   return state;
 }
@@ -72,6 +73,10 @@ TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSa
   smooth(before, samples, predicted, state, estimate, times);
   compareWithRegistration(estimate, state);
   const bool contradicted = judgeAndRecover(seen, state, estimate, times);
+  if (isBeyondReach(state, estimate))
+    comeToRest(before, state, estimate);
+  else
+    state.resting_since.reset();
   estimate.correction = boxMinus(estimate.map_T_body, predicted.map_T_body);
   state.motion_since_last = estimate.recovered ? Trajectory{} : estimate.since_last;
   updateMap(seen, contradicted, state, estimate, times);
@@ -260,6 +265,38 @@ void Tracker::beginAgainAt(const FoundBody& found, TrackerState& state, StateEst
   estimate.trusted = estimate.recovered = true;
 }
 
+/** A lost body whose velocity the IMU no longer knows, or that was not seen for long: where it may be grows without
+ * end.
+ */
+bool Tracker::isBeyondReach(const TrackerState& state, const StateEstimate& estimate) const
+{
+  constexpr double kUnknownVelocity = 1;  // m/s, about a machine's speed
+  if (estimate.health != Health::Lost || estimate.trusted) return false;
+  return isLostForGood(state, estimate) ||
+         state.smoother.newestCovariance().diagonal().segment<3>(6).maxCoeff() > kUnknownVelocity * kUnknownVelocity;
+}
+
+/** The IMU's attitude at the place before. How far the body may be from there is not for the smoother: it computes
+ * with differences of a millimetre. */
+void Tracker::comeToRest(const NavState& before, TrackerState& state, StateEstimate& estimate) const
+{
+  constexpr double kSpeed = 1.5;  // m/s, a machine's
+  const PlacedImu imu{state.smoother.body_T_imu(), state.smoother.noise()};
+  const Rigid map_T_local = state.map_T_local();
+  const Rigid map_T_body{state.smoother.newestBody().rotation,
+                         (before.map_T_imu * imu.body_T_imu.inverse()).translation};
+  state.smoother = windowFrom(atRest(map_T_body, newestOf(state.smoother), imu), imu);
+  state.last_registered.reset();
+  anchorAt(map_T_local.inverse() * map_T_body, state);
+
+  if (!state.resting_since) state.resting_since = before.stamp;
+  const double reach = kSpeed * seconds(estimate.stamp - *state.resting_since);
+  estimate.map_T_body = map_T_body;
+  estimate.covariance = state.smoother.newestBodyCovariance();
+  estimate.covariance.diagonal().head<3>().array() += reach * reach;
+  estimate.velocity.setZero();
+}
+
 /** Registrations from now on are relative to the newest body, which is there in the local map. */
 void Tracker::anchorAt(const Rigid& local_T_body, TrackerState& state) const
 {
@@ -268,14 +305,18 @@ void Tracker::anchorAt(const Rigid& local_T_body, TrackerState& state) const
   state.local_T_anchor = local_T_body;
 }
 
+bool Tracker::isLostForGood(const TrackerState& state, const StateEstimate& estimate) const
+{
+  const TrustOptions& trust = settings_.slam.trust;
+  return estimate.health == Health::Lost &&
+         estimate.stamp - state.trust.last_trusted > fromSeconds(trust.lost_after + trust.restart_after);
+}
+
 void Tracker::updateMap(Seen& seen, bool contradicted, TrackerState& state, StateEstimate& estimate,
                         StageTimes& times) const
 {
   if (seen.cloud.empty()) return;
-  const TrustOptions& trust = settings_.slam.trust;
-  const bool lost_for_good = estimate.health == Health::Lost && estimate.stamp - state.trust.last_trusted >
-                                                                    fromSeconds(trust.lost_after + trust.restart_after);
-  if (lost_for_good && !state.local_map.empty())
+  if (isLostForGood(state, estimate) && !state.local_map.empty())
   {
     estimate.map_restarted = true;
     state.local_map.clear();

@@ -26,6 +26,7 @@ struct TrackerState
   Trajectory motion_since_last;          // body poses from the state before the newest up to it
   TrustHistory trust;
   Recovery recovery;
+  std::optional<Timestamp> resting_since;  // lost, and no longer carried by the IMU
 
   Rigid map_T_local() const;
 };
@@ -78,7 +79,10 @@ class Tracker
   bool recover(const std::vector<View>&, TrackerState&, StateEstimate&, StageTimes&) const;
   void believeLidar(TrackerState&, StateEstimate&) const;
   void beginAgainAt(const FoundBody&, TrackerState&, StateEstimate&) const;
+  bool isBeyondReach(const TrackerState&, const StateEstimate&) const;
+  void comeToRest(const NavState& before, TrackerState&, StateEstimate&) const;
   void anchorAt(const Rigid& local_T_body, TrackerState&) const;
+  bool isLostForGood(const TrackerState&, const StateEstimate&) const;
   void updateMap(Seen&, bool contradicted, TrackerState&, StateEstimate&, StageTimes&) const;
   void addKeyframe(Seen&, TrackerState&, StateEstimate&) const;
 

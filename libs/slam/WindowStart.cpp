@@ -1,5 +1,6 @@
 #include "slam/WindowStart.h"
 
+#include "core/Matrix6.h"
 #include "graph/PosePriorFactor.h"
 #include "imu/BiasOfReplacement.h"
 #include "imu/ImuBuffer.h"
@@ -61,6 +62,21 @@ Eigen::Vector3d rateAt(Timestamp stamp, const std::vector<ImuSample>& samples, c
   const std::vector<ImuSample> then = ImuBuffer(samples).between(stamp, stamp + 1ms);
   return then.empty() ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(then.front().gyro - bias.gyro);
 }
+
+/** The newest state, with another pose of the body, at rest for all that is known. */
+NavEstimate withUnknownVelocity(const Rigid& map_T_body, const Matrix6d& body_covariance, NavEstimate newest,
+                                const PlacedImu& imu)
+{
+  constexpr double kVelocity = 1;  // m/s
+  const Matrix6d imu_by_body = bodyStepByImuStep(imu.body_T_imu);
+  newest.state.map_T_imu = map_T_body * imu.body_T_imu;
+  newest.state.velocity.setZero();
+  newest.covariance.topRows<9>().setZero();
+  newest.covariance.leftCols<9>().setZero();
+  newest.covariance.topLeftCorner<6, 6>() = imu_by_body * body_covariance * imu_by_body.transpose();
+  newest.covariance.diagonal().segment<3>(6).setConstant(kVelocity * kVelocity);
+  return newest;
+}
 }  // namespace
 
 NavEstimate continuedBy(const ImuChange& change, const NavEstimate& newest, const Rigid& body_T_imu_before)
@@ -79,21 +95,19 @@ NavEstimate continuedBy(const ImuChange& change, const NavEstimate& newest, cons
 NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, const NavEstimate& newest,
                     const ImuBias& bias, const PlacedImu& imu)
 {
-  constexpr double kVelocity = 1;                              // m/s
   const double level = imu.noise.accel_bias_sigma / kGravity;  // rad
   const Eigen::Matrix3d body_R_map = map_T_body.rotation.conjugate().toRotationMatrix();
   Matrix6d of_body = body_covariance;
   of_body.bottomRightCorner<3, 3>() += level * level * body_R_map.leftCols<2>() * body_R_map.leftCols<2>().transpose();
-
-  const Matrix6d imu_by_body = bodyStepByImuStep(imu.body_T_imu);
-  NavEstimate found = newest;
-  found.state.map_T_imu = map_T_body * imu.body_T_imu;
-  found.state.velocity.setZero();
+  NavEstimate found = withUnknownVelocity(map_T_body, of_body, newest, imu);
   found.state.bias = bias;
-  found.covariance.topRows<9>().setZero();
-  found.covariance.leftCols<9>().setZero();
-  found.covariance.topLeftCorner<6, 6>() = imu_by_body * of_body * imu_by_body.transpose();
-  found.covariance.diagonal().segment<3>(6).setConstant(kVelocity * kVelocity);
   return found;
+}
+
+NavEstimate atRest(const Rigid& map_T_body, const NavEstimate& newest, const PlacedImu& imu)
+{
+  const Matrix6d body_by_imu = bodyStepByImuStep(imu.body_T_imu.inverse());
+  const Matrix6d covariance = newest.covariance.topLeftCorner<6, 6>();
+  return withUnknownVelocity(map_T_body, congruent(covariance, body_by_imu.transpose()), newest, imu);
 }
 }  // namespace scanloom

@@ -37,4 +37,7 @@ NavEstimate continuedBy(const ImuChange&, const NavEstimate& newest, const Rigid
  */
 NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, const NavEstimate& newest,
                     const ImuBias& bias, const PlacedImu&);
+
+/** The newest state with another pose of the body, and its velocity unknown. */
+NavEstimate atRest(const Rigid& map_T_body, const NavEstimate& newest, const PlacedImu&);
 }  // namespace scanloom

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <array>
+#include <cstdlib>
 #include <functional>
 #include <ostream>
 #include <random>
@@ -15,7 +17,7 @@ namespace
 using Datagrams = std::vector<Datagram>;
 
 constexpr Timestamp kFirst{1000s};
-constexpr Duration kLength = 4s;
+constexpr Duration kTurn = 100ms, kLength = 4s;
 constexpr int kBlocksOfPacket = 16;
 constexpr Duration kYear = std::chrono::hours{24 * 365};
 
@@ -40,16 +42,16 @@ struct OpenRig
     }
   }
 
-  /** What both send; a packet arrives 0.3 to 0.7 ms after its last block. */
-  Datagrams drive() const
+  /** What both send in so many turns; a packet arrives 0.3 to 0.7 ms after its last block. */
+  Datagrams drive(int first_turn = 0, int turns = kLength / kTurn) const
   {
     Datagrams all;
     for (std::size_t i = 0; i < 2; ++i)
     {
       const Duration packet = lidar->description().blockPeriod() * kBlocksOfPacket;
-      Timestamp end = kFirst + 1317us * static_cast<int>(i);
+      Timestamp end = kFirst + 1317us * static_cast<int>(i) + first_turn * kTurn;
       int n = 0;
-      for (auto& payload : lidar->drive(end, kLength, 7))
+      for (auto& payload : lidar->drive(end, turns * kTurn, static_cast<std::uint32_t>(7 + first_turn)))
         all.push_back({(end += packet) + 300us + 100us * (++n % 5), senderOf(i), 0, rig.addresses[i].lidar_port,
                        std::move(payload)});
     }
@@ -278,6 +280,74 @@ TEST(Strangers, ofAnyKindTakeNothingAndWithTheLidarsAddressLittle)
     EXPECT_LE(shareLost(0, forged, calm), 0.001) << n << ": " << summaryOf(forged);
     EXPECT_LE(shareLost(1, forged, calm), 0.001) << n << ": " << summaryOf(forged);
   }
+}
+
+/** A stranger at work in ten seconds of a drive: pairs of copies, far ahead and about now, noise, and a flood of IMU
+ * packets with any stamps. */
+Datagrams tenSecondsOfStrangers(const OpenRig& rig, int first_turn, std::mt19937_64& random)
+{
+  const Timestamp begin = kFirst + first_turn * kTurn;
+  const std::uint16_t port = rig.rig.addresses[0].lidar_port;
+  Datagrams packets;
+  for (int n = 0; n < 100; ++n)
+    for (int k = 0; k < 2; ++k)
+      packets.push_back(copyOf(rig, 64 * (first_turn + n) + k, n % 2 == 0 ? kYear : Duration{0}, n % 3,
+                               begin + n * kTurn + 3ms + k * 50us));
+  for (int n = 0; n < 10'000; ++n)
+  {
+    const Timestamp received = begin + n * 1ms + 70us;
+    const Timestamp any{Duration{static_cast<std::int64_t>(random() >> 3)}};
+    packets.push_back({received, kStranger, 0, port, FakeLidar::imuPacket(any, -1)});
+    if (n % 10 == 0)
+      packets.push_back({received, kStranger, 0, port, std::vector<std::uint8_t>(random() % 1500, 0xA5)});
+  }
+  return packets;
+}
+
+/** Hours of it with SCANLOOM_HOURS=24, otherwise a minute. Seed 2. */
+TEST(Strangers, thatStayForHoursTakeNothing)
+{
+  const char* hours = std::getenv("SCANLOOM_HOURS");
+  const int pieces = hours ? static_cast<int>(360 * std::stod(hours)) : 6;
+  constexpr int kTurns = 100;
+  const OpenRig rig;
+  std::mt19937_64 random(2);
+  RigStream stream(rig.rig, RigStream::ReceiveTimes::Steady);
+  const Timestamp from = kFirst + kTurns * kTurn, to = kFirst + (pieces - 1) * kTurns * kTurn;
+  std::array<std::int64_t, 2> columns{}, sent{};
+  std::size_t most_warnings = 0;
+  const auto collect = [&]
+  {
+    while (auto event = stream.next())
+      if (const auto* scan = std::get_if<Scan>(&*event))
+        for (const Column& column : scan->columns)
+          if (column.stamp >= from && column.stamp < to) ++columns[column.sensor_id];
+    most_warnings += stream.takeWarnings().size();
+  };
+  for (int piece = 0; piece < pieces; ++piece)
+  {
+    Datagrams datagrams = rig.drive(piece * kTurns, kTurns);
+    for (const Datagram& datagram : datagrams)
+      for (int block = 0; block < kBlocksOfPacket; ++block)
+      {
+        const Timestamp stamp = FakeLidar::stampOf(datagram.payload, block);
+        sent[datagram.source == OpenRig::senderOf(1)] += stamp >= from && stamp < to;
+      }
+    for (Datagram& packet : tenSecondsOfStrangers(rig, piece * kTurns, random)) datagrams.push_back(std::move(packet));
+    OpenRig::inOrder(datagrams);
+    for (const Datagram& datagram : datagrams)
+    {
+      stream.take(datagram);
+      collect();
+    }
+  }
+  stream.finish();
+  collect();
+
+  EXPECT_EQ(columns, sent);
+  EXPECT_LE(most_warnings, 20u) << "a stranger is told once, not for every packet";
+  RecordProperty("blocks", std::to_string(sent[0] + sent[1]));
+  RecordProperty("of_other_senders", std::to_string(stream.account().lidars[0].of_other_senders));
 }
 
 /** The left lidar's IMU: true samples at 100 Hz bear their number, a flood's have number -1. */

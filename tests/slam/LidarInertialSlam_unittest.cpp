@@ -191,6 +191,31 @@ void blind(Scan& scan)
 }
 }  // namespace
 
+TEST(LidarInertialSlam, aLostBodyComesToRestAndIsFoundAgainWhenTheViewComesBack)
+{
+  const Machine machine = gentleMachine(100s);
+  const Timestamp from{6s}, to{40s};
+  const Driven run = runFor(
+      machine, 44s, {},
+      [&](Scan& scan)
+      {
+        if (scan.start >= from && scan.start < to) blind(scan);
+      },
+      [&](ImuSample& sample)
+      {
+        if (sample.stamp >= from && sample.stamp < to) sample.accel.x() += 0.5;
+      });
+
+  const StateEstimate &early = run.at(20s), &late = run.at(39s);
+  EXPECT_LT((late.map_T_body.translation - early.map_T_body.translation).norm(), 1e-9);
+  EXPECT_EQ(late.velocity.norm(), 0);
+  const auto deviation = [](const StateEstimate& e) { return std::sqrt(e.covariance(0, 0)); };
+  EXPECT_NEAR(deviation(late) - deviation(early), 1.5 * 19, 0.2) << "a machine's speed times the time";
+  EXPECT_EQ(late.health, Health::Lost);
+  EXPECT_EQ(run.estimates.back().health, Health::Ok);
+  EXPECT_LT(run.estimates.back().map_T_body.translation.norm(), 0.05);
+}
+
 TEST(LidarInertialSlam, isFoundAgainFarFromWhereAWrongImuCarriedIt)
 {
   // Blind for four seconds, in which the gyroscope adds 60 degrees of yaw and the accelerometer metres.

@@ -36,9 +36,11 @@ TEST(LocalMap, wantsAKeyframeFirstAndThenAfterTravelOrTurn)
   EXPECT_TRUE(map.wants(at(0, 21)));
 }
 
-TEST(LocalMap, keepsTheLastThreeKeyframes)
+TEST(LocalMap, keepsTheLastKeyframes)
 {
-  LocalMap map({}, {});
+  LocalMapOptions options;
+  options.keyframes = 3;
+  LocalMap map(options, {});
   for (int i = 0; i < 5; ++i) map.add(cube(), at(10 * i));
   EXPECT_EQ(map.ndt().points(), 3u * 27u);
   EXPECT_EQ(cellAt(map.ndt(), {10, 0, 0}), nullptr);

@@ -103,6 +103,12 @@ class FakeLidar : public PacketDecoder
     return {{fromNanoseconds(load<std::int64_t>(packet, 0)), {reading, 0, 0}, {0, 0, 9.81}}};
   }
 
+  /** Of one block of a lidar packet. */
+  static Timestamp stampOf(Bytes packet, int block)
+  {
+    return fromNanoseconds(load<std::int64_t>(packet, kHeaderSize + kBlockSize * static_cast<std::size_t>(block)));
+  }
+
   static std::vector<std::uint8_t> imuPacket(Timestamp stamp, std::int64_t reading)
   {
     std::vector<std::uint8_t> packet(kImuSize);
