@@ -78,7 +78,7 @@ double Ground::smoothHeight(double x, double y) const
       const Wave &first = (*waves)[0], &second = (*waves)[1];
       const Eigen::Array2d angles(first.k.x() * x + first.k.y() * y + first.phase,
                                   second.k.x() * x + second.k.y() * y + second.phase);
-      z += (Eigen::Array2d(first.amplitude, second.amplitude) * sineCosine<2>(angles).sine).sum();
+      z += (Eigen::Array2d(first.amplitude, second.amplitude) * sineCosine<2, 11>(angles).sine).sum();
     }
   return z;
 }

@@ -59,7 +59,7 @@ class Ground
     return z;
   }
 
-  /** Height without the short waves, to 1e-12 m; in less time than height(). */
+  /** Height without the short waves, to 1 um; in less time than height(). */
   double smoothHeight(double x, double y) const;
 
   /** Upper bound of the height, m; its negative is a lower bound. */

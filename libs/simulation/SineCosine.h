@@ -11,8 +11,11 @@ struct SineCosine
   Eigen::Array<double, kCount, 1> sine, cosine;
 };
 
-/** Of several angles at once, to 1e-12 and without the branches of std::sin: each ray needs about ten. */
-template <int kCount>
+/**
+ * Of several angles at once, without the branches of std::sin: each ray needs about ten. To 1e-12 with Taylor's series
+ * to r^17, to 1e-7 with that to r^11.
+ */
+template <int kCount, int kLast = 17>
 SineCosine<kCount> sineCosine(const Eigen::Array<double, kCount, 1>& angle)
 {
   using Angles = Eigen::Array<double, kCount, 1>;
@@ -21,7 +24,7 @@ SineCosine<kCount> sineCosine(const Eigen::Array<double, kCount, 1>& angle)
   const Angles r = angle - half_turns * M_PI, q = r * r;  // |r| <= pi / 2
   const Angles sign = 1 - 2 * (half_turns - 2 * ((0.5 * half_turns + kRound) - kRound)).abs();
   Angles sine = Angles::Ones(), cosine = Angles::Ones();
-  for (int n = 16; n >= 2; n -= 2)  // Taylor's series to r^17, inside out
+  for (int n = kLast - 1; n >= 2; n -= 2)  // Taylor's series, inside out
   {
     sine = 1 - (q * (1.0 / (n * (n + 1)))) * sine;
     cosine = 1 - (q * (1.0 / (n * (n - 1)))) * cosine;

@@ -10,11 +10,11 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kReferenceSpeed = 10;   // m/s, of tip_sway and leaf_sway
-constexpr double kFreeHeight = 1;        // m above the ground: lower plants move less
-constexpr double kHighestShare = 1.5;    // of the mean tree's height: higher ones bend no further
-constexpr double kCentimetres = 100;     // per metre
-constexpr double kShortestLeafWave = 8;  // m
+constexpr double kReferenceSpeed = 10;    // m/s, of tip_sway and leaf_sway
+constexpr double kFreeHeight = 1;         // m above the ground: lower plants move less
+constexpr double kHighestShare = 1.5;     // of the mean tree's height: higher ones bend no further
+constexpr double kCentimetres = 100;      // per metre
+constexpr double kShortestLeafWave = 12;  // m
 
 double swayRateOf(double diameter, double height)
 {

@@ -86,7 +86,7 @@ class Wind
     /** Along and across the wind. */
     Eigen::Vector2d at(const Eigen::Vector2d& place, double t) const
     {
-      const SineCosine<4> wave = sineCosine<4>(kx * place.x() + ky * place.y() - rate * t + phase);
+      const auto wave = sineCosine<4, 11>(kx * place.x() + ky * place.y() - rate * t + phase);
       return {(along * wave.sine).sum(), (across * wave.cosine).sum()};
     }
   };

@@ -3,6 +3,7 @@
 #include "simulation/GrowFoliage.h"
 #include "simulation/Random.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace scanloom
@@ -22,7 +23,8 @@ World::World(const Ground& ground, const ForestOptions& options, const Lane& lan
   : ground_(ground),
     wind_(options.wind, options.trees.diameter, options.trees.height, seed),
     foliage_(growFoliage(options.foliage, options.trees, stand.stems, ground, lane, options.stand.reach, seed)),
-    wood_(std::move(stand.stems), stand.stumps, options.trees)
+    wood_(std::move(stand.stems), stand.stumps, options.trees),
+    highest_(std::max(wood_.highest(), foliage_.voxels().voxelSize() * foliage_.voxels().above()))
 {
 }
 

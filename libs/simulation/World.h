@@ -64,5 +64,6 @@ class World
   Wind wind_;
   Foliage foliage_;
   Wood wood_;
+  double highest_;  // m: above it there is nothing
 };
 }  // namespace scanloom

@@ -4,12 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace scanloom
 {
 namespace
 {
-constexpr double kPiece = 3;  // m: short against the waves of the wind
+constexpr double kPiece = 4;  // m: short against the waves of the wind
+
+/** Range up to which a ray has not risen above a height. */
+double rangeBelow(double height, const Ray& ray)
+{
+  if (ray.direction.z() <= 0) return std::numeric_limits<double>::infinity();
+  return (height - ray.origin.z()) / ray.direction.z();
+}
 
 /** A straight piece of a ray's way through the world at rest. */
 struct PieceAtRest
@@ -62,7 +70,8 @@ std::vector<std::optional<Hit>> World::castInWind(const std::vector<RayQuery>& q
     nearest[i] = castGround(ray, max_range);
     Random of_leaves(draw, RandomStream::Leaves, 0);
     const double optical_depth = of_leaves.exponential();
-    rays.push_back({i, of_leaves, nearest[i] ? nearest[i]->range : max_range, optical_depth, atRest(ray.origin, t)});
+    const double reach = std::min(nearest[i] ? nearest[i]->range : max_range, rangeBelow(highest_, ray));
+    rays.push_back({i, of_leaves, reach, optical_depth, atRest(ray.origin, t)});
   }
   for (double from = 0; !rays.empty(); from += kPiece)
   {
