@@ -3,6 +3,7 @@
 #include "core/Angle.h"
 
 #include <cmath>
+#include <utility>
 
 namespace scanloom
 {
@@ -50,8 +51,14 @@ Stance stand(const Ground& ground, const BodyMotionOptions& body, const Taylor& 
 }
 }  // namespace
 
-Drive::Drive(const Route& route, const DriveOptions& options, const BodyMotionOptions& body, const Ground& ground)
-  : route_(route), body_(body), ground_(ground), curve_(options.curve), curve_rate_(2 * M_PI / options.curve_length)
+Drive::Drive(const Route& route, const DriveOptions& options, const BodyMotionOptions& body, const Ground& ground,
+             EngineVibration engine)
+  : route_(route),
+    body_(body),
+    ground_(ground),
+    engine_(std::move(engine)),
+    curve_(options.curve),
+    curve_rate_(2 * M_PI / options.curve_length)
 {
 }
 
@@ -59,7 +66,7 @@ Taylor Drive::lateral(const Taylor& x) const { return curve_ * (1 - cos(curve_ra
 
 Motion Drive::at(double t) const
 {
-  const Taylor x = route_.progress(t), y = lateral(x);
+  Taylor x = route_.progress(t), y = lateral(x);
   const Taylor yaw = atan(curve_ * curve_rate_ * sin(curve_rate_ * x));
   const Stance stance = stand(ground_, body_, x, y, yaw);
 
@@ -67,11 +74,17 @@ Motion Drive::at(double t) const
   const Taylor sway = kDegree * body_.sway_deg * (driving + body_.work_sway * working);
   const Taylor shake = driving + working;
   const double slow = body_.vibration_slow, fast = body_.vibration_fast;
-  const Taylor z = stance.height + body_.vibration * shake * (oscillation(t, slow) + oscillation(t, fast, 1.0));
-  const Taylor pitch = stance.pitch + 2.0 / 3 * sway * oscillation(t, 1.3 * body_.sway_rate, 0.9) +
-                       kDegree * body_.vibration_deg * shake * oscillation(t, fast, 2.0);
-  const Taylor roll = stance.roll + sway * oscillation(t, body_.sway_rate) +
-                      kDegree * body_.vibration_deg * shake * oscillation(t, slow, 0.5);
+  Taylor z = stance.height + body_.vibration * shake * (oscillation(t, slow) + oscillation(t, fast, 1.0));
+  Taylor pitch = stance.pitch + 2.0 / 3 * sway * oscillation(t, 1.3 * body_.sway_rate, 0.9) +
+                 kDegree * body_.vibration_deg * shake * oscillation(t, fast, 2.0);
+  Taylor roll = stance.roll + sway * oscillation(t, body_.sway_rate) +
+                kDegree * body_.vibration_deg * shake * oscillation(t, slow, 0.5);
+  if (!engine_.isStill())
+  {
+    const Shake engine = engine_.at(t);
+    x = x + engine.place[0], y = y + engine.place[1], z = z + engine.place[2];
+    pitch = pitch + engine.pitch, roll = roll + engine.roll;
+  }
   const Turn turn = turnOf(yaw, pitch, roll);
   return {Rigid::fromXyzYawPitchRoll(x.value, y.value, z.value, yaw.value, pitch.value, roll.value),
           {x.rate, y.rate, z.rate},

@@ -2,6 +2,7 @@
 #pragma once
 #include "core/Field.h"
 #include "core/Rigid.h"
+#include "simulation/EngineVibration.h"
 #include "simulation/Ground.h"
 #include "simulation/Route.h"
 #include "simulation/Taylor.h"
@@ -62,13 +63,14 @@ struct Motion
   Eigen::Vector3d angular_acceleration;  // rad/s2, in the body
 };
 
-/** Four wheels on the ground along a winding path. Sway and vibration fade in and out with driving and working. */
+/** Four wheels on the ground along a winding path. Sway and vibration fade in and out with driving and working;
+ * the engine's vibration goes on at rest. */
 class Drive
 {
  public:
-  Drive(const Route&, const DriveOptions&, const BodyMotionOptions&, const Ground&);
+  Drive(const Route&, const DriveOptions&, const BodyMotionOptions&, const Ground&, EngineVibration = {});
 
-  /** `t` s after the start of the recording. The machine rests where t < 0. */
+  /** `t` s after the start of the recording. The machine rests where t < 0, but for its engine. */
   Motion at(double t) const;
 
   const Ground& ground() const { return ground_; }
@@ -83,6 +85,7 @@ class Drive
   Route route_;
   BodyMotionOptions body_;
   Ground ground_;
+  EngineVibration engine_;
   double curve_;       // m
   double curve_rate_;  // rad/m
 };

@@ -64,6 +64,7 @@ class Walk
 
   bool hasEnded() const { return range_ >= end_; }
   const std::optional<Leaf>& leaf() const { return leaf_; }
+  double opticalDepth() const { return optical_depth_; }  // that is left
 
   void step(const FoliageVoxels& voxels)
   {
@@ -102,9 +103,9 @@ class Walk
 };
 }  // namespace
 
-std::vector<std::optional<Leaf>> Foliage::intersect(const std::vector<FoliageQuery>& queries) const
+std::vector<Passage> Foliage::intersect(const std::vector<FoliageQuery>& queries) const
 {
-  std::vector<std::optional<Leaf>> leaves(queries.size());
+  std::vector<Passage> passages(queries.size());
   struct Slot
   {
     Walk walk;
@@ -125,9 +126,9 @@ std::vector<std::optional<Leaf>> Foliage::intersect(const std::vector<FoliageQue
         slot.walk.step(voxels_);
         continue;
       }
-      leaves[slot.query] = slot.walk.leaf();
+      passages[slot.query] = {slot.walk.leaf(), slot.walk.opticalDepth()};
       slot = next < queries.size() ? start() : slots[--active];
     }
-  return leaves;
+  return passages;
 }
 }  // namespace scanloom

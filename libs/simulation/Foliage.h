@@ -18,6 +18,13 @@ struct Leaf
   Surface surface;
 };
 
+/** A ray's way through foliage: the leaf that stops it, or none and how much of its optical depth is left. */
+struct Passage
+{
+  std::optional<Leaf> leaf;
+  double optical_depth = 0;
+};
+
 struct FoliageQuery
 {
   Ray ray;
@@ -31,13 +38,13 @@ class Foliage
   explicit Foliage(FoliageVoxels voxels) : voxels_(std::move(voxels)) { voxels_.measureOpenSpace(); }
 
   /**
-   * The leaf that stops each ray; nothing if the ray passes. With exponentially distributed optical depths each voxel
-   * returns rays with the probability of Beer and Lambert.
+   * What becomes of each ray. With exponentially distributed optical depths each voxel returns rays with the
+   * probability of Beer and Lambert.
    */
-  std::vector<std::optional<Leaf>> intersect(const std::vector<FoliageQuery>&) const;
+  std::vector<Passage> intersect(const std::vector<FoliageQuery>&) const;
   std::optional<Leaf> intersect(const FoliageQuery& query) const
   {
-    return intersect(std::vector<FoliageQuery>{query}).front();
+    return intersect(std::vector<FoliageQuery>{query}).front().leaf;
   }
 
   const FoliageVoxels& voxels() const { return voxels_; }

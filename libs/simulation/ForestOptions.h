@@ -3,6 +3,7 @@
 #include "config/Schema.h"
 #include "simulation/GrowFoliage.h"
 #include "simulation/Stand.h"
+#include "simulation/Wind.h"
 
 namespace scanloom
 {
@@ -11,6 +12,7 @@ struct ForestOptions
   StandOptions stand;
   TreeOptions trees;
   FoliageOptions foliage;
+  WindOptions wind;
 
   template <typename Self, typename Visitor>
   static void sections(Self& s, Visitor&& visit)
@@ -18,6 +20,7 @@ struct ForestOptions
     visit(s.stand, Section{"simulated_stand", "where stems stand"});
     visit(s.trees, Section{"simulated_trees", "how each of them has grown"});
     visit(s.foliage, Section{"simulated_foliage", "twigs, needles, leaves and undergrowth"});
+    visit(s.wind, Section{"simulated_wind", "how wind moves stems, branches and leaves"});
   }
 };
 }  // namespace scanloom

@@ -1,5 +1,7 @@
 #include "simulation/Ground.h"
 
+#include "simulation/SineCosine.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -7,27 +9,6 @@ namespace scanloom
 {
 namespace
 {
-struct SineCosine
-{
-  Eigen::Array2d sine, cosine;
-};
-
-/** Of two angles at once, to 1e-12 and without the branches of std::sin: each ray needs about ten. */
-SineCosine sineCosine(const Eigen::Array2d& angle)
-{
-  constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
-  const Eigen::Array2d half_turns = (angle * M_1_PI + kRound) - kRound;
-  const Eigen::Array2d r = angle - half_turns * M_PI, q = r * r;  // |r| <= pi / 2
-  const Eigen::Array2d sign = 1 - 2 * (half_turns - 2 * ((0.5 * half_turns + kRound) - kRound)).abs();
-  Eigen::Array2d sine = Eigen::Array2d::Ones(), cosine = Eigen::Array2d::Ones();
-  for (int n = 16; n >= 2; n -= 2)  // Taylor's series to r^17, inside out
-  {
-    sine = 1 - (q * (1.0 / (n * (n + 1)))) * sine;
-    cosine = 1 - (q * (1.0 / (n * (n - 1)))) * cosine;
-  }
-  return {sign * r * sine, sign * cosine};
-}
-
 struct Gap
 {
   double size;   // m
@@ -62,7 +43,7 @@ class Ground::WavesAlongRay
   /** Subtracts the waves at a place along the ray. */
   Gap under(const Gap& gap, double range) const
   {
-    const SineCosine wave = sineCosine(phase_ + range * rate_);
+    const SineCosine<2> wave = sineCosine<2>(phase_ + range * rate_);
     return {gap.size - (amplitude_ * wave.sine).sum(), gap.slope - (amplitude_ * rate_ * wave.cosine).sum()};
   }
 
@@ -73,7 +54,7 @@ class Ground::WavesAlongRay
   Eigen::Array2d amplitude_, phase_, rate_;  // m, rad, rad per metre of ray
 };
 
-Ground::Ground(const GroundOptions& options)
+Ground::Ground(const GroundOptions& options, const SlopeOptions& slopes)
   : long_waves_{{{0.325 * options.relief, {2 * M_PI / 47, 2 * M_PI / 90}, 0.4},
                  {0.175 * options.relief, {-2 * M_PI / 60, 2 * M_PI / 21}, 1.9}}},
     short_waves_{{{0.30 * options.roughness, {2 * M_PI / 4.3, 2 * M_PI / 3.1}, 0.0},
@@ -81,6 +62,25 @@ Ground::Ground(const GroundOptions& options)
     highest_(0.5 * (options.relief + options.roughness)),
     short_crest_(0.5 * options.roughness)
 {
+  if (slopes.grade == 0) return;
+  // One slope lies along the machine's axis, the other, of 1.4 times its length, across it.
+  const double along = 2 * M_PI / slopes.length, across = along / 1.4;
+  hills_ = Waves{{{0.7 * slopes.grade / along, {along, 0}, 0.0}, {0.3 * slopes.grade / across, {0, across}, 0.6}}};
+  for (const Wave& wave : *hills_) highest_ += wave.amplitude;
+}
+
+double Ground::smoothHeight(double x, double y) const
+{
+  double z = 0;
+  for (const Waves* waves : {&long_waves_, hills_ ? &*hills_ : nullptr})
+    if (waves != nullptr)
+    {
+      const Wave &first = (*waves)[0], &second = (*waves)[1];
+      const Eigen::Array2d angles(first.k.x() * x + first.k.y() * y + first.phase,
+                                  second.k.x() * x + second.k.y() * y + second.phase);
+      z += (Eigen::Array2d(first.amplitude, second.amplitude) * sineCosine<2, 11>(angles).sine).sum();
+    }
+  return z;
 }
 
 Eigen::Vector3d Ground::normal(double x, double y) const
@@ -88,6 +88,9 @@ Eigen::Vector3d Ground::normal(double x, double y) const
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
   for (const Waves* waves : {&long_waves_, &short_waves_})
     for (const Wave& wave : *waves)
+      slope += wave.amplitude * std::cos(wave.k.x() * x + wave.k.y() * y + wave.phase) * wave.k;
+  if (hills_)
+    for (const Wave& wave : *hills_)
       slope += wave.amplitude * std::cos(wave.k.x() * x + wave.k.y() * y + wave.phase) * wave.k;
   return Eigen::Vector3d(-slope.x(), -slope.y(), 1).normalized();
 }
@@ -104,13 +107,17 @@ std::optional<double> Ground::intersect(const Ray& ray, double max_range) const
   // First down to the long waves raised by the crests of the short ones, then down to the ground. Slope and curvature
   // of the waves limit each step, so that none can jump over a crest.
   const WavesAlongRay long_waves(long_waves_, ray), short_waves(short_waves_, ray);
-  const double fastest_of_long = descent + long_waves.steepest(), bend_of_long = long_waves.bend();
+  std::optional<WavesAlongRay> hills;
+  if (hills_) hills.emplace(*hills_, ray);
+  const double fastest_of_long = descent + long_waves.steepest() + (hills ? hills->steepest() : 0);
+  const double bend_of_long = long_waves.bend() + (hills ? hills->bend() : 0);
   const double fastest = fastest_of_long + short_waves.steepest(), bend = bend_of_long + short_waves.bend();
   while (range < max_range)
   {
     const double z = ray.origin.z() - range * descent;
     if (descent < 0 && z > highest_) return std::nullopt;
-    const Gap over_long = long_waves.under({z, -descent}, range);
+    const Gap over_hills = hills ? hills->under({z, -descent}, range) : Gap{z, -descent};
+    const Gap over_long = long_waves.under(over_hills, range);
     const Gap over_crests{over_long.size - short_crest_, over_long.slope};
     if (over_crests.size > kNearCrest)
     {

@@ -25,11 +25,26 @@ struct GroundOptions
   }
 };
 
-/** Smooth ground: the sum of four sine waves of different length and direction. */
+/** Slopes on which the machine drives up and down. They are added to the waves of GroundOptions. */
+struct SlopeOptions
+{
+  double grade = 0;
+  double length = 120;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.grade, Field{"grade", "", "steepest grade of the slopes, 0.2 is 20 %; 0: none", between(0, 0.4)});
+    visit(o.length, Field{"length", "m", "distance from one crest to the next along the machine's axis (assumed)",
+                          between(30, 1000)});
+  }
+};
+
+/** Smooth ground: the sum of four sine waves of different length and direction, and of two more on slopes. */
 class Ground
 {
  public:
-  explicit Ground(const GroundOptions&);
+  explicit Ground(const GroundOptions&, const SlopeOptions& = {});
 
   /** Height at (x, y), m. `Scalar` is double, or Taylor for its derivatives along a path. */
   template <typename Scalar>
@@ -39,8 +54,13 @@ class Ground
     Scalar z = 0.0;
     for (const Waves* waves : {&long_waves_, &short_waves_})
       for (const Wave& wave : *waves) z = z + wave.amplitude * sin(wave.k.x() * x + wave.k.y() * y + wave.phase);
+    if (hills_)
+      for (const Wave& wave : *hills_) z = z + wave.amplitude * sin(wave.k.x() * x + wave.k.y() * y + wave.phase);
     return z;
   }
+
+  /** Height without the short waves, to 1 um; in less time than height(). */
+  double smoothHeight(double x, double y) const;
 
   /** Upper bound of the height, m; its negative is a lower bound. */
   double highest() const { return highest_; }
@@ -62,6 +82,7 @@ class Ground
   class WavesAlongRay;
 
   Waves long_waves_, short_waves_;
+  std::optional<Waves> hills_;
   double highest_ = 0;      // m, bound of |height|
   double short_crest_ = 0;  // m, bound of the short waves alone
 };

@@ -173,8 +173,11 @@ std::vector<LidarStation> makeLidarStations(const SimulationSettings& settings, 
                          timing.clock,
                          RandomStream::LidarImu,
                          own};
-      const SimulatedLidar lidar = ofLidar(
-          place, "model", [&] { return SimulatedLidar(metadata, body_T_sensor, timing, settings.ranging, seed, own); });
+      const SimulatedLidar lidar = ofLidar(place, "model",
+                                           [&] {
+                                             return SimulatedLidar(metadata, body_T_sensor, timing, settings.ranging,
+                                                                   settings.precipitation, seed, own);
+                                           });
       return LidarRun{lidar, until, imu};
     };
 

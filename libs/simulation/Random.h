@@ -29,6 +29,9 @@ enum class RandomStream : std::uint64_t
   Leaves,
   Bursts,
   Beside,
+  Wind,
+  Precipitation,
+  Engine,
 };
 
 /** SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), seeded by a key. */

@@ -33,9 +33,10 @@ enum class Surface
   Machine,      // the one that carries the lidars
   Boom,         // of that machine
   Object,       // persons, vehicles, falling trees
+  Precipitation,
 };
 
-constexpr std::size_t kSurfaces = 8;
+constexpr std::size_t kSurfaces = 9;
 
 struct Hit
 {

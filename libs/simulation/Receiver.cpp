@@ -41,6 +41,8 @@ double reflectivityOfSurface(const ReflectivityOptions& options, Surface surface
       return options.machine;
     case Surface::Object:
       return options.object;
+    case Surface::Precipitation:
+      return 0;  // a speck has a strength of its own
   }
   return 0;
 }
@@ -61,8 +63,11 @@ double rangeNoise(const RangingOptions& ranging, double strength)
 
 Luck::Luck(Random& random) : noise(random.normal()), detection(random.uniform()), shade(random.normal()) {}
 
-Receiver::Receiver(RangingOptions options, const std::string& product_line, double origin_to_axis)
-  : options_(ofDataSheet(options, product_line)), origin_to_axis_(origin_to_axis)
+Receiver::Receiver(RangingOptions options, const std::string& product_line, double origin_to_axis,
+                   const PrecipitationOptions& precipitation)
+  : options_(ofDataSheet(options, product_line)),
+    origin_to_axis_(origin_to_axis),
+    precipitation_(precipitation, options_)
 {
 }
 
@@ -70,7 +75,9 @@ Reception Receiver::receive(const Echo& echo) const
 {
   Reception reception;
   reception.reading.near_ir = nearIrOf(echo);
-  if (const auto only = returnOf(echo, 1))
+  auto only = returnOf(echo, 1);
+  if (const auto speck = returnOfSpeck(echo); speck && isStronger(*speck, only)) only = speck;
+  if (only)
   {
     reception.reading.first = only->measured;
     reception.surface = only->surface;
@@ -82,10 +89,15 @@ Reception Receiver::receive(const Echo& on_axis, const Echo& beside) const
 {
   const bool apart =
       on_axis.hit && beside.hit && std::abs(on_axis.hit->range - beside.hit->range) >= options_.least_separation;
-  if (!apart) return receive(on_axis);
+  if (!apart && !on_axis.speck) return receive(on_axis);
 
-  auto stronger = returnOf(on_axis, 0.5), weaker = returnOf(beside, 0.5);
-  if (weaker && (!stronger || weaker->measured.signal > stronger->measured.signal)) std::swap(stronger, weaker);
+  auto stronger = returnOf(on_axis, apart ? 0.5 : 1), weaker = apart ? returnOf(beside, 0.5) : std::nullopt;
+  if (weaker && isStronger(*weaker, stronger)) std::swap(stronger, weaker);
+  if (auto speck = returnOfSpeck(on_axis))
+  {
+    if (isStronger(*speck, stronger)) std::swap(stronger, speck);
+    if (speck && isStronger(*speck, weaker)) std::swap(weaker, speck);
+  }
   Reception reception;
   reception.reading.near_ir = nearIrOf(on_axis);
   if (stronger)
@@ -102,16 +114,36 @@ std::optional<Receiver::Return> Receiver::returnOf(const Echo& echo, double shar
   if (!echo.hit || echo.hit->range < options_.least_range) return std::nullopt;
   const Hit& hit = *echo.hit;
   const double reflectivity = reflectivityOf(hit, echo.luck);
-  const double strength =
+  double strength =
       share_of_light * signalStrength(reflectivity, hit.cosine_incidence, hit.range, options_.range_at_ten_percent);
+  if (!precipitation_.isNone()) strength *= precipitation_.transmission(hit.range);
   if (echo.luck.detection >= chanceOfReturn(strength)) return std::nullopt;
+  return measured(hit.range, strength, reflectivity, echo.luck, hit.surface);
+}
 
-  const double range = hit.range + rangeNoise(options_, strength) * echo.luck.noise + origin_to_axis_;
+std::optional<Receiver::Return> Receiver::returnOfSpeck(const Echo& echo) const
+{
+  if (!echo.speck || (echo.hit && echo.hit->range < echo.speck->range)) return std::nullopt;
+  const auto [range, strength] = *echo.speck;
+  // The lidar takes it for a surface that fills the beam.
+  const double reflectivity = 0.10 * strength * std::pow(range / options_.range_at_ten_percent, 2);
+  return measured(range, strength, reflectivity, echo.luck, Surface::Precipitation);
+}
+
+Receiver::Return Receiver::measured(double true_range, double strength, double reflectivity, const Luck& luck,
+                                    Surface surface) const
+{
+  const double range = true_range + rangeNoise(options_, strength) * luck.noise + origin_to_axis_;
   OusterReturn measured;
   measured.range_mm = static_cast<std::uint32_t>(std::lround(std::max(range, kRangeStep) / kRangeStep));
   measured.reflectivity = static_cast<std::uint8_t>(std::clamp(100 * reflectivity, 1.0, 100.0));
   measured.signal = photons(options_.photons * strength);
-  return Return{measured, hit.surface};
+  return {measured, surface};
+}
+
+bool Receiver::isStronger(const Return& a, const std::optional<Return>& b)
+{
+  return !b || a.measured.signal > b->measured.signal;
 }
 
 std::uint16_t Receiver::nearIrOf(const Echo& echo) const

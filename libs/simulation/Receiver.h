@@ -1,6 +1,7 @@
 /** From the light that comes back to a reading: whether there is a return, its strength and its error. */
 #pragma once
 #include "lidar/OusterEncoder.h"
+#include "simulation/Precipitation.h"
 #include "simulation/Random.h"
 #include "simulation/Ray.h"
 #include "simulation/SimulatedLidarOptions.h"
@@ -34,6 +35,7 @@ struct Echo
 {
   std::optional<Hit> hit;
   Luck luck;
+  std::optional<Speck> speck = std::nullopt;  // of rain or snow, on the way to the hit
 };
 
 struct Reception
@@ -46,13 +48,18 @@ class Receiver
 {
  public:
   /** Options of 0 m are taken from the product line's data sheet. `origin_to_axis` (m) is added to every range. */
-  Receiver(RangingOptions, const std::string& product_line, double origin_to_axis);
+  Receiver(RangingOptions, const std::string& product_line, double origin_to_axis, const PrecipitationOptions& = {});
 
   const RangingOptions& options() const { return options_; }
+  const Precipitation& precipitation() const { return precipitation_; }
 
+  /** The stronger return of a surface and a drop before it. */
   Reception receive(const Echo&) const;
 
-  /** A beam that may meet two surfaces: if they are at least least_separation apart, each gets half of its light. */
+  /**
+   * A beam that may meet two surfaces: if they are at least least_separation apart, each gets half of its light. A drop
+   * on the axis is a further return; the two strongest are received.
+   */
   Reception receive(const Echo& on_axis, const Echo& beside) const;
 
  private:
@@ -62,10 +69,14 @@ class Receiver
     Surface surface;
   };
   std::optional<Return> returnOf(const Echo&, double share_of_light) const;
+  std::optional<Return> returnOfSpeck(const Echo&) const;
+  Return measured(double range, double strength, double reflectivity, const Luck&, Surface) const;
+  static bool isStronger(const Return&, const std::optional<Return>&);
   std::uint16_t nearIrOf(const Echo&) const;
   double reflectivityOf(const Hit&, const Luck&) const;
 
   RangingOptions options_;
   double origin_to_axis_;  // m
+  Precipitation precipitation_;
 };
 }  // namespace scanloom

@@ -6,6 +6,7 @@
 #include "simulation/Ground.h"
 #include "simulation/Machine.h"
 #include "simulation/MovingObjects.h"
+#include "simulation/Precipitation.h"
 #include "simulation/SimulatedImu.h"
 #include "simulation/SimulatedLidarOptions.h"
 #include "simulation/TotalStation.h"
@@ -42,6 +43,9 @@ struct SimulationSettings
   BoomOptions boom;
   ObjectOptions objects;
   GroundOptions ground;
+  SlopeOptions slopes;
+  EngineOptions engine;
+  PrecipitationOptions precipitation;
   ForestOptions forest;
   SimulatedRigOptions rig;
   std::vector<SimulatedLidarOptions> lidars = dualOs0();
@@ -60,7 +64,10 @@ struct SimulationSettings
     visit(s.machine, Section{"simulated_machine", "the machine's body as the lidars see it"});
     visit(s.boom, Section{"simulated_boom", "the machine's crane"});
     visit(s.objects, Section{"simulated_objects", "persons and vehicles that pass by, and trees that fall"});
+    visit(s.engine, Section{"simulated_engine", "vibration by the engine, also at rest"});
     visit(s.ground, Section{"simulated_ground", "the ground"});
+    visit(s.slopes, Section{"simulated_slopes", "slopes of the ground"});
+    visit(s.precipitation, Section{"simulated_precipitation", "rain and snow between the lidars and the world"});
     ForestOptions::sections(s.forest, visit);
     visit(s.rig, Section{"simulated_rig", "poses of the other sensors"});
     visit(s.lidars, Section{"simulated_lidars", "any number of lidars: lidar1_, lidar2_, ...", "lidar"});

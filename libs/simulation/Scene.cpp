@@ -30,9 +30,10 @@ Rigid rigPose(const char* name, const std::string& text)
 Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
 {
   const RecordingSpan span{kStart, settings.drive.duration};
-  const Ground ground(settings.ground);
+  const Ground ground(settings.ground, settings.slopes);
   const Route route(settings.drive, settings.work, seed);
-  const Drive drive(route, settings.drive, settings.body, ground);
+  const Drive drive(route, settings.drive, settings.body, ground,
+                    EngineVibration(settings.engine, VibratingPart::Body, seed));
   const Machine machine(settings.machine, Boom(settings.boom, route, seed));
   std::vector<LidarStation> lidars = makeLidarStations(settings, span, seed);
   const Rigid body_T_imu = rigPose("imu_pose", settings.rig.imu_pose);
@@ -44,7 +45,13 @@ Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
                   MovingObjects(settings.objects, drive, seed)),
           std::move(lidars),
           settings.network,
-          {body_T_imu, kStart + kImuPhase, settings.imu, {}, RandomStream::BodyImu, 0},
+          {body_T_imu,
+           kStart + kImuPhase,
+           settings.imu,
+           {},
+           RandomStream::BodyImu,
+           0,
+           EngineVibration(settings.engine, VibratingPart::ImuMount, seed)},
           TotalStation(settings.station, body_T_prism.translation, span, seed),
           body_T_prism};
 }

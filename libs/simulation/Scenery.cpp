@@ -12,14 +12,15 @@ void keepNearer(std::optional<Hit>& nearest, const std::optional<Contact>& conta
 }  // namespace
 
 Moment::Moment(const World& world, const Machine& machine, const Rigid& world_T_body, const BoomPose& boom,
-               const std::vector<MovingObject>& objects)
+               const std::vector<MovingObject>& objects, double t)
   : world_(&world),
     machine_(&machine),
     world_T_body_(world_T_body),
     body_R_world_(world_T_body.rotation.conjugate().toRotationMatrix()),
     boom_(machine.boom().boxes(boom)),
     boxes_(boxesOf(objects)),
-    cones_(conesOf(objects))
+    cones_(conesOf(objects)),
+    t_(t)
 {
 }
 
@@ -40,7 +41,7 @@ std::vector<std::optional<Hit>> Moment::cast(const std::vector<RayQuery>& querie
     beyond.push_back({ray, nearest[i] ? nearest[i]->range : max_range, draw});
     beyond_of.push_back(i);
   }
-  const std::vector<std::optional<Hit>> standing = world_->cast(beyond);
+  const std::vector<std::optional<Hit>> standing = world_->cast(beyond, t_);
   for (std::size_t i = 0; i < standing.size(); ++i)
     if (standing[i]) nearest[beyond_of[i]] = standing[i];
   return nearest;
@@ -70,6 +71,6 @@ Scenery::Scenery(std::shared_ptr<const World> world, const Drive& drive, const M
 
 Moment Scenery::at(double t) const
 {
-  return {*world_, machine_, drive_.at(t).world_T_body, machine_.boom().at(t), objects_.at(t)};
+  return {*world_, machine_, drive_.at(t).world_T_body, machine_.boom().at(t), objects_.at(t), t};
 }
 }  // namespace scanloom

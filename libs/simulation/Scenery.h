@@ -15,7 +15,8 @@ namespace scanloom
 class Moment
 {
  public:
-  Moment(const World&, const Machine&, const Rigid& world_T_body, const BoomPose&, const std::vector<MovingObject>&);
+  Moment(const World&, const Machine&, const Rigid& world_T_body, const BoomPose&, const std::vector<MovingObject>&,
+         double t);
 
   const Rigid& worldTBody() const { return world_T_body_; }
 
@@ -34,6 +35,7 @@ class Moment
   std::vector<OrientedBox> boom_;   // in the body frame
   std::vector<OrientedBox> boxes_;  // in the world
   std::vector<Cone> cones_;         // in the world
+  double t_;                        // s after the start
 };
 
 /** Copies share the world. */

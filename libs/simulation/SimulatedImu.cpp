@@ -70,6 +70,8 @@ ImuStream::Sample ImuStream::next()
   Random random(seed_, setup_.stream, setup_.place, index_++);
   ImuSample reading =
       idealImuSample(drive_.at(span_.secondsAt(truth)), setup_.body_T_imu, setup_.clock.stamp(truth, span_.start));
+  if (!setup_.mount.isStill())
+    reading.accel += setup_.body_T_imu.rotation.conjugate() * setup_.mount.accelerationAt(span_.secondsAt(truth));
   reading.gyro +=
       turn_on_.gyro + gyro_wander_ + kDegree * errors.gyro_noise_deg / std::sqrt(step) * normalVector(random);
   reading.accel += turn_on_.accel + accel_wander_ + errors.accel_noise / std::sqrt(step) * normalVector(random);

@@ -83,6 +83,7 @@ struct ImuSetup
   ClockError clock;
   RandomStream stream = RandomStream::BodyImu;
   std::uint64_t place = 0;  // number of the lidar that the IMU is in
+  EngineVibration mount{};  // its vibration beside that of the body, along the body's axes
 };
 
 /** The samples of one IMU, in time order. */

@@ -23,7 +23,8 @@ Eigen::Vector3d besideAxis(const Eigen::Vector3d& axis, double divergence, Rando
 }  // namespace
 
 SimulatedLidar::SimulatedLidar(OusterMetadata metadata, const Rigid& body_T_sensor, const LidarTiming& timing,
-                               const RangingOptions& ranging, std::uint64_t seed, std::uint64_t place)
+                               const RangingOptions& ranging, const PrecipitationOptions& precipitation,
+                               std::uint64_t seed, std::uint64_t place)
   : metadata_(std::move(metadata)),
     body_T_lidar_(body_T_sensor * rigidFromMillimetres(metadata_.lidar_to_sensor_mm)),
     timing_(timing),
@@ -33,7 +34,7 @@ SimulatedLidar::SimulatedLidar(OusterMetadata metadata, const Rigid& body_T_sens
     beam_radius_(kMillimetre * metadata_.beam_to_lidar_mm(0, 3)),
     beam_height_(kMillimetre * metadata_.beam_to_lidar_mm(2, 3)),
     // The sensor adds the distance of the beam's origin from the axis of rotation to its ranges.
-    receiver_(ranging, metadata_.product_line, std::hypot(beam_radius_, beam_height_))
+    receiver_(ranging, metadata_.product_line, std::hypot(beam_radius_, beam_height_), precipitation)
 {
   for (int beam = 0; beam < metadata_.channels; ++beam)
   {
@@ -79,11 +80,15 @@ MeasuredColumn SimulatedLidar::measure(const Scenery& scenery, std::uint64_t col
 
   const std::vector<std::optional<Hit>> hits = moment.cast(queries);
   const auto echo = [&](std::size_t ray) { return Echo{hits[ray], lucks[ray]}; };
+  Random of_specks(seed_, RandomStream::Precipitation, place_, column);
+  const auto echoOnAxis = [&](std::size_t ray) {
+    return Echo{hits[ray], lucks[ray], receiver_.precipitation().draw(of_specks)};
+  };
   const std::size_t beams = beam_directions_.size();
   for (std::size_t beam = 0; beam < beams; ++beam)
   {
     const Reception reception =
-        two_returns_ ? receiver_.receive(echo(beam), echo(beams + beam)) : receiver_.receive(echo(beam));
+        two_returns_ ? receiver_.receive(echoOnAxis(beam), echo(beams + beam)) : receiver_.receive(echoOnAxis(beam));
     measured.column.readings.push_back(reception.reading);
     measured.returns.add(reception.surface);
   }

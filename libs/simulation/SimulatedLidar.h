@@ -42,7 +42,7 @@ class SimulatedLidar
  public:
   /** `place`: key of its random numbers. Ranging options of 0 m are taken from the data sheet. */
   SimulatedLidar(OusterMetadata, const Rigid& body_T_sensor, const LidarTiming&, const RangingOptions&,
-                 std::uint64_t seed, std::uint64_t place);
+                 const PrecipitationOptions&, std::uint64_t seed, std::uint64_t place);
 
   const OusterMetadata& metadata() const { return metadata_; }
   ColumnInstant instantOf(std::uint64_t column) const { return columnInstant(timing_, metadata_, column); }

@@ -79,6 +79,13 @@ Eigen::AlignedBox3d boundsOf(const std::vector<Cone>& cones)
   for (const Cone& cone : cones) box.extend(cone.base).extend(cone.tip());
   return box;
 }
+double longestBranch(const std::vector<std::vector<Cone>>& looks)
+{
+  double longest = 0;
+  for (const std::vector<Cone>& branches : looks)
+    for (const Cone& branch : branches) longest = std::max(longest, branch.length);
+  return longest;
+}
 }  // namespace
 
 std::string embreeInstructionSet() { return __builtin_cpu_supports("avx2") ? "avx2" : "sse4.2"; }
@@ -100,6 +107,7 @@ Wood::Wood(std::vector<Stem> stems, const std::vector<Cone>& stumps, const TreeO
   origin_ = bounds.center();
   margin_ = marginFor(bounds.sizes().maxCoeff());
   growLooks(trees);
+  highest_ = bounds.max().z() + longestBranch(looks_);
 
   std::vector<Cone> pieces;
   for (std::size_t i = 0; i < trunks_.size(); ++i)

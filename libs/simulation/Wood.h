@@ -29,6 +29,9 @@ class Wood
 
   const std::vector<Stem>& stems() const { return stems_; }
 
+  /** Height in the world that no wood exceeds, m. */
+  double highest() const { return highest_; }
+
   /** Pure; may be called from any thread. */
   std::optional<Hit> cast(const Ray&, double max_range) const;
 
@@ -59,6 +62,7 @@ class Wood
   std::vector<std::uint32_t> look_of_;                // of each stem: index into looks_
   std::vector<std::uint32_t> first_branch_{0};        // of each stem, and the total at the end
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  // of Embree's coordinates, in the world
+  double highest_ = 0;                                // m
   double margin_ = 0;                                 // m: Embree's cones are this much thicker
   Device device_;
   Scene scene_;

@@ -3,6 +3,7 @@
 #include "simulation/GrowFoliage.h"
 #include "simulation/Random.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace scanloom
@@ -20,12 +21,14 @@ World::World(const Ground& ground, const ForestOptions& options, const Lane& lan
 
 World::World(const Ground& ground, const ForestOptions& options, const Lane& lane, Stand stand, std::uint64_t seed)
   : ground_(ground),
+    wind_(options.wind, options.trees.diameter, options.trees.height, seed),
     foliage_(growFoliage(options.foliage, options.trees, stand.stems, ground, lane, options.stand.reach, seed)),
-    wood_(std::move(stand.stems), stand.stumps, options.trees)
+    wood_(std::move(stand.stems), stand.stumps, options.trees),
+    highest_(std::max(wood_.highest(), foliage_.voxels().voxelSize() * foliage_.voxels().above()))
 {
 }
 
-std::vector<std::optional<Hit>> World::cast(const std::vector<RayQuery>& queries) const
+std::vector<std::optional<Hit>> World::castInCalm(const std::vector<RayQuery>& queries) const
 {
   std::vector<std::optional<Hit>> nearest(queries.size());
   std::vector<Random> of_leaves;
@@ -41,11 +44,12 @@ std::vector<std::optional<Hit>> World::cast(const std::vector<RayQuery>& queries
     of_leaves.emplace_back(draw, RandomStream::Leaves, 0);
     through_foliage.push_back({ray, reach(i), of_leaves.back().exponential()});
   }
-  const std::vector<std::optional<Leaf>> leaves = foliage_.intersect(through_foliage);
+  const std::vector<Passage> passages = foliage_.intersect(through_foliage);
   for (std::size_t i = 0; i < queries.size(); ++i)
   {
     // Leaves in all directions alike are met in proportion to the area that they show: the cosine c has density 2c.
-    if (leaves[i]) nearest[i] = Hit{leaves[i]->range, std::sqrt(of_leaves[i].uniform()), leaves[i]->surface, 0};
+    if (const auto& leaf = passages[i].leaf)
+      nearest[i] = Hit{leaf->range, std::sqrt(of_leaves[i].uniform()), leaf->surface, 0};
     if (const auto wood = wood_.cast(queries[i].ray, reach(i))) nearest[i] = wood;
   }
   return nearest;
