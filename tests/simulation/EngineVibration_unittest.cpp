@@ -93,6 +93,13 @@ TEST(EngineVibration, goesOnAtRestAndBeforeTheRecording)
   }
 }
 
+TEST(EngineVibration, refusesABandThatEndsBeforeItBegins)
+{
+  EngineOptions options = oneLine(0.3, 100);
+  options.highest_frequency = 50;
+  EXPECT_THROW(bodyOf(options), std::invalid_argument);
+}
+
 TEST(EngineVibration, beginsWhenTheEngineStarts)
 {
   EngineOptions options = oneLine(0.3, 30);
