@@ -4,7 +4,10 @@
 #include "simulation/Random.h"
 #include "simulation/SmoothStep.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <stdexcept>
 
 namespace scanloom
 {
@@ -18,6 +21,10 @@ constexpr double kEngineFade = 1.0;  // s from standstill to full vibration
 EngineVibration::EngineVibration(const EngineOptions& options, VibratingPart part, std::uint64_t seed)
   : starts_at_(options.starts_at)
 {
+  if (options.highest_frequency <= 0.5 * options.frequency)
+    throw std::invalid_argument(
+        fmt::format("[simulated_engine] highest_frequency = {} Hz: must be above half of frequency = {} Hz",
+                    options.highest_frequency, options.frequency));
   const bool is_body = part == VibratingPart::Body;
   const double acceleration = kStandardGravity * (is_body ? options.acceleration : options.imu_mount);
   const double turn_rate = is_body ? kDegree * options.turn_rate_deg : 0;

@@ -63,9 +63,11 @@ Ground::Ground(const GroundOptions& options, const SlopeOptions& slopes)
     short_crest_(0.5 * options.roughness)
 {
   if (slopes.grade == 0) return;
+  constexpr double kAlong = 0.8, kAcross = 0.6;  // where both are steepest, they are as steep as 'grade'
   // One slope lies along the machine's axis, the other, of 1.4 times its length, across it.
   const double along = 2 * M_PI / slopes.length, across = along / 1.4;
-  hills_ = Waves{{{0.7 * slopes.grade / along, {along, 0}, 0.0}, {0.3 * slopes.grade / across, {0, across}, 0.6}}};
+  hills_ =
+      Waves{{{kAlong * slopes.grade / along, {along, 0}, 0.0}, {kAcross * slopes.grade / across, {0, across}, 0.6}}};
   for (const Wave& wave : *hills_) highest_ += wave.amplitude;
 }
 

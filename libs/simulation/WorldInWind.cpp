@@ -10,7 +10,8 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kPiece = 4;  // m: short against the waves of the wind
+constexpr double kPiece = 4;             // m: short against the waves of the wind
+constexpr double kShortestPiece = 1e-6;  // m: a shorter one has no direction
 
 /** Range up to which a ray has not risen above a height. */
 double rangeBelow(double height, const Ray& ray)
@@ -75,7 +76,7 @@ std::vector<std::optional<Hit>> World::castInWind(const std::vector<RayQuery>& q
   }
   for (double from = 0; !rays.empty(); from += kPiece)
   {
-    const auto hasEnded = [&](const RayInWind& ray) { return ray.reach <= from; };
+    const auto hasEnded = [&](const RayInWind& ray) { return ray.reach <= from + kShortestPiece; };
     rays.erase(std::remove_if(rays.begin(), rays.end(), hasEnded), rays.end());
     castPiece(queries, from, t, rays, nearest);
   }

@@ -29,6 +29,21 @@ Drive workDay()
   return {Route(options, work, 1), options, body, Ground(GroundOptions{})};
 }
 
+/** With low frequencies: differences of the step below are exact enough. */
+Drive engineDrive()
+{
+  EngineOptions engine;
+  engine.acceleration = 0.02;
+  engine.frequency = 5;
+  engine.harmonics = 2;
+  engine.highest_frequency = 20;
+  engine.turn_rate_deg = 0.2;
+  engine.starts_at = 4;
+  const DriveOptions options;
+  return {
+      Route(options, {}, 1), options, {}, Ground({1, 0}, {0.2, 100}), EngineVibration(engine, VibratingPart::Body, 1)};
+}
+
 struct DriveCase
 {
   const char* name;
@@ -71,6 +86,7 @@ TEST_P(EveryDrive, hasTheTurnRatesOfItsRotations)
 INSTANTIATE_TEST_SUITE_P(, EveryDrive,
                          testing::Values(DriveCase{"winding", windingDrive(), 2, 21},
                                          DriveCase{"work", workDay(), 2, 60},
+                                         DriveCase{"on slopes with an engine", engineDrive(), 2, 21},
                                          DriveCase{"the end of an hour's work", workDay(), 3540, 3600}));
 
 TEST(Drive, restsBeforeItStartsAndAfterItStopped)
@@ -100,6 +116,48 @@ TEST(Drive, standsOnFourWheels)
         EXPECT_NEAR(wheel.z(), ground.height(wheel.x(), wheel.y()), 0.01) << t;
       }
   }
+}
+
+TEST(Drive, leansWithTheSlope)
+{
+  BodyMotionOptions still;
+  still.sway_deg = still.vibration = still.vibration_deg = 0;
+  DriveOptions options;
+  options.duration = 200;
+  options.speed = 1.5;
+  options.curve = 0;
+  const Ground ground({0, 0}, {0.2, 200});
+  const Drive drive(Route(options, {}, 1), options, still, ground);
+  double steepest = 0;
+  for (double t = 0; t < 200; t += 3)
+  {
+    const Rigid world_T_body = drive.at(t).world_T_body;
+    const Eigen::Vector3d& p = world_T_body.translation;
+    const Eigen::Vector3d up = world_T_body.rotation * Eigen::Vector3d::UnitZ();
+    EXPECT_LT((up - ground.normal(p.x(), p.y())).norm(), 2e-3) << t;
+    EXPECT_NEAR(p.z(), ground.height(p.x(), p.y()), 0.01) << t;
+    steepest = std::max(steepest, std::abs(world_T_body.yawPitchRoll().y()));
+  }
+  EXPECT_NEAR(steepest, std::atan(0.8 * 0.2), 0.01);
+}
+
+TEST(Drive, ofAWindingRouteNeverReturns)
+{
+  DriveOptions options;
+  options.duration = 215;
+  options.speed = 1.5;
+  options.curve = 6;
+  options.curve_length = 110;
+  const Drive drive(Route(options, {}, 1), options, {}, Ground(GroundOptions{}));
+  double before = -1;
+  for (double t = 3; t < 212; t += 1)
+  {
+    const double x = drive.at(t).world_T_body.translation.x();
+    EXPECT_GT(x, before);
+    before = x;
+  }
+  EXPECT_GT(before, 300);
+  EXPECT_LT(drive.path().size(), 1500U);
 }
 
 TEST(Drive, hasAPathThatIsNeverFarFromTheMachineHoweverLongItWorks)

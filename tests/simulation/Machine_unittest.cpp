@@ -35,7 +35,7 @@ TEST(Machine, isSeenWhereverItStands)
   const Scene scene = makeScene(settings, 1);
   const Machine& machine = scene.scenery.machine();
   const Rigid world_T_body = Rigid::fromXyzYawPitchRoll(100, 50, 1, 2, 0.1, 0.1);
-  const Moment moment(scene.scenery.world(), machine, world_T_body, machine.boom().at(0), {});
+  const Moment moment(scene.scenery.world(), machine, world_T_body, machine.boom().at(0), {}, 0);
   const Ray sideways{world_T_body * Eigen::Vector3d(-2, 5, 1.5), world_T_body.rotation * -Eigen::Vector3d::UnitY()};
 
   const auto hit = moment.cast({sideways, 50, 0});

@@ -157,6 +157,27 @@ TEST(Stand, dependsOnTheSeedAndThePlaceAlone)
   EXPECT_NE(around(from(0, 200, 2)), whole);
 }
 
+/** So that memory and time grow with the length of the path, not with the square that it lies in. */
+TEST(Stand, isGrownAroundTheLaneOnly)
+{
+  StandOptions options;
+  options.reach = 40;
+  std::vector<Eigen::Vector2d> diagonal;
+  for (double x = 0; x <= 220; x += 0.15) diagonal.emplace_back(x, x);
+  const Stand stand = growStand(options, {}, Ground(GroundOptions{}), Lane(diagonal), 1);
+
+  const double tile = 16;
+  double farthest = 0;
+  for (const Stem& stem : stand.stems)
+  {
+    const Eigen::Vector2d p = stem.foot.head<2>();
+    const double along = std::clamp(0.5 * (p.x() + p.y()), 0.0, 220.0);
+    farthest = std::max(farthest, (p - Eigen::Vector2d(along, along)).norm());
+  }
+  EXPECT_GT(farthest, options.reach);
+  EXPECT_LT(farthest, options.reach + 1.5 * tile);
+}
+
 TEST(Stand, refusesMoreStemsThanTheirSpacingAllows)
 {
   StandOptions options = denseStand();
