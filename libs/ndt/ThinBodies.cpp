@@ -1,10 +1,13 @@
 #include "ndt/ThinBodies.h"
 
+#include "core/Statistics.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
+#include <optional>
 
 namespace scanloom
 {
@@ -14,6 +17,8 @@ constexpr double kMeanBeforeAxis = M_PI / 4;  // radii, from the mean to the axi
 constexpr double kSlimness = 2;               // length over width, as standard deviations
 constexpr double kMostRadius = 0.3;           // m
 constexpr double kLeastAcross = 0.3;          // of the line of sight's unit vector, across the axis
+constexpr double kSteep = 0.8;                // vertical part of the axis of a stem
+constexpr double kNear = 8;                   // m: several columns of most lidars hit a stem of 20 cm
 
 /** A cheap test that all thin bodies pass, and few others. */
 bool mayBeThin(const Eigen::Matrix3d& c)
@@ -25,39 +30,75 @@ bool mayBeThin(const Eigen::Matrix3d& c)
   return minors * (kSlim + 2) * (kSlim + 2) <= sum * sum * (2 * kSlim + 1);  // equal where both widths are the largest
 }
 
-/** From the mean of the points to the axis, in m; zero if there is no thin body. */
-Eigen::Vector3d vectorToAxis(const MeanAndCovariance& seen, const Eigen::Vector3d& viewpoint)
+/** A thin body in a cell, as a lidar sees it. */
+struct ThinBody
 {
-  if (!mayBeThin(seen.covariance)) return Eigen::Vector3d::Zero();
+  double radius = 0;        // m, by the points; too small if few rays hit it side by side
+  Eigen::Vector3d towards;  // unit vector from its near side to its axis
+  double range = 0;         // m
+  bool stands = false;      // its axis is steep
+};
+
+/** Nothing for a body that is too thick, or seen along its axis. */
+std::optional<ThinBody> thinBodyOf(const MeanAndCovariance& seen, const Eigen::Vector3d& viewpoint)
+{
+  if (!mayBeThin(seen.covariance)) return std::nullopt;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
   eigen.computeDirect(seen.covariance);
   const Eigen::Vector3d& variances = eigen.eigenvalues();
   const Eigen::Vector3d axis = eigen.eigenvectors().col(2);
-  const Eigen::Vector3d sight = (seen.mean - viewpoint).normalized();
+  const double range = (seen.mean - viewpoint).norm();
+  const Eigen::Vector3d sight = (seen.mean - viewpoint) / range;
   const Eigen::Vector3d across = sight - sight.dot(axis) * axis;
-  if (!(variances[2] > kSlimness * kSlimness * variances[1] && across.norm() > kLeastAcross))
-    return Eigen::Vector3d::Zero();
+  if (!(variances[2] > kSlimness * kSlimness * variances[1] && across.norm() > kLeastAcross)) return std::nullopt;
   const Eigen::Vector3d towards = across.normalized(), sideways = axis.cross(towards);
   const double radius = std::sqrt(3 * std::max(0.0, sideways.dot(seen.covariance * sideways)));
-  return radius <= kMostRadius ? Eigen::Vector3d(kMeanBeforeAxis * radius * towards) : Eigen::Vector3d::Zero();
+  if (radius > kMostRadius) return std::nullopt;
+  return ThinBody{radius, towards, range, std::abs(axis.z()) > kSteep};
+}
+
+/** Zero if too few bodies are near enough to be measured. */
+double typicalRadius(const std::vector<std::optional<ThinBody>>& bodies, const std::vector<Bin>& bins, int least_points)
+{
+  constexpr std::size_t kFewest = 5;
+  std::vector<double> radii;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i] && bodies[i]->range < kNear && bins[i].moments.n >= 2 * least_points)
+      radii.push_back(bodies[i]->radius);
+  return radii.size() < kFewest ? 0 : median(radii);
 }
 }  // namespace
 
 void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points)
 {
   constexpr std::size_t kGrain = 128;
+  constexpr std::int64_t kFewest = 2;  // show the direction of an axis
   const double edge = static_cast<double>(cell_quanta) * Moments::kQuantum;
-  const auto move = [&](Bin& bin)
+  const auto forAll = [&](const auto& apply)
   {
-    if (bin.moments.n < least_points) return;
-    const Eigen::Vector3d corner = edge * CellKey::indexOf(bin.key).cast<double>();
-    const Eigen::Vector3d shift = vectorToAxis(meanAndCovariance(bin.moments, corner), viewpoint);
-    bin.moments = bin.moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bins.size(), kGrain),
+                      [&](const auto& range)
+                      {
+                        for (std::size_t i = range.begin(); i != range.end(); ++i) apply(i);
+                      });
   };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bins.size(), kGrain),
-                    [&](const auto& range)
-                    {
-                      for (std::size_t i = range.begin(); i != range.end(); ++i) move(bins[i]);
-                    });
+  std::vector<std::optional<ThinBody>> bodies(bins.size());
+  forAll(
+      [&](std::size_t i)
+      {
+        if (bins[i].moments.n < kFewest) return;
+        const Eigen::Vector3d corner = edge * CellKey::indexOf(bins[i].key).cast<double>();
+        bodies[i] = thinBodyOf(meanAndCovariance(bins[i].moments, corner), viewpoint);
+      });
+  const double typical = typicalRadius(bodies, bins, least_points);
+  forAll(
+      [&](std::size_t i)
+      {
+        const bool is_measured = bins[i].moments.n >= least_points;
+        if (!bodies[i] || (!is_measured && !bodies[i]->stands)) return;
+        const double radius = is_measured ? bodies[i]->radius : typical;
+        const Eigen::Vector3d shift = kMeanBeforeAxis * radius * bodies[i]->towards;
+        bins[i].moments = bins[i].moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
+      });
 }
 }  // namespace scanloom

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace scanloom;
@@ -74,6 +75,49 @@ TEST(ThinBodies, aStemStandsAtItsAxisFromWhereverItIsSeen)
       for (const GaussianCell& cell : map.cells())
         EXPECT_LT((cell.mean.head<2>() - Eigen::Vector2d(0.5, 0.5)).norm(), 0.1 * radius) << radius << ' ' << bearing;
     }
+}
+
+namespace
+{
+/** A far stem that two rays hit, as deep behind its near side as the mean of many. */
+const Stem kFar{0.5, 30.5, 0.1};
+View viewOfTwoPoints()
+{
+  const auto y = static_cast<float>(kFar.y - M_PI / 4 * kFar.radius);
+  return {{{0.5F, y, 2.2F}, {0.5F, y, 2.8F}}, Eigen::Vector3d(0.5, 0.5, 2)};
+}
+
+double depthOfFarStem(const View& view)
+{
+  NdtOptions options;
+  options.min_points = 2;
+  const NdtMap map({view}, options);
+  double farthest = 0;
+  for (const GaussianCell& cell : map.cells()) farthest = std::max(farthest, cell.mean.y());
+  return farthest;
+}
+}  // namespace
+
+TEST(ThinBodies, aFarStemIsTakenToBeAsThickAsThoseNearby)
+{
+  View view = viewOfTwoPoints();
+  for (const double x : {-5.5, -3.5, -1.5, 2.5, 4.5, 6.5}) look(*view.viewpoint, {x, 3.5, kFar.radius}, view.points);
+  EXPECT_NEAR(depthOfFarStem(view), kFar.y, 0.01);
+}
+
+TEST(ThinBodies, aFarStemStaysWhereItIsTouchedIfNoneNearbyTellsHowThick)
+{
+  EXPECT_NEAR(depthOfFarStem(viewOfTwoPoints()), kFar.y - M_PI / 4 * kFar.radius, 1e-3);
+}
+
+TEST(ThinBodies, twoPointsOnTheGroundStay)
+{
+  View view;
+  view.viewpoint = Eigen::Vector3d(0.5, 0.5, 2);
+  for (const double x : {-5.5, -3.5, -1.5, 2.5, 4.5, 6.5}) look(*view.viewpoint, {x, 3.5, kFar.radius}, view.points);
+  view.points.emplace_back(0.3F, 30.5F, 0.1F);
+  view.points.emplace_back(0.7F, 30.5F, 0.1F);
+  EXPECT_NEAR(depthOfFarStem(view), 30.5, 1e-4);
 }
 
 TEST(ThinBodies, withoutAViewpointAStemStandsWhereItIsTouched)
