@@ -32,7 +32,9 @@ constexpr double kOriginSigma = 1e-3;              // m and rad: position and ya
 
 bool isAtRest(const SlowMotion& m, const StandstillOptions& o)
 {
-  return m.accel <= o.max_slow_accel && m.gyro <= o.max_slow_gyro_deg * kDegree &&
+  constexpr double kAliased = 0.04;  // share of an engine's vibration that may look slow
+  return m.accel <= o.max_slow_accel + kAliased * m.accel_all &&
+         m.gyro <= o.max_slow_gyro_deg * kDegree + kAliased * m.gyro_all &&
          m.mean_gyro.norm() <= o.max_mean_gyro_deg * kDegree &&
          std::abs(m.mean_accel.norm() - kGravity) <= o.max_gravity_error;
 }

@@ -50,6 +50,14 @@ class Spectrum
 
   const Eigen::Vector3d& mean() const { return mean_; }
 
+  /** Root mean square over all frequencies. */
+  double deviation() const
+  {
+    double sum = 0;
+    for (std::size_t i = 0; i < window_.size(); ++i) sum += window_[i].weight * deviations_[i].squaredNorm();
+    return std::sqrt(sum);
+  }
+
   /** The variance that the mean has if every frequency is as strong as this one, in Hz. Sum of the axes. */
   double power(double frequency) const
   {
@@ -103,7 +111,7 @@ SlowMotion slowMotion(const std::vector<ImuSample>& samples)
   const std::vector<Weighted> window = hannWindow(samples);
   const Spectrum gyro(samples, window, &ImuSample::gyro), accel(samples, window, &ImuSample::accel);
   const SlowPart of_gyro = slowPart(gyro, length, highest), of_accel = slowPart(accel, length, highest);
-  return {gyro.mean(),        accel.mean(),          of_gyro.deviation,
-          of_accel.deviation, of_gyro.sigma_of_mean, of_accel.sigma_of_mean};
+  return {gyro.mean(),           accel.mean(),           of_gyro.deviation, of_accel.deviation,
+          of_gyro.sigma_of_mean, of_accel.sigma_of_mean, gyro.deviation(),  accel.deviation()};
 }
 }  // namespace scanloom
