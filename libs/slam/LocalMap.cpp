@@ -1,7 +1,17 @@
 #include "slam/LocalMap.h"
 
+#include "core/Matrix6.h"
+#include "graph/PosePriorFactor.h"
+
 namespace scanloom
 {
+namespace
+{
+// Alignments of successive keyframes err alike: the variance of their sum is this much more than the sum of variances,
+// by the NEES of simulated drives (doc/study/localisation.md).
+constexpr double kShared = 1;
+}  // namespace
+
 LocalMap::LocalMap(const LocalMapOptions& options, const NdtOptions& ndt) : options_(options), ndt_(ndt) {}
 
 bool LocalMap::wants(const Rigid& map_T_body) const
@@ -18,11 +28,19 @@ void LocalMap::clear()
   ndt_ = NdtMap(ndt_.options());
 }
 
-void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_body)
+Matrix6d LocalMap::drift(const Rigid& map_T_body) const
 {
+  if (empty()) return Matrix6d::Zero();
+  const Keyframe& newest = keyframes_.back();
+  return congruent(newest.drift, bodyStepByImuStep(newest.map_T_body.inverse() * map_T_body).transpose());
+}
+
+void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment)
+{
+  const Matrix6d handed_on = empty() ? Matrix6d(Matrix6d::Zero()) : Matrix6d(drift(map_T_body) + kShared * alignment);
   std::vector<View> in_map;
   for (const View& view : seen_from_body) in_map.push_back(movedBy(map_T_body, view));
-  keyframes_.push_back({map_T_body, NdtMap(in_map, ndt_.options())});
+  keyframes_.push_back({map_T_body, NdtMap(in_map, ndt_.options()), handed_on});
   for (std::size_t i = 0; i < keyframes_.size(); ++i)
   {
     Keyframe& keyframe = keyframes_[i];

@@ -42,8 +42,17 @@ class LocalMap
 
   void clear();
 
-  /** Adds a keyframe and removes those that no longer belong to the map. */
-  void add(const std::vector<View>& seen_from_body, const Rigid& map_T_body);
+  /**
+   * Adds a keyframe and removes those that no longer belong to the map. `alignment`: covariance of the pose within the
+   * map, tangent of boxPlus.
+   */
+  void add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment);
+
+  /**
+   * Covariance of a body's pose in the map that comes from the map: each keyframe was aligned to those before, and
+   * hands its error on. Of the pose relative to the first keyframe, in the tangent of boxPlus at `map_T_body`.
+   */
+  Matrix6d drift(const Rigid& map_T_body) const;
 
   bool empty() const { return keyframes_.empty(); }
   const NdtMap& ndt() const { return ndt_; }
@@ -52,7 +61,8 @@ class LocalMap
   struct Keyframe
   {
     Rigid map_T_body;
-    NdtMap ndt;  // of this keyframe alone, in the map frame
+    NdtMap ndt;      // of this keyframe alone, in the map frame
+    Matrix6d drift;  // of its pose, see drift()
     bool in_map = false;
   };
 

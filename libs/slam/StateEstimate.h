@@ -28,6 +28,8 @@ struct StateEstimate
    * of the anchor itself are not included. For the first scan, and with relative = false, it is of map_T_body.
    */
   Matrix6d covariance = Matrix6d::Zero();
+  /** What the pose since the first one has more: errors that keyframes hand on, and the tilt of the map. */
+  Matrix6d drift = Matrix6d::Zero();
   Vector6d correction = Vector6d::Zero();  // boxMinus(map_T_body, the IMU's prediction from the previous estimate)
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the IMU, in the map frame
   Health health = Health::Ok;

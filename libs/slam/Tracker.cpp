@@ -80,7 +80,20 @@ TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSa
   estimate.correction = boxMinus(estimate.map_T_body, predicted.map_T_body);
   state.motion_since_last = estimate.recovered ? Trajectory{} : estimate.since_last;
   updateMap(seen, contradicted, state, estimate, times);
+  estimate.drift = driftOf(state, estimate);
   return {std::move(state), std::move(estimate), std::move(seen.cropped)};
+}
+
+/** Of the local map, and of its tilt, which is known as well as the accelerometer's bias. */
+Matrix6d Tracker::driftOf(const TrackerState& state, const StateEstimate& estimate) const
+{
+  Matrix6d drift = state.local_map.drift(state.map_T_local().inverse() * estimate.map_T_body);
+  const FixedLagSmoother& smoother = state.smoother;
+  const Eigen::Matrix3d body_R_imu = smoother.body_T_imu().rotation.toRotationMatrix();
+  const Eigen::Vector3d up = estimate.map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Matrix3d to_tilt = (Eigen::Matrix3d::Identity() - up * up.transpose()) * body_R_imu;
+  drift.bottomRightCorner<3, 3>() += to_tilt * smoother.newestCovariance().block<3, 3>(3, 3) * to_tilt.transpose();
+  return drift;
 }
 
 /** The newest state becomes the one at the end of the samples, as the IMU predicts it. */
@@ -336,14 +349,19 @@ void Tracker::addKeyframe(Seen& seen, TrackerState& state, StateEstimate& estima
   const Rigid map_T_local = state.map_T_local();
   const Rigid estimated = map_T_local.inverse() * estimate.map_T_body;
   Rigid local_T_body = estimated;
+  Matrix6d alignment = state.smoother.newestBodyCovariance();
   if (!state.local_map.empty())
   {
     const NdtMap source(seen.views, settings_.keyframe_cells);
     const PoseGuess guess(estimated, state.smoother.newestBodyCovariance());
     const RegistrationResult fine = align(state.local_map.ndt(), source, guess, settings_.registration.fine);
-    if (fine.trustworthy()) local_T_body = fine.target_T_source;
+    if (fine.trustworthy())
+    {
+      local_T_body = fine.target_T_source;
+      alignment = fine.covariance;
+    }
   }
-  state.local_map.add(seen.views, local_T_body);
+  state.local_map.add(seen.views, local_T_body, alignment);
   estimate.keyframe = Keyframe{estimate.stamp, map_T_local * local_T_body, std::move(seen.cloud)};
   if (!state.smoother.hasAnchor()) anchorAt(estimated, state);
 }

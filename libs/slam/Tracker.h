@@ -82,6 +82,7 @@ class Tracker
   bool isBeyondReach(const TrackerState&, const StateEstimate&) const;
   void comeToRest(const NavState& before, TrackerState&, StateEstimate&) const;
   void anchorAt(const Rigid& local_T_body, TrackerState&) const;
+  Matrix6d driftOf(const TrackerState&, const StateEstimate&) const;
   bool isLostForGood(const TrackerState&, const StateEstimate&) const;
   void updateMap(Seen&, bool contradicted, TrackerState&, StateEstimate&, StageTimes&) const;
   void addKeyframe(Seen&, TrackerState&, StateEstimate&) const;

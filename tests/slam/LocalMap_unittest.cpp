@@ -29,7 +29,7 @@ TEST(LocalMap, wantsAKeyframeFirstAndThenAfterTravelOrTurn)
 {
   LocalMap map({}, {});
   EXPECT_TRUE(map.wants(at(0)));
-  map.add(cube(), at(0));
+  map.add(cube(), at(0), Matrix6d::Zero());
   EXPECT_FALSE(map.wants(at(3.9)));
   EXPECT_TRUE(map.wants(at(4.0)));
   EXPECT_FALSE(map.wants(at(0, 19)));
@@ -41,7 +41,7 @@ TEST(LocalMap, keepsTheLastKeyframes)
   LocalMapOptions options;
   options.keyframes = 3;
   LocalMap map(options, {});
-  for (int i = 0; i < 5; ++i) map.add(cube(), at(10 * i));
+  for (int i = 0; i < 5; ++i) map.add(cube(), at(10 * i), Matrix6d::Zero());
   EXPECT_EQ(map.ndt().points(), 3u * 27u);
   EXPECT_EQ(cellAt(map.ndt(), {10, 0, 0}), nullptr);
   ASSERT_NE(cellAt(map.ndt(), {40, 0, 0}), nullptr);
@@ -53,10 +53,10 @@ TEST(LocalMap, keepsAllWithinTheRadiusAndTakesUpThoseOfAnEarlierPass)
   LocalMapOptions options;
   options.radius = 15;
   LocalMap map(options, {});
-  for (const double x : {0, 10, 20, 30}) map.add(cube(), at(x));
+  for (const double x : {0, 10, 20, 30}) map.add(cube(), at(x), Matrix6d::Zero());
   EXPECT_EQ(cellAt(map.ndt(), {0, 0, 0}), nullptr);
   EXPECT_EQ(map.ndt().points(), 2u * 27u);
-  map.add(cube(), at(5));
+  map.add(cube(), at(5), Matrix6d::Zero());
   EXPECT_EQ(map.ndt().points(), 4u * 27u) << "0, 5, 10 and 20";
   ASSERT_NE(cellAt(map.ndt(), {0, 0, 0}), nullptr);
 }
@@ -64,8 +64,23 @@ TEST(LocalMap, keepsAllWithinTheRadiusAndTakesUpThoseOfAnEarlierPass)
 TEST(LocalMap, keyframesThatOverlapShareCells)
 {
   LocalMap map({}, {});
-  map.add(cube(), at(0));
-  map.add(cube(), at(0));
+  map.add(cube(), at(0), Matrix6d::Zero());
+  map.add(cube(), at(0), Matrix6d::Zero());
   EXPECT_EQ(map.ndt().cells().size(), 1u);
   EXPECT_EQ(map.ndt().cells().front().points, 54u);
+}
+
+TEST(LocalMap, errorsOfAlignmentAreHandedOnAndAHeadingSwingsWhatLiesAhead)
+{
+  LocalMap map({}, {});
+  Matrix6d alignment = Matrix6d::Zero();
+  alignment.diagonal() << 1e-4, 4e-4, 0, 0, 0, 1e-6;  // m2, rad2
+  map.add(cube(), at(0), alignment);
+  EXPECT_EQ(map.drift(at(0)).norm(), 0) << "the first keyframe is where the map begins";
+  for (int i = 1; i <= 3; ++i) map.add(cube(), at(4 * i), alignment);
+
+  const Matrix6d drift = map.drift(at(14));
+  EXPECT_NEAR(drift(0, 0), 3e-4, 1e-9);
+  EXPECT_NEAR(drift(1, 1), 3 * 4e-4 + (10 * 10 + 6 * 6 + 2 * 2) * 1e-6, 1e-9) << "keyframes at 4, 8 and 12 m";
+  EXPECT_NEAR(drift(5, 5), 3e-6, 1e-12);
 }
