@@ -62,13 +62,15 @@ class LocalMap
   {
     Rigid map_T_body;
     NdtMap ndt;      // of this keyframe alone, in the map frame
-    Matrix6d drift;  // of its pose, see drift()
+    Matrix6d drift;  // of its pose, without that of the way's length
     bool in_map = false;
   };
 
+  Matrix6d handedOn(const Rigid& map_T_body) const;
   bool belongs(const Keyframe&, std::size_t age) const;
 
   LocalMapOptions options_;
+  Eigen::Vector3d begin_ = Eigen::Vector3d::Zero();  // where the first keyframe was
   std::deque<Keyframe> keyframes_;
   NdtMap ndt_;
 };
