@@ -184,19 +184,15 @@ void CGenericPointsMap::setPointAllFieldsFast(std::size_t index, const std::vect
               });
 }
 
-void CGenericPointsMap::impl_copyFrom(const CPointsMap& other)
+void CGenericPointsMap::copyFieldsFrom(const CPointsMap& other)
 {
-  if (this == &other) return;
   const auto* generic = dynamic_cast<const CGenericPointsMap*>(&other);
-  if (generic)
-  {
-    float_fields_ = generic->float_fields_;
-    double_fields_ = generic->double_fields_;
-    uint16_fields_ = generic->uint16_fields_;
-    uint8_fields_ = generic->uint8_fields_;
-    uint32_fields_ = generic->uint32_fields_;
-  }
-  base_copyFrom(other);
+  if (!generic) return;
+  float_fields_ = generic->float_fields_;
+  double_fields_ = generic->double_fields_;
+  uint16_fields_ = generic->uint16_fields_;
+  uint8_fields_ = generic->uint8_fields_;
+  uint32_fields_ = generic->uint32_fields_;
 }
 
 void CGenericPointsMap::addFrom_classSpecific(const CPointsMap& other, std::size_t previous_points,

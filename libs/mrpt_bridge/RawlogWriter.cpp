@@ -3,6 +3,7 @@
 #include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/GzipArchive.h"
 #include "mrpt_bridge/Observations.h"
+#include "mrpt_bridge/readByAll.h"
 
 #include <utility>
 
@@ -22,7 +23,10 @@ RawlogWriter::~RawlogWriter() = default;
 void RawlogWriter::write(const mrpt::obs::CObservation& observation)
 {
   writeHeaderOnce(fromMrpt(observation.timestamp));
-  *archive_ << observation;
+  if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&observation))
+    *archive_ << CommentReadByAll(*comment);
+  else
+    *archive_ << observation;
   unsecured_ = true;
   secure();
 }

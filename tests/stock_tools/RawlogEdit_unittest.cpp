@@ -46,7 +46,7 @@ TEST(RawlogEdit, countsEveryObservationOfOurRawlogs)
 
   EXPECT_EQ(occurrences(info, "lidar"), 25) << info;
   EXPECT_EQ(occurrences(info, "imu"), 50) << info;
-  EXPECT_EQ(occurrences(info, ""), 1) << "the header: before 2.15 MRPT drops the label of a comment\n" << info;
+  EXPECT_EQ(occurrences(info, ""), 1) << "the header, whose label is not stored\n" << info;
 }
 
 TEST(RawlogEdit, writesOurCloudsAsWholeAsItReadThem)

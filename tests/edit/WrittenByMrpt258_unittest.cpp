@@ -1,0 +1,118 @@
+/**
+ * Files of one MRPT under all others. written_by_mrpt_2.5.8.* are what these tests write, written under MRPT 2.5.8
+ * (Debian 12). What is written under a newer MRPT must be the same bytes, so that MRPT 2.5.8 reads it, too.
+ */
+#include "edit/CloudObservation.h"
+#include "edit/smallRawlog.h"
+#include "maps/SimpleMapFile.h"
+#include "maps/SimpleMapReader.h"
+#include "mrpt_bridge/RawlogReader.h"
+
+#include <gtest/gtest.h>
+
+namespace scanloom
+{
+namespace
+{
+const std::filesystem::path kWrittenByMrpt258 = SCANLOOM_SOURCE_DIR "/tests/edit/written_by_mrpt_2.5.8";
+
+std::filesystem::path older(const std::string& extension)
+{
+  std::filesystem::path path = kWrittenByMrpt258;
+  return path += extension;
+}
+
+std::vector<MountedLidar> lidarsOfHeader()
+{
+  std::vector<MountedLidar> lidars;
+  for (const RecordedLidar& lidar : someHeader().lidars) lidars.push_back({lidar.name, lidar.body_T_sensor});
+  return lidars;
+}
+
+Keyframe someKeyframe()
+{
+  return {kSmallStart, Rigid::fromXyzYawPitchRoll(7, 8, 9, 0.5, 0.25, -0.125), someScan(kSmallStart).points};
+}
+
+std::filesystem::path writeSimpleMap(const std::filesystem::path& path)
+{
+  SimpleMapBuilder builder(lidarsOfHeader());
+  builder.add(someKeyframe());
+  builder.write(path);
+  return path;
+}
+
+TEST(WrittenByMrpt258, aRawlogIsReadWithEveryField)
+{
+  RawlogReader reader(older(".rawlog"));
+  std::size_t scans = 0, samples = 0;
+  while (const auto event = reader.next())
+  {
+    const auto* recorded = std::get_if<RecordedScan>(&*event);
+    if (!recorded && ++samples > 0) continue;
+    const Scan& read = recorded->scan;
+    const Scan written = someScan(kSmallStart + 100ms * static_cast<int>(scans++));
+    EXPECT_EQ(read.start, written.start);
+    if (scans == 4) continue;  // empty
+    EXPECT_EQ(read.points.x, written.points.x);
+    EXPECT_EQ(read.points.y, written.points.y);
+    EXPECT_EQ(read.points.z, written.points.z);
+    EXPECT_EQ(read.points.intensity, written.points.intensity);
+    EXPECT_EQ(read.points.ring, written.points.ring);
+    EXPECT_EQ(read.points.column, written.points.column);
+    EXPECT_EQ(read.points.sensor_id, written.points.sensor_id);
+    for (std::size_t i = 0; i < written.points.size(); ++i)
+      EXPECT_NEAR(read.points.t[i], written.points.t[i], 4) << "ns, kept as float";
+  }
+  EXPECT_EQ(reader.damage(), "");
+  EXPECT_EQ(scans, 4U);
+  EXPECT_EQ(samples, 12U);
+  ASSERT_TRUE(reader.header());
+  EXPECT_EQ(toJson(*reader.header()), toJson(someHeader()));
+}
+
+TEST(WrittenByMrpt258, theSameRawlogIsWrittenByThisMrpt)
+{
+  const TemporaryFolder folder;
+  EXPECT_TRUE(uncompressed(writeSmallRawlog(folder / "now.rawlog")) == uncompressed(older(".rawlog")));
+}
+
+TEST(WrittenByMrpt258, aRawlogPassesThroughEditUnchanged)
+{
+  const TemporaryFolder folder;
+  edited(older(".rawlog"), [](const ObservationPtr& o) { return o ? Observations{o} : Observations{}; },
+         folder / "edited.rawlog");
+  EXPECT_TRUE(uncompressed(folder / "edited.rawlog") == uncompressed(older(".rawlog")));
+}
+
+TEST(WrittenByMrpt258, aSimpleMapIsReadWithLidarsAndIntensities)
+{
+  const SimpleMapReader reader(older(".simplemap"));
+  ASSERT_EQ(reader.size(), 1U);
+  ASSERT_EQ(reader.lidars().size(), 2U);
+  EXPECT_EQ(reader.lidars()[1].name, "right");
+
+  // By lidar, one after the other.
+  const Keyframe read = reader.keyframe(0), written = someKeyframe();
+  ASSERT_EQ(read.points.size(), written.points.size());
+  EXPECT_EQ(read.stamp, written.stamp);
+  EXPECT_LT(boxMinus(read.map_T_body, written.map_T_body).norm(), 1e-9);
+  std::size_t next = 0;
+  for (std::uint8_t lidar = 0; lidar < 2; ++lidar)
+    for (std::size_t i = 0; i < written.points.size(); ++i)
+    {
+      if (written.points.sensor_id[i] != lidar) continue;
+      EXPECT_EQ(read.points.sensor_id[next], lidar);
+      EXPECT_EQ(read.points.intensity[next], written.points.intensity[i]);
+      EXPECT_LT((read.points.position(next) - written.points.position(i)).norm(), 1e-5F);
+      ++next;
+    }
+}
+
+TEST(WrittenByMrpt258, theSameSimpleMapIsWrittenByThisMrpt)
+{
+  const TemporaryFolder folder;
+  EXPECT_TRUE(uncompressed(writeSimpleMap(folder / "now.simplemap")) == uncompressed(older(".simplemap")));
+}
+}  // namespace
+}  // namespace scanloom
