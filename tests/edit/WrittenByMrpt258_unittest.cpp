@@ -2,13 +2,16 @@
  * Files of one MRPT under all others. written_by_mrpt_2.5.8.* are what these tests write, written under MRPT 2.5.8
  * (Debian 12). What is written under a newer MRPT must be the same bytes, so that MRPT 2.5.8 reads it, too.
  */
-#include "edit/CloudObservation.h"
 #include "edit/smallRawlog.h"
+#include "maps/SceneFile.h"
 #include "maps/SimpleMapFile.h"
 #include "maps/SimpleMapReader.h"
 #include "mrpt_bridge/RawlogReader.h"
+#include "mrpt_bridge/RecordingHeaderJson.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfLines.h>
 
 namespace scanloom
 {
@@ -32,6 +35,14 @@ std::vector<MountedLidar> lidarsOfHeader()
 Keyframe someKeyframe()
 {
   return {kSmallStart, Rigid::fromXyzYawPitchRoll(7, 8, 9, 0.5, 0.25, -0.125), someScan(kSmallStart).points};
+}
+
+mrpt::opengl::COpenGLScene::Ptr someScene()
+{
+  SceneBuilder scene;
+  scene.addKeyframe(someKeyframe());
+  scene.addPath(straightOn());
+  return scene.finished();
 }
 
 std::filesystem::path writeSimpleMap(const std::filesystem::path& path)
@@ -113,6 +124,18 @@ TEST(WrittenByMrpt258, theSameSimpleMapIsWrittenByThisMrpt)
 {
   const TemporaryFolder folder;
   EXPECT_TRUE(uncompressed(writeSimpleMap(folder / "now.simplemap")) == uncompressed(older(".simplemap")));
+}
+
+TEST(WrittenByMrpt258, aSceneIsReadWithItsPointsAndItsPath)
+{
+  const auto read = mrpt::opengl::COpenGLScene::Create();
+  ASSERT_TRUE(read->loadFromFile(older(".3Dscene").string()));
+  const auto points = read->getByClass<mrpt::opengl::CPointCloudColoured>();
+  const auto written = someScene()->getByClass<mrpt::opengl::CPointCloudColoured>();
+  ASSERT_TRUE(points);
+  ASSERT_EQ(points->size(), written->size());
+  for (std::size_t i = 0; i < points->size(); ++i) EXPECT_EQ(points->getPoint3Df(i), written->getPoint3Df(i));
+  EXPECT_EQ(read->getByClass<mrpt::opengl::CSetOfLines>()->size(), 1U);
 }
 }  // namespace
 }  // namespace scanloom
