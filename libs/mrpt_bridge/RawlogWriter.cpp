@@ -23,10 +23,7 @@ RawlogWriter::~RawlogWriter() = default;
 void RawlogWriter::write(const mrpt::obs::CObservation& observation)
 {
   writeHeaderOnce(fromMrpt(observation.timestamp));
-  if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&observation))
-    *archive_ << CommentReadByAll(*comment);
-  else
-    *archive_ << observation;
+  writeForAll(observation, *archive_);
   unsecured_ = true;
   secure();
 }

@@ -21,6 +21,14 @@ class CommentReadByAll : public mrpt::obs::CObservationComment
   void serializeTo(mrpt::serialization::CArchive& out) const override { out << text << timestamp; }
 };
 
+inline void writeForAll(const mrpt::obs::CObservation& observation, mrpt::serialization::CArchive& out)
+{
+  if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&observation))
+    out << CommentReadByAll(*comment);
+  else
+    out << observation;
+}
+
 /** Since 2.11.11 MRPT writes version 2, which adds the velocities of keyframes. */
 class SimpleMapReadByAll : public mrpt::maps::CSimpleMap
 {

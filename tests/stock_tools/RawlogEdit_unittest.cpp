@@ -62,8 +62,8 @@ TEST(RawlogEdit, writesOurCloudsAsWholeAsItReadThem)
   EXPECT_EQ(info.damage, "");
   EXPECT_TRUE(info.header) << "still the first object";
   ASSERT_EQ(info.sensors.size(), kStockFiltersRemove ? 1u : 2u) << "scans, and the IMU that it does not remove";
-  EXPECT_EQ(info.sensors[0].count, 25u);
-  EXPECT_EQ(info.sensors[0].points, 25'000u);
-  EXPECT_EQ(info.sensors[0].cloud_class, "mrpt::maps::CGenericPointsMap");
+  EXPECT_EQ(info.sensors.back().count, 25u);
+  EXPECT_EQ(info.sensors.back().points, 25'000u);
+  EXPECT_EQ(info.sensors.back().cloud_class, "mrpt::maps::CGenericPointsMap");
 }
 }  // namespace scanloom
