@@ -75,6 +75,17 @@ void readField(CArchive& in, std::uint8_t version, mrpt::aligned_std_vector<T>& 
   if (version < 3) readOldPreamble<T>(in);
   readValues(in, in.ReadAs<std::uint32_t>(), values);
 }
+
+/** Version 1, which MRPT 2.15 writes, lacks disableDeletion. Older MRPTs themselves read version 0 alone. */
+void readOptions(CArchive& in, CPointsMap::TInsertionOptions& o)
+{
+  const auto version = in.ReadAs<std::uint8_t>();
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  in >> o.minDistBetweenLaserPoints >> o.addToExistingPointsMap >> o.also_interpolate;
+  if (version == 0) in >> o.disableDeletion;
+  in >> o.fuseWithExisting >> o.isPlanarMap >> o.horizontalTolerance >> o.maxDistForInterpolatePoints >>
+      o.insertInvalidPoints;
+}
 }  // namespace
 
 std::uint8_t CGenericPointsMap::serializeGetVersion() const { return uint32_fields_.empty() ? 3 : 4; }
@@ -122,7 +133,7 @@ void CGenericPointsMap::serializeFrom(CArchive& in, std::uint8_t version)
                   ASSERT_EQUAL_(fields[name].size(), m_x.size());
                 }
               });
-  insertionOptions.readFromStream(in);
+  readOptions(in, insertionOptions);
   likelihoodOptions.readFromStream(in);
 }
 
