@@ -5,6 +5,7 @@
 #include "core/ConfigError.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>

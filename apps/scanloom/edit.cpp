@@ -14,6 +14,7 @@
 #include "rig/RigOptions.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <iostream>

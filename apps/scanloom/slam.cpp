@@ -17,6 +17,7 @@
 #include "simulation/SimulatedRig.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <iostream>

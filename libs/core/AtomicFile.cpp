@@ -3,6 +3,7 @@
 #include "core/ConfigError.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cerrno>

@@ -1,6 +1,7 @@
 #include "core/ConfigError.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace scanloom
 {

@@ -3,6 +3,7 @@
 #include "core/AtomicFile.h"
 #include "mrpt_bridge/GzipArchive.h"
 #include "mrpt_bridge/ObservationReader.h"
+#include "mrpt_bridge/readByAll.h"
 
 #include <mrpt/obs/CObservation.h>
 
@@ -97,7 +98,8 @@ RawlogEdited editRawlog(const std::filesystem::path& input, const RawlogOperatio
   AtomicFile file(output);
   auto archive = GzipArchive::writing(file.temporary(), kCompressionLevel);
   RawlogEdited edited = stream(
-      input, operation, [&](const mrpt::obs::CObservation& observation) { archive << observation; }, keep_reading);
+      input, operation, [&](const mrpt::obs::CObservation& observation) { writeForAll(observation, archive); },
+      keep_reading);
   archive.close();
   edited.output = file.commit(edited.stopped ? Completeness::Partial : Completeness::Whole);
   return edited;

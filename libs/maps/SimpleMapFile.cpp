@@ -2,13 +2,14 @@
 
 #include "core/AtomicFile.h"
 #include "mrpt_bridge/Conversions.h"
+#include "mrpt_bridge/readByAll.h"
 
 #include <fmt/format.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
-#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace scanloom
@@ -19,19 +20,21 @@ namespace
 mrpt::maps::CPointsMapXYZI::Ptr cloudOf(const PointCloud& points, std::size_t lidar, const Rigid& sensor_T_body)
 {
   auto cloud = mrpt::maps::CPointsMapXYZI::Create();
+  cloud->resize(static_cast<std::size_t>(std::count(points.sensor_id.begin(), points.sensor_id.end(), lidar)));
+  std::size_t next = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     if (points.sensor_id[i] != lidar) continue;
     const Eigen::Vector3f p = (sensor_T_body * points.position(i).cast<double>().eval()).cast<float>();
-    cloud->insertPointFast(p.x(), p.y(), p.z());
-    cloud->setPointIntensity(cloud->size() - 1, static_cast<float>(points.intensity[i]) / kFullIntensity);
+    cloud->setPointFast(next, p.x(), p.y(), p.z());
+    cloud->setPointIntensity(next++, static_cast<float>(points.intensity[i]) / kFullIntensity);
   }
   return cloud;
 }
 }  // namespace
 
 SimpleMapBuilder::SimpleMapBuilder(std::vector<MountedLidar> lidars)
-  : lidars_(std::move(lidars)), map_(std::make_unique<mrpt::maps::CSimpleMap>())
+  : lidars_(std::move(lidars)), map_(std::make_unique<SimpleMapReadByAll>())
 {
 }
 

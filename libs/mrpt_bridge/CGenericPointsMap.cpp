@@ -75,6 +75,17 @@ void readField(CArchive& in, std::uint8_t version, mrpt::aligned_std_vector<T>& 
   if (version < 3) readOldPreamble<T>(in);
   readValues(in, in.ReadAs<std::uint32_t>(), values);
 }
+
+/** Version 1, which MRPT 2.15 writes, lacks disableDeletion. Older MRPTs themselves read version 0 alone. */
+void readOptions(CArchive& in, CPointsMap::TInsertionOptions& o)
+{
+  const auto version = in.ReadAs<std::uint8_t>();
+  if (version > 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  in >> o.minDistBetweenLaserPoints >> o.addToExistingPointsMap >> o.also_interpolate;
+  if (version == 0) in >> o.disableDeletion;
+  in >> o.fuseWithExisting >> o.isPlanarMap >> o.horizontalTolerance >> o.maxDistForInterpolatePoints >>
+      o.insertInvalidPoints;
+}
 }  // namespace
 
 std::uint8_t CGenericPointsMap::serializeGetVersion() const { return uint32_fields_.empty() ? 3 : 4; }
@@ -122,7 +133,7 @@ void CGenericPointsMap::serializeFrom(CArchive& in, std::uint8_t version)
                   ASSERT_EQUAL_(fields[name].size(), m_x.size());
                 }
               });
-  insertionOptions.readFromStream(in);
+  readOptions(in, insertionOptions);
   likelihoodOptions.readFromStream(in);
 }
 
@@ -184,19 +195,15 @@ void CGenericPointsMap::setPointAllFieldsFast(std::size_t index, const std::vect
               });
 }
 
-void CGenericPointsMap::impl_copyFrom(const CPointsMap& other)
+void CGenericPointsMap::copyFieldsFrom(const CPointsMap& other)
 {
-  if (this == &other) return;
   const auto* generic = dynamic_cast<const CGenericPointsMap*>(&other);
-  if (generic)
-  {
-    float_fields_ = generic->float_fields_;
-    double_fields_ = generic->double_fields_;
-    uint16_fields_ = generic->uint16_fields_;
-    uint8_fields_ = generic->uint8_fields_;
-    uint32_fields_ = generic->uint32_fields_;
-  }
-  base_copyFrom(other);
+  if (!generic) return;
+  float_fields_ = generic->float_fields_;
+  double_fields_ = generic->double_fields_;
+  uint16_fields_ = generic->uint16_fields_;
+  uint8_fields_ = generic->uint8_fields_;
+  uint32_fields_ = generic->uint32_fields_;
 }
 
 void CGenericPointsMap::addFrom_classSpecific(const CPointsMap& other, std::size_t previous_points,

@@ -9,7 +9,8 @@
 #if __has_include(<mrpt/maps/CGenericPointsMap.h>)
 #include <mrpt/maps/CGenericPointsMap.h>
 #else
-#include <mrpt/maps/CPointsMap.h>
+#include "mrpt_bridge/CPointsMapWithFields.h"
+
 #include <mrpt/serialization/CSerializable.h>
 
 #include <cstdint>
@@ -20,7 +21,7 @@
 namespace mrpt::maps
 {
 /** Points with any number of fields of type float, double, uint16, uint8 or uint32, each as long as the map. */
-class CGenericPointsMap : public CPointsMap
+class CGenericPointsMap : public CPointsMapWithFields
 {
   DEFINE_SERIALIZABLE(CGenericPointsMap, mrpt::maps)
 
@@ -29,10 +30,10 @@ class CGenericPointsMap : public CPointsMap
   using Fields = std::map<std::string, mrpt::aligned_std_vector<T> >;
 
   CGenericPointsMap() = default;
-  CGenericPointsMap(const CGenericPointsMap& other) : CPointsMap() { impl_copyFrom(other); }
+  CGenericPointsMap(const CGenericPointsMap& other) : CPointsMapWithFields() { copyFrom(other); }
   CGenericPointsMap& operator=(const CGenericPointsMap& other)
   {
-    impl_copyFrom(other);
+    copyFrom(other);
     return *this;
   }
 
@@ -75,7 +76,7 @@ class CGenericPointsMap : public CPointsMap
                          const std::optional<const mrpt::poses::CPose3D>& = std::nullopt) override;
 
  protected:
-  void impl_copyFrom(const CPointsMap&) override;
+  void copyFieldsFrom(const CPointsMap&) override;
   void addFrom_classSpecific(const CPointsMap& other, std::size_t previous_points,
                              bool filter_out_points_at_zero) override;
   void internal_clear() override;

@@ -1,6 +1,7 @@
 #include "mrpt_bridge/CMultiLidarSensor.h"
 
 #include "core/Interruption.h"
+#include "mrpt_bridge/readByAll.h"
 #include "mrpt_bridge/rigSettingsFrom.h"
 #include "rig/Rig.h"
 
@@ -109,7 +110,7 @@ bool CMultiLidarSensor::isDecimated()
 /** As a comment, because rawlog-grabber never writes the last object that it was given. */
 void CMultiLidarSensor::announceEnd()
 {
-  auto comment = mrpt::obs::CObservationComment::Create();
+  auto comment = std::make_shared<CommentReadByAll>();
   comment->timestamp = latest_stamp_ + mrpt::Clock::duration(1);
   comment->text = "end of input";
   appendObservation(comment);

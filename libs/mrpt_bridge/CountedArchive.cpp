@@ -49,6 +49,8 @@ constexpr std::array kCountedClasses{
     CountedClass{"CPose3DPDFSOG", 56},
 };
 
+constexpr CountedClass kVelocity{"velocity", 1, 1, 1};  // of a keyframe, after its frame: names of two types
+
 constexpr std::size_t kLongestName = 120;  // as in MRPT
 
 constexpr std::uint64_t kSmall = 1 << 20;  // bytes: memory for so many is no harm, if they follow or not
@@ -143,7 +145,11 @@ void CountedArchive::followObjects(const char* bytes, std::size_t count)
   if (count != 1) return;
   const unsigned byte = static_cast<unsigned char>(bytes[0]);
   if (byte == kEndFlag && !within_.empty())
+  {
+    const bool is_frame = within_.back() == kFrame;
     within_.pop_back();
+    if (is_frame && has_velocities_ && !within_.empty() && within_.back() == kMap) beginVelocity();
+  }
   else if ((byte & kLengthBit) != 0)
     name_length_ = byte & ~kLengthBit;
 }
@@ -161,10 +167,17 @@ void CountedArchive::begin(const CountedClass& begun)
   next_ = Next::Version;
 }
 
+void CountedArchive::beginVelocity()
+{
+  begin(kVelocity);
+  next_ = Next::Count;
+}
+
 void CountedArchive::followVersion(char version)
 {
   // MRPT would take any object there as a 2D pose, without a check.
   if (class_->name == kMap && version == 0) refuse("is of 2D poses (version 0), or damaged");
+  if (class_->name == kMap) has_velocities_ = version >= 2;
   if (version < class_->least_version)
     refuse(fmt::format("holds a {} of version {}: {} or later can be read", class_->name, int{version},
                        int{class_->least_version}));

@@ -60,6 +60,7 @@ class CountedArchive : public mrpt::serialization::CArchive
   void follow(const char* bytes, std::size_t count);
   void followObjects(const char* bytes, std::size_t count);
   void begin(const CountedClass&);
+  void beginVelocity();
   void followVersion(char version);
   void followCount(std::uint32_t items);
   void followMovement(const char* bytes, std::size_t count);
@@ -79,6 +80,7 @@ class CountedArchive : public mrpt::serialization::CArchive
   std::vector<std::string> within_;     // names of the objects that are being read, the outermost first
   std::size_t name_length_ = 0;         // of a name that may come next
   std::vector<std::uint32_t> numbers_;  // of a CActionRobotMovement2D, so far
+  bool has_velocities_ = false;         // the CSimpleMap's keyframes end with one
   const CountedClass* part_ = nullptr;  // whose version comes, within class_
   std::string refused_;
 };

@@ -3,6 +3,7 @@
 #include "mrpt_bridge/CGenericPointsMap.h"
 #include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/RecordingHeaderJson.h"
+#include "mrpt_bridge/readByAll.h"
 
 #if __has_include(<mrpt/maps/CPointsMapXYZI.h>)
 #include <mrpt/maps/CPointsMapXYZI.h>
@@ -281,7 +282,7 @@ std::optional<RecordedImu> fromObservation(const mrpt::obs::CObservationIMU& obs
 
 mrpt::obs::CObservationComment::Ptr toObservation(const RecordingHeader& header, Timestamp stamp)
 {
-  auto comment = mrpt::obs::CObservationComment::Create();
+  auto comment = std::make_shared<CommentReadByAll>();
   comment->sensorLabel = kHeaderLabel;
   comment->timestamp = toMrpt(stamp);
   comment->text = toJson(header);

@@ -3,6 +3,7 @@
 #include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/GzipArchive.h"
 #include "mrpt_bridge/Observations.h"
+#include "mrpt_bridge/readByAll.h"
 
 #include <utility>
 
@@ -22,7 +23,7 @@ RawlogWriter::~RawlogWriter() = default;
 void RawlogWriter::write(const mrpt::obs::CObservation& observation)
 {
   writeHeaderOnce(fromMrpt(observation.timestamp));
-  *archive_ << observation;
+  writeForAll(observation, *archive_);
   unsecured_ = true;
   secure();
 }

@@ -1,6 +1,6 @@
 /**
  * The first object of each of our rawlogs: a CObservationComment whose text is the RecordingHeader as JSON. Its label
- * is `scanloom`, but MRPT before 2.15 does not store the label of a comment.
+ * is `scanloom`, but is not stored (CommentReadByAll).
  */
 #pragma once
 #include "rig/RecordingHeader.h"

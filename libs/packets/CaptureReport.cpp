@@ -1,6 +1,7 @@
 #include "packets/CaptureReport.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace scanloom

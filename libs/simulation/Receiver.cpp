@@ -12,9 +12,10 @@ namespace
 constexpr double kRangeStep = 1e-3;  // m, in packets
 
 /** A unit without a product line counts as an OS1, as in parseOusterMetadata. */
-RangingOptions ofDataSheet(RangingOptions ranging, const std::string& product_line)
+RangingOptions ofDataSheet(RangingOptions ranging, std::string product_line)
 {
-  const OusterFamily& family = ousterFamily(product_line.empty() ? "OS1" : product_line);
+  if (product_line.empty()) product_line = "OS1";
+  const OusterFamily& family = ousterFamily(product_line);
   if (ranging.range_at_ten_percent == 0) ranging.range_at_ten_percent = family.range_at_ten_percent;
   if (ranging.least_range == 0) ranging.least_range = family.least_range;
   return ranging;

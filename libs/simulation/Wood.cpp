@@ -1,6 +1,7 @@
 #include "simulation/Wood.h"
 
-#include <embree3/rtcore.h>
+#include "simulation/embree.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -167,9 +168,7 @@ std::optional<Wood::Candidate> Wood::nextCandidate(const Ray& ray, double neares
   query.ray.tfar = static_cast<float>(farthest);
   query.ray.mask = ~0U;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(scene_.get(), &context, &query);
+  intersect(scene_.get(), query);
 
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return Candidate{query.ray.tfar, query.hit.geomID, query.hit.primID};

@@ -3,6 +3,7 @@
 #include "study/StudyFigures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>

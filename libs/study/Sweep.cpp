@@ -7,6 +7,7 @@
 #include "study/DriveRecording.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sched.h>
 
 #include <algorithm>

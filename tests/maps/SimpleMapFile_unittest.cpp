@@ -37,8 +37,8 @@ TEST(SimpleMapBuilder, writesWhatMrptReadsBack)
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile((folder / "keyframes.simplemap").string()));
   ASSERT_EQ(map.size(), 1U);
-  const auto [pose, frame] = map.get(0);
-  EXPECT_LT(boxMinus(fromMrpt(pose->getMeanVal()), onePointOfEach().map_T_body).norm(), 1e-9);
+  EXPECT_LT(boxMinus(fromMrpt(map.begin()->pose->getMeanVal()), onePointOfEach().map_T_body).norm(), 1e-9);
+  const auto frame = map.begin()->sf;
   ASSERT_EQ(frame->size(), 2U);
 
   const auto right = frame->getObservationByIndexAs<mrpt::obs::CObservationPointCloud::Ptr>(1);

@@ -27,9 +27,9 @@ void addForeign(mrpt::maps::CSimpleMap& map, const mrpt::poses::CPose3D& robot, 
   observation->sensorLabel = "front";
   observation->sensorPose = sensor;
   observation->pointcloud = points;
-  mrpt::obs::CSensoryFrame frame;
-  frame.insert(observation);
-  map.insert(mrpt::poses::CPose3DPDFGaussian(robot), frame);
+  const auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(observation);
+  map.insert(mrpt::poses::CPose3DPDFGaussian::Create(robot), frame);
 }
 
 TEST(SimpleMapReader, readsWhatAnotherProgramWrote)
@@ -148,10 +148,10 @@ TEST(SimpleMapReader, leavesOutPointsThatAreNoNumbers)
   points->insertPointFast(4.0F, 5.0F, 6.0F);
   auto observation = mrpt::obs::CObservationPointCloud::Create();
   observation->pointcloud = points;
-  mrpt::obs::CSensoryFrame frame;
-  frame.insert(observation);
+  const auto frame = mrpt::obs::CSensoryFrame::Create();
+  frame->insert(observation);
   mrpt::maps::CSimpleMap map;
-  map.insert(mrpt::poses::CPose3DPDFGaussian(), frame);
+  map.insert(mrpt::poses::CPose3DPDFGaussian::Create(), frame);
   ASSERT_TRUE(map.saveToFile((folder / "nan.simplemap").string()));
 
   const Keyframe read = SimpleMapReader(folder / "nan.simplemap").keyframe(0);

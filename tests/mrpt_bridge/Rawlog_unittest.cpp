@@ -95,7 +95,8 @@ mrpt::obs::CObservationPointCloud labelledCloud(mrpt::maps::CPointsMap::Ptr poin
 {
   mrpt::obs::CObservationPointCloud cloud;
   cloud.sensorLabel = "label of the cloud";
-  points->insertPoint(1, 2, 3);
+  points->resize(1);
+  points->setPoint(0, 1, 2, 3);
   cloud.pointcloud = std::move(points);
   return cloud;
 }

@@ -3,6 +3,7 @@
 #include "support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/version.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -24,6 +25,9 @@ inline bool isInstalled(const std::string& program)
     if (access((folder + "/" + program).c_str(), X_OK) == 0) return true;
   return false;
 }
+
+/** Since 2.13.0 rawlog-edit filters a copy of each object and writes the original (CRawlogProcessor.h). */
+inline constexpr bool kStockFiltersRemove = MRPT_VERSION < 0x20d00;
 
 /** What the command printed, on both streams. */
 inline std::string outputOf(const std::string& command)
