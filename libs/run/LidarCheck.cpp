@@ -6,7 +6,8 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kFewest = 3, kMost = 8;    // keyframes; the error's deviation comes from leaving out one of them
+constexpr std::size_t kFewest = 2, kMost = 8;    // keyframes
+constexpr std::size_t kFewestForPose = 3;        // the error's deviation comes from leaving out one of them
 constexpr std::size_t kNeighbours = 2;           // keyframes to each side of one
 constexpr std::size_t kPointsOfLidar = 1 << 14;  // of a keyframe: memory is bounded
 
@@ -86,7 +87,8 @@ Findings LidarCheck::compare() const
     const std::vector<SeenPoints> own = seenBy(i), on_the_way = seenAround(i, false);
     findings.push_back(
         steadinessFinding(name, sharedView(pairsOf(own, on_the_way), Rigid::identity(), body_T_sensor), {}));
-    if (i > 0 && findings.front().verdict <= Verdict::Ok)  // else the first lidar is no measure of the others
+    const bool is_comparable = i > 0 && keyframes_.size() >= kFewestForPose;
+    if (is_comparable && findings.front().verdict <= Verdict::Ok)  // else the first lidar is no measure of the others
       findings.push_back(poseFinding(
           name, lidars_[0].name, cloudAgreement(pairsOf(own, by_first), body_T_sensor, lidars_[0].body_T_sensor), {}));
   }

@@ -20,7 +20,7 @@ class LidarCheck
 
   void add(const Keyframe&);
 
-  /** In the order of the lidars; none before there are three keyframes. */
+  /** In the order of the lidars; none before there are two keyframes, none of poses before there are three. */
   Findings compare() const;
 
  private:
