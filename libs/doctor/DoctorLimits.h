@@ -1,5 +1,6 @@
 /** Limits of `scanloom doctor`: `_warning` and `_not_fit` belong to the verdicts of that name. */
 #pragma once
+#include "calibration/GroundFinding.h"
 #include "core/Field.h"
 
 namespace scanloom
@@ -111,27 +112,4 @@ struct ImuLimits
   }
 };
 
-struct GeometryLimits
-{
-  double ground_tilt_warning_deg = 15;
-  double ground_tilt_not_fit_deg = 45;
-  double ground_angle_warning_deg = 3;
-  double ground_height_warning = 0.15;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.ground_tilt_warning_deg,
-          Field{"ground_tilt_warning_deg", "deg",
-                "angle of the ground plane's normal to the body's z; forest roads are less steep", above(0)});
-    visit(o.ground_tilt_not_fit_deg,
-          Field{"ground_tilt_not_fit_deg", "deg",
-                "angle of the ground plane's normal to the body's z; the pose has a wrong axis", above(0)});
-    visit(o.ground_angle_warning_deg,
-          Field{"ground_angle_warning_deg", "deg", "angle between two lidars' ground planes; roll or pitch is wrong",
-                above(0)});
-    visit(o.ground_height_warning,
-          Field{"ground_height_warning", "m", "height between two lidars' ground planes; z is wrong", above(0)});
-  }
-};
 }  // namespace scanloom

@@ -9,28 +9,12 @@ namespace scanloom
 {
 namespace
 {
-Finding groundFinding(const LidarExamination& seen, bool poses_known, const GeometryLimits& limits)
+Finding groundOfUnknownPose(const LidarExamination& seen)
 {
-  Finding finding{seen.name, "ground", Verdict::NotMeasured, "no plane among the points within 12 m"};
-  if (!seen.ground) return finding;
-  const GroundPlane& ground = *seen.ground;
-  const double tilt = degreesBetween(ground.up, Eigen::Vector3d::UnitZ());
-  finding.says = fmt::format("{:.0f} % of the points within 12 m are on a plane {:.2f} m from the sensor, its normal ",
-                             100 * ground.share, ground.sensor_height);
-  if (!poses_known)
-  {
-    finding.says += fmt::format("{:.1f} deg off +z of the sensor frame (poses are known only with -c CONFIG)", tilt);
-    return finding;
-  }
-  finding.says +=
-      fmt::format("{:.1f} deg off the body's z; the body's origin {:.2f} m above it", tilt, ground.body_height);
-  finding.verdict = grade(tilt, limits.ground_tilt_warning_deg, limits.ground_tilt_not_fit_deg);
-  if (finding.verdict == Verdict::NotFit)
-    finding.says += fmt::format(": up is along {} of the body", nearestAxis(ground.up));
-  if (finding.verdict != Verdict::Ok)
-    finding.mend = fmt::format("the lidar's pose is wrong by {}{}", turnUpwards(ground.up),
-                               finding.verdict == Verdict::Warning ? ", or it stood before a slope" : "");
-  return finding;
+  if (!seen.ground) return groundFinding(seen.name, seen.ground, {});
+  return {seen.name, "ground", Verdict::NotMeasured,
+          fmt::format("{}{:.1f} deg off +z of the sensor frame (poses are known only with -c CONFIG)",
+                      groundInWords(*seen.ground), degreesBetween(seen.ground->up, Eigen::Vector3d::UnitZ()))};
 }
 
 Finding ownPartsFinding(const LidarExamination& seen)
@@ -69,7 +53,7 @@ Findings groundFindings(const RigExamination& rig, std::size_t lidar, const Geom
     findings.push_back({seen.name, "returns", Verdict::Ok,
                         fmt::format("{:.1f} % of the shots; 5, 50, 95 % of the returns within {:.1f}, {:.1f}, {:.1f} m",
                                     100 * returns->share, returns->range_p05, returns->range_p50, returns->range_p95)});
-  findings.push_back(groundFinding(seen, rig.poses_known, limits));
+  findings.push_back(rig.poses_known ? groundFinding(seen.name, seen.ground, limits) : groundOfUnknownPose(seen));
   findings.push_back(ownPartsFinding(seen));
   if (lidar > 0 && rig.poses_known && seen.ground && first.ground)
     findings.push_back(groundsFinding(seen, first, limits));

@@ -1,6 +1,6 @@
 /** The parts of the machine that a lidar sees: points that stay in place in the body frame while the machine drives. */
 #pragma once
-#include "doctor/GroundPlane.h"
+#include "calibration/GroundPlane.h"
 #include "doctor/Snapshots.h"
 
 #include <Eigen/Geometry>

@@ -1,11 +1,11 @@
 /** All measures of `scanloom doctor`, taken on one rig. */
 #pragma once
+#include "calibration/GroundPlane.h"
 #include "calibration/PoseFinding.h"
 #include "doctor/ClockDrift.h"
 #include "doctor/ClockKind.h"
 #include "doctor/Delivery.h"
 #include "doctor/DoctorLimits.h"
-#include "doctor/GroundPlane.h"
 #include "doctor/ImuTiming.h"
 #include "doctor/OwnParts.h"
 #include "doctor/RigEvidence.h"

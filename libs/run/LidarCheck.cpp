@@ -1,5 +1,7 @@
 #include "run/LidarCheck.h"
 
+#include "calibration/GroundFinding.h"
+
 #include <algorithm>
 
 namespace scanloom
@@ -76,10 +78,25 @@ std::vector<SeenPoints> LidarCheck::seenAround(std::size_t lidar, bool with_itse
   return seen;
 }
 
+Findings LidarCheck::compareGrounds() const
+{
+  Findings upright;
+  bool one_is_level = false;
+  for (std::size_t i = 0; i < lidars_.size(); ++i)
+  {
+    std::vector<const PointCloud*> clouds;
+    for (const Seen& keyframe : keyframes_) clouds.push_back(&keyframe.points[i]);
+    Finding ground = groundFinding(lidars_[i].name, groundPlane(clouds, lidars_[i].body_T_sensor.translation), {});
+    one_is_level |= ground.verdict == Verdict::Ok;
+    if (ground.verdict == Verdict::NotFit) upright.push_back(std::move(ground));
+  }
+  return one_is_level ? upright : Findings{};
+}
+
 Findings LidarCheck::compare() const
 {
+  if (keyframes_.size() < kFewest) return compareGrounds();
   Findings findings;
-  if (keyframes_.size() < kFewest) return findings;
   const std::vector<SeenPoints> by_first = seenAround(0, true);
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {

@@ -11,6 +11,8 @@ namespace scanloom
 /**
  * Whether the lidars' poses in the body fit what they see, by the last eight keyframes: what each lidar sees must stay
  * in place while the machine drives, and be where the first lidar sees it at the same keyframe or its neighbours.
+ * Before the machine has driven, a lidar is named only if its ground is upright, while another's is level: lidars that
+ * contradict each other so much keep a run from making keyframes.
  */
 class LidarCheck
 {
@@ -20,7 +22,7 @@ class LidarCheck
 
   void add(const Keyframe&);
 
-  /** In the order of the lidars; none before there are two keyframes, none of poses before there are three. */
+  /** In the order of the lidars; of grounds before there are two keyframes, of poses once there are three. */
   Findings compare() const;
 
  private:
@@ -29,6 +31,8 @@ class LidarCheck
     Rigid map_T_body;
     std::vector<PointCloud> points;  // by sensor id, in the body frame
   };
+
+  Findings compareGrounds() const;
 
   /** By keyframe, in its body frame. */
   std::vector<SeenPoints> seenBy(std::size_t lidar) const;

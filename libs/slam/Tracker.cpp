@@ -73,7 +73,7 @@ TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSa
   smooth(before, samples, predicted, state, estimate, times);
   compareWithRegistration(estimate, state);
   const bool contradicted = judgeAndRecover(seen, state, estimate, times);
-  if (isBeyondReach(state, estimate))
+  if (isLostForGood(state, estimate))
     comeToRest(before, state, estimate);
   else
     state.resting_since.reset();
@@ -276,17 +276,6 @@ void Tracker::beginAgainAt(const FoundBody& found, TrackerState& state, StateEst
   estimate.covariance = state.smoother.newestBodyCovariance();
   estimate.velocity = state.smoother.newest().velocity;
   estimate.trusted = estimate.recovered = true;
-}
-
-/** A lost body whose velocity the IMU no longer knows, or that was not seen for long: where it may be grows without
- * end.
- */
-bool Tracker::isBeyondReach(const TrackerState& state, const StateEstimate& estimate) const
-{
-  constexpr double kUnknownVelocity = 1;  // m/s, about a machine's speed
-  if (estimate.health != Health::Lost || estimate.trusted) return false;
-  return isLostForGood(state, estimate) ||
-         state.smoother.newestCovariance().diagonal().segment<3>(6).maxCoeff() > kUnknownVelocity * kUnknownVelocity;
 }
 
 /** The IMU's attitude at the place before. How far the body may be from there is not for the smoother: it computes

@@ -79,7 +79,6 @@ class Tracker
   bool recover(const std::vector<View>&, TrackerState&, StateEstimate&, StageTimes&) const;
   void believeLidar(TrackerState&, StateEstimate&) const;
   void beginAgainAt(const FoundBody&, TrackerState&, StateEstimate&) const;
-  bool isBeyondReach(const TrackerState&, const StateEstimate&) const;
   void comeToRest(const NavState& before, TrackerState&, StateEstimate&) const;
   void anchorAt(const Rigid& local_T_body, TrackerState&) const;
   Matrix6d driftOf(const TrackerState&, const StateEstimate&) const;

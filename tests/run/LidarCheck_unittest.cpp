@@ -71,4 +71,24 @@ TEST(LidarCheck, namesTheLidarThatIsMountedTheOtherWayRoundAndDoesNotBlameTheOth
   EXPECT_EQ(findings.count("right pose"), 0u);
 }
 
-TEST(LidarCheck, saysNothingBeforeTheMachineHasDriven) { EXPECT_TRUE(findingsOf({}, 2).empty()); }
+TEST(LidarCheck, saysNothingOfARigThatIsRightBeforeTheMachineHasDriven)
+{
+  EXPECT_TRUE(findingsOf({}, 0).empty());
+  EXPECT_TRUE(findingsOf({}, 1).empty());
+}
+
+TEST(LidarCheck, namesTheLidarWhoseGroundIsUprightBeforeTheMachineHasDriven)
+{
+  Rig lying;
+  lying.believed_left = at(0.3, 1, 0.5, 30, 15, 60);
+  const auto findings = findingsOf(lying, 1);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings.at("left ground").verdict, Verdict::NotFit);
+}
+
+TEST(LidarCheck, tellsSteadinessFromTwoKeyframesOnAndPosesFromThreeOn)
+{
+  EXPECT_EQ(findingsOf({}, 2).count("left steadiness"), 1u);
+  EXPECT_EQ(findingsOf({}, 2).count("right pose"), 0u);
+  EXPECT_EQ(findingsOf({}, 3).count("right pose"), 1u);
+}

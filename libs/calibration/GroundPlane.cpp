@@ -1,4 +1,4 @@
-#include "doctor/GroundPlane.h"
+#include "calibration/GroundPlane.h"
 
 #include "preprocessing/Thin.h"
 
