@@ -131,8 +131,9 @@ TEST(RecordLive, whatAKillLeftOutlivesTheSameCommandAgain)
   ASSERT_GT(rawlog.size(), 100'000u);
 
   ChildProcess again(recorder.command + " -w", recorder.folder / "again.txt");
-  lidars.waitForReceiver();
-  for (int i = 0; i < 100 && !std::filesystem::exists(recorder.part); ++i) usleep(10'000);
+  const auto hasBegun = [&]
+  { return std::filesystem::exists(recorder.part) && again.log().find("live.rawlog.part.1") != std::string::npos; };
+  for (int i = 0; i < 1000 && !hasBegun(); ++i) usleep(10'000);
   again.send(SIGKILL);
   again.wait();
   EXPECT_TRUE(contentOf(recorder.part.string() + ".1") == rawlog);
