@@ -23,6 +23,12 @@ std::optional<Vector6d> solvePositive(const Matrix6d& a, const Vector6d& b)
 
 Matrix6d inverseOfPositive(const Matrix6d& m) { return m.llt().solve(Matrix6d::Identity()); }
 
+Matrix6d informationWithError(const Matrix6d& information, const Vector6d& deviation)
+{
+  const Vector6d lost = information * deviation;
+  return information - lost * lost.transpose() / (1 + deviation.dot(lost));
+}
+
 Eigensystem6 eigensystem(const Matrix6d& symmetric)
 {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(symmetric);

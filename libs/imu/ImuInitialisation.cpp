@@ -32,9 +32,10 @@ constexpr double kOriginSigma = 1e-3;              // m and rad: position and ya
 
 bool isAtRest(const SlowMotion& m, const StandstillOptions& o)
 {
-  constexpr double kAliased = 0.04;  // share of an engine's vibration that may look slow
+  constexpr double kAliased = 0.08;  // share of an engine's vibration that may look slow: its fourth multiple
+  constexpr double kAliasedTurns = 0.04;
   return m.accel <= o.max_slow_accel + kAliased * m.accel_all &&
-         m.gyro <= o.max_slow_gyro_deg * kDegree + kAliased * m.gyro_all &&
+         m.gyro <= o.max_slow_gyro_deg * kDegree + kAliasedTurns * m.gyro_all &&
          m.mean_gyro.norm() <= o.max_mean_gyro_deg * kDegree &&
          std::abs(m.mean_accel.norm() - kGravity) <= o.max_gravity_error;
 }

@@ -44,6 +44,7 @@ struct Evidence
   Matrix6d resistance = Matrix6d::Zero();    // sum n J' wB J, n the source cell's points
   Matrix6d structure = Matrix6d::Zero();     // the same, thin directions only
   Matrix6d unsure_means = Matrix6d::Zero();  // covariance of the gradient due to the noise of the cells' means
+  Vector6d one_sided = Vector6d::Zero();     // force and torque for RegistrationResult::one_sided
 };
 
 /** Covariance of a cell's force due to the noise of its mean and, taken as equal, of the target's. */
@@ -60,9 +61,18 @@ Vector3d armOf(const TurnedCell& c, const Rigid& target_T_source)
   return Vector3d(c.x, c.y, c.z) - target_T_source.translation;
 }
 
+/** On a cell that moves away from the source's origin, `arm` away, by its deviation along the view. */
+Vector3d forceOfDepth(const Symmetric3& weight, const TurnedCell& c, const Vector3d& arm)
+{
+  const Vector3d view = arm.normalized();
+  const Matrix3d covariance = matrixOf({c.xx, c.xy, c.xz, c.yy, c.yz, c.zz});
+  return matrixOf(weight) * view * std::sqrt(std::max(0.0, view.dot(covariance * view)));
+}
+
 struct InformationSums
 {
   PoseSum resistance, structure, unsure_means;
+  Vector6d one_sided = Vector6d::Zero();
 };
 
 std::vector<StructureBlock> structuresOf(const Neighbourhoods& all, const Neighbourhoods::Chunk& chunk)
@@ -104,6 +114,9 @@ InformationSums gather(const Neighbourhoods& all, std::size_t index, const Rigid
     sums.resistance.add(scaled(cells[i].weight, points), v.x(), v.y(), v.z());
     sums.structure.add(scaled(structured, points), v.x(), v.y(), v.z());
     sums.unsure_means.add(forceNoise(cells[i].pull, c, source.points), v.x(), v.y(), v.z());
+    const Vector3d force = forceOfDepth(cells[i].weight, c, v);
+    sums.one_sided.head<3>() += force;
+    sums.one_sided.tail<3>() += v.cross(force);
   }
   return sums;
 }
@@ -121,6 +134,7 @@ Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, dou
     evidence.resistance += chunk.resistance.matrix();
     evidence.structure += chunk.structure.matrix();
     evidence.unsure_means += chunk.unsure_means.matrix();
+    evidence.one_sided += chunk.one_sided;
   }
   return evidence;
 }
@@ -171,15 +185,14 @@ Matrix6d safeInverse(const Matrix6d& symmetric)
 }
 
 /**
- * In metres (see stepOfMetres): the sandwich of the means' noise, plus how far the pose moves when one place after the
- * other is left out (the jackknife by clusters: J. MacKinnon, M. Nielsen and M. Webb, Fast and reliable jackknife and
- * bootstrap methods for cluster-robust inference, Journal of Applied Econometrics 38, 2023).
+ * In metres (see stepOfMetres), `bend` is the inverse of the curvature there: the sandwich of the means' noise, plus
+ * how far the pose moves when one place after the other is left out (the jackknife by clusters: J. MacKinnon, M.
+ * Nielsen and M. Webb, Fast and reliable jackknife and bootstrap methods for cluster-robust inference, Journal of
+ * Applied Econometrics 38, 2023).
  */
-Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& unsure_means, const Matrix6d& target_of_step)
+Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& curvature, const Matrix6d& bend,
+                      const Matrix6d& unsure_means, const Matrix6d& target_of_step)
 {
-  Matrix6d curvature = Matrix6d::Zero();
-  for (const Place& place : places) curvature += place.curvature.matrix();
-  const Matrix6d bend = safeInverse(congruent(curvature, target_of_step));
   const Matrix6d step_of_target = inverse(target_of_step);
 
   Matrix6d covariance = bend * congruent(unsure_means, target_of_step) * bend;
@@ -283,12 +296,17 @@ std::vector<Vector6d> degenerateDirections(const Neighbourhoods& all, const Rigi
 LidarInformation lidarInformation(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
   const Evidence evidence = evidenceOf(all, target_T_source, d2);
-  Matrix6d metres = kUnmodelled * covarianceOf(placesOf(all, evidence, target_T_source), evidence.unsure_means,
-                                               targetOfMetres(target_T_source));
+  const std::vector<Place> places = placesOf(all, evidence, target_T_source);
+  const Matrix6d target_of_step = targetOfMetres(target_T_source);
+  Matrix6d curvature = Matrix6d::Zero();
+  for (const Place& place : places) curvature += place.curvature.matrix();
+  const Matrix6d bend = safeInverse(congruent(curvature, target_of_step));
+  Matrix6d metres = kUnmodelled * covarianceOf(places, curvature, bend, evidence.unsure_means, target_of_step);
   metres.diagonal().head<3>().array() += kTranslationFloor * kTranslationFloor;
   metres.diagonal().tail<3>().array() += kRotationFloor * kRotationFloor;
 
   LidarInformation information;
+  information.one_sided = -(bend * (target_of_step.transpose() * evidence.one_sided)).head<3>();
   information.degenerate = directionsWithoutStructure(evidence, all, target_T_source, d2);
   for (const Vector6d& direction : information.degenerate)
     metres += kUnknownDeviation * kUnknownDeviation * direction * direction.transpose();

@@ -22,6 +22,7 @@ struct LidarInformation
 {
   Matrix6d covariance = Matrix6d::Zero();  // with floor; 10 m along the degenerate directions
   std::vector<Vector6d> degenerate;        // as by degenerateDirections
+  Eigen::Vector3d one_sided{0, 0, 0};      // see RegistrationResult
 };
 
 /** Orthonormal steps in metres that no structure resists. The neighbourhoods must have been moved to the pose. */

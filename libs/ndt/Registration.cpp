@@ -97,6 +97,7 @@ RegistrationResult resultOf(const Aligned& aligned, const NdtMap& source, const 
   result.outcome = outcomeOf(minimum, result.overlap, !lidar.degenerate.empty(), options);
   if (minimum.equations.met_points == 0) return result;
   result.covariance = lidar.covariance;
+  result.one_sided = lidar.one_sided;
   result.information = inverse(lidar.covariance);
   return result;
 }

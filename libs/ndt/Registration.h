@@ -58,8 +58,14 @@ struct RegistrationResult
   Rigid target_T_source;
   Matrix6d information = Matrix6d::Zero();  // of the lidar alone, in the tangent of boxPlus (source frame)
   Matrix6d covariance = Matrix6d::Zero();   // its inverse; both are zero without a single pair of cells
-  double score = 0;                         // Stoyanov's objective per source cell, negative
-  double overlap = 0;                       // share of the source's points in cells that match a target cell
+  /**
+   * m, along the source's axes: how far the pose would move if each cell of the source lay farther from the source's
+   * origin by its own deviation along the view. A lidar sees the near side of leaves and bark, so that means are nearer
+   * than what they stand for; this is near zero where that cancels because the same is seen on all sides.
+   */
+  Eigen::Vector3d one_sided{0, 0, 0};
+  double score = 0;    // Stoyanov's objective per source cell, negative
+  double overlap = 0;  // share of the source's points in cells that match a target cell
   int iterations = 0;
   Outcome outcome = Outcome::LowOverlap;
   /** Orthonormal steps (m, m, m, and rad times 5 m) that no structure resists; their deviation in covariance is 10 m.

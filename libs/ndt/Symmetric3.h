@@ -40,6 +40,13 @@ inline Symmetric3 turned(const Eigen::Matrix3d& m, const Eigen::Matrix3d& r)
   return {entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
 }
 
+inline Eigen::Matrix3d matrixOf(const Symmetric3& m)
+{
+  Eigen::Matrix3d full;
+  full << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
+  return full;
+}
+
 inline Symmetric3 scaled(const Symmetric3& m, double by)
 {
   return {by * m.xx, by * m.xy, by * m.xz, by * m.yy, by * m.yz, by * m.zz};

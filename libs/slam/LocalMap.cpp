@@ -3,6 +3,8 @@
 #include "core/Matrix6.h"
 #include "graph/PosePriorFactor.h"
 
+#include <algorithm>
+
 namespace scanloom
 {
 namespace
@@ -21,6 +23,12 @@ bool LocalMap::wants(const Rigid& map_T_body) const
   const Vector6d travel = boxMinus(map_T_body, keyframes_.back().map_T_body);
   return travel.head<3>().norm() >= options_.keyframe_distance ||
          travel.tail<3>().norm() >= options_.keyframe_turn_deg * M_PI / 180;
+}
+
+const Eigen::Vector3d& LocalMap::oldest() const
+{
+  return std::find_if(keyframes_.begin(), keyframes_.end(), [](const Keyframe& k) { return k.in_map; })
+      ->map_T_body.translation;
 }
 
 void LocalMap::clear()

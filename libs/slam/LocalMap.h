@@ -55,6 +55,9 @@ class LocalMap
   Matrix6d drift(const Rigid& map_T_body) const;
 
   bool empty() const { return keyframes_.empty(); }
+
+  /** Where the oldest keyframe of the map is; there must be one. */
+  const Eigen::Vector3d& oldest() const;
   const NdtMap& ndt() const { return ndt_; }
 
  private:

@@ -20,17 +20,42 @@ std::vector<Eigen::Vector3d> positionsOf(const std::vector<MountedLidar>& lidars
   return positions;
 }
 
+/** m, since the last registration. */
+double travelTo(const Rigid& local_T_body, const TrackerState& state)
+{
+  return state.last_registered ? (local_T_body.translation - state.last_registered->translation).norm() : 0;
+}
+
 /**
- * How many registrations count as one. Errors of the map's cells, leaves seen from one side and occlusions stay the
- * same from scan to scan until the machine has moved by `correlation` m: as independent measurements the registrations
- * would outvote the IMU by their number.
+ * How many registrations count as one where errors stay the same on `length` m. As independent measurements the
+ * registrations would outvote the IMU by their number.
  */
-double registrationsPerMeasurement(const TrackerState& state, const Rigid& local_T_body, double correlation)
+double registrationsPerMeasurement(double travel, double length)
 {
   constexpr double kLeastTravel = 0.02;  // m: at rest many scans count as one, but not as none
-  const double travel =
-      state.last_registered ? (local_T_body.translation - state.last_registered->translation).norm() : 0;
-  return std::max(1.0, correlation / std::max(travel, kLeastTravel));
+  return std::max(1.0, length / std::max(travel, kLeastTravel));
+}
+
+/** Along the body's axes. */
+Eigen::Vector3d upInBody(const Rigid& local_T_body, const TrackerState& state)
+{
+  return (state.map_T_local() * local_T_body).rotation.conjugate() * Eigen::Vector3d::UnitZ();
+}
+
+/**
+ * Of a registration among others. Errors of the map's cells, leaves seen from one side and occlusions stay the same
+ * from scan to scan until the machine has moved by `correlation` m; those of the heading on the length of the map.
+ */
+Matrix6d informationAmongOthers(const RegistrationResult& registration, TrackerState& state, double correlation)
+{
+  const Rigid& local_T_body = registration.target_T_source;
+  const Eigen::Vector3d up = upInBody(local_T_body, state);
+  const double travel = travelTo(local_T_body, state);
+  HeadingDoubt& doubt = state.heading_doubt;
+  doubt.add(registration, up, state.local_map.oldest(), travel);
+  Vector6d turn = Vector6d::Zero();
+  turn.tail<3>() = doubt.deviation() * std::sqrt(registrationsPerMeasurement(travel, doubt.length())) * up;
+  return informationWithError(registration.information / registrationsPerMeasurement(travel, correlation), turn);
 }
 
 NavEstimate newestOf(const FixedLagSmoother& smoother) { return {smoother.newest(), smoother.newestCovariance()}; }
@@ -55,7 +80,7 @@ FixedLagSmoother Tracker::windowFrom(const NavEstimate& start, const PlacedImu& 
 TrackerState Tracker::begin(const NavEstimate& start, const PlacedImu& imu) const
 {
   TrackerState state{
-      windowFrom(start, imu), LocalMap(settings_.local_map, settings_.map_cells), {}, {}, {}, {}, {}, {}};
+      windowFrom(start, imu), LocalMap(settings_.local_map, settings_.map_cells), {}, {}, {}, {}, {}, {}, {}};
   state.trust.last_trusted = start.state.stamp;
   return state;
 }
@@ -169,8 +194,7 @@ void Tracker::addRegistration(const PoseGuess& predicted, TrackerState& state, S
   else
     state.trust.contradiction.add(estimate.stamp, estimate.surprise);
 
-  const Matrix6d information =
-      registration.information / registrationsPerMeasurement(state, local_T_body, options.correlation);
+  const Matrix6d information = informationAmongOthers(registration, state, options.correlation);
   state.last_registered = local_T_body;
   FixedLagSmoother& smoother = state.smoother;
   if (smoother.hasAnchor())
@@ -346,7 +370,7 @@ void Tracker::addKeyframe(Seen& seen, TrackerState& state, StateEstimate& estima
     const RegistrationResult fine = align(state.local_map.ndt(), source, guess, settings_.registration.fine);
     if (fine.trustworthy())
     {
-      local_T_body = fine.target_T_source;
+      local_T_body = withHeadingOf(estimated, fine, upInBody(estimated, state), state.heading_doubt);
       alignment = fine.covariance;
     }
   }

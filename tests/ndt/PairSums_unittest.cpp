@@ -131,8 +131,6 @@ std::vector<PairEvidence> evidenceOf(const Pairs& pairs, const std::vector<Struc
   return evidence;
 }
 
-Eigen::Matrix3d matrixOf(const Symmetric3& s) { return matrixOf(s.xx, s.xy, s.xz, s.yy, s.yz, s.zz); }
-
 TEST(PairEvidence, isTheSameBitsForEveryKernel)
 {
   const Pairs pairs = randomPairs();
