@@ -9,12 +9,11 @@ namespace scanloom
 {
 namespace
 {
-Finding groundOfUnknownPose(const LidarExamination& seen)
+Finding groundInSensorFrame(const std::string& lidar, const GroundPlane& ground)
 {
-  if (!seen.ground) return groundFinding(seen.name, seen.ground, {});
-  return {seen.name, "ground", Verdict::NotMeasured,
+  return {lidar, "ground", Verdict::NotMeasured,
           fmt::format("{}{:.1f} deg off +z of the sensor frame (poses are known only with -c CONFIG)",
-                      groundInWords(*seen.ground), degreesBetween(seen.ground->up, Eigen::Vector3d::UnitZ()))};
+                      groundInWords(ground), degreesBetween(ground.up, Eigen::Vector3d::UnitZ()))};
 }
 
 Finding ownPartsFinding(const LidarExamination& seen)
@@ -53,7 +52,8 @@ Findings groundFindings(const RigExamination& rig, std::size_t lidar, const Geom
     findings.push_back({seen.name, "returns", Verdict::Ok,
                         fmt::format("{:.1f} % of the shots; 5, 50, 95 % of the returns within {:.1f}, {:.1f}, {:.1f} m",
                                     100 * returns->share, returns->range_p05, returns->range_p50, returns->range_p95)});
-  findings.push_back(rig.poses_known ? groundFinding(seen.name, seen.ground, limits) : groundOfUnknownPose(seen));
+  findings.push_back(rig.poses_known || !seen.ground ? groundFinding(seen.name, seen.ground, limits)
+                                                     : groundInSensorFrame(seen.name, *seen.ground));
   findings.push_back(ownPartsFinding(seen));
   if (lidar > 0 && rig.poses_known && seen.ground && first.ground)
     findings.push_back(groundsFinding(seen, first, limits));

@@ -32,8 +32,9 @@ constexpr double kOriginSigma = 1e-3;              // m and rad: position and ya
 
 bool isAtRest(const SlowMotion& m, const StandstillOptions& o)
 {
-  constexpr double kAliased = 0.08;  // share of an engine's vibration that may look slow: its fourth multiple
-  constexpr double kAliasedTurns = 0.04;
+  // Shares of an engine's vibration that may look slow: an overtone near half the IMU's rate, or all of it, is sampled
+  // as a slow motion.
+  constexpr double kAliased = 0.08, kAliasedTurns = 0.04;
   return m.accel <= o.max_slow_accel + kAliased * m.accel_all &&
          m.gyro <= o.max_slow_gyro_deg * kDegree + kAliasedTurns * m.gyro_all &&
          m.mean_gyro.norm() <= o.max_mean_gyro_deg * kDegree &&

@@ -44,7 +44,6 @@ struct Evidence
   Matrix6d resistance = Matrix6d::Zero();    // sum n J' wB J, n the source cell's points
   Matrix6d structure = Matrix6d::Zero();     // the same, thin directions only
   Matrix6d unsure_means = Matrix6d::Zero();  // covariance of the gradient due to the noise of the cells' means
-  Vector6d one_sided = Vector6d::Zero();     // force and torque for RegistrationResult::one_sided
 };
 
 /** Covariance of a cell's force due to the noise of its mean and, taken as equal, of the target's. */
@@ -61,18 +60,9 @@ Vector3d armOf(const TurnedCell& c, const Rigid& target_T_source)
   return Vector3d(c.x, c.y, c.z) - target_T_source.translation;
 }
 
-/** On a cell that moves away from the source's origin, `arm` away, by its deviation along the view. */
-Vector3d forceOfDepth(const Symmetric3& weight, const TurnedCell& c, const Vector3d& arm)
-{
-  const Vector3d view = arm.normalized();
-  const Matrix3d covariance = matrixOf({c.xx, c.xy, c.xz, c.yy, c.yz, c.zz});
-  return matrixOf(weight) * view * std::sqrt(std::max(0.0, view.dot(covariance * view)));
-}
-
 struct InformationSums
 {
   PoseSum resistance, structure, unsure_means;
-  Vector6d one_sided = Vector6d::Zero();
 };
 
 std::vector<StructureBlock> structuresOf(const Neighbourhoods& all, const Neighbourhoods::Chunk& chunk)
@@ -114,9 +104,6 @@ InformationSums gather(const Neighbourhoods& all, std::size_t index, const Rigid
     sums.resistance.add(scaled(cells[i].weight, points), v.x(), v.y(), v.z());
     sums.structure.add(scaled(structured, points), v.x(), v.y(), v.z());
     sums.unsure_means.add(forceNoise(cells[i].pull, c, source.points), v.x(), v.y(), v.z());
-    const Vector3d force = forceOfDepth(cells[i].weight, c, v);
-    sums.one_sided.head<3>() += force;
-    sums.one_sided.tail<3>() += v.cross(force);
   }
   return sums;
 }
@@ -134,9 +121,35 @@ Evidence evidenceOf(const Neighbourhoods& all, const Rigid& target_T_source, dou
     evidence.resistance += chunk.resistance.matrix();
     evidence.structure += chunk.structure.matrix();
     evidence.unsure_means += chunk.unsure_means.matrix();
-    evidence.one_sided += chunk.one_sided;
   }
   return evidence;
+}
+
+/** On a cell at `arm` from the source's origin that is moved farther away by its deviation along the view. */
+Vector3d forceOfDepth(const Symmetric3& weight, const TurnedCell& c, const Vector3d& arm)
+{
+  const Vector3d view = arm.normalized();
+  const Matrix3d covariance = matrixOf({c.xx, c.xy, c.xz, c.yy, c.yz, c.zz});
+  return matrixOf(weight) * view * std::sqrt(std::max(0.0, view.dot(covariance * view)));
+}
+
+/** Force and torque if that happens to all cells at once. */
+Vector6d wrenchOfDepth(const Neighbourhoods& all, const Evidence& evidence, const Rigid& target_T_source)
+{
+  Vector6d wrench = Vector6d::Zero();
+  for (std::size_t k = 0; k < all.chunks(); ++k)
+  {
+    const Neighbourhoods::Chunk& chunk = all.chunk(k);
+    for (std::size_t i = 0; i < chunk.cells.size(); ++i)
+    {
+      if (chunk.ranges[i].count == 0) continue;
+      const Vector3d arm = armOf(chunk.cells[i], target_T_source);
+      const Vector3d force = forceOfDepth(evidence.cells[chunk.first + i].weight, chunk.cells[i], arm);
+      wrench.head<3>() += force;
+      wrench.tail<3>() += arm.cross(force);
+    }
+  }
+  return wrench;
 }
 
 /** Sums over the cells within a few metres, whose errors are alike: leaves seen from one side, ground cut by a grid. */
@@ -306,7 +319,8 @@ LidarInformation lidarInformation(const Neighbourhoods& all, const Rigid& target
   metres.diagonal().tail<3>().array() += kRotationFloor * kRotationFloor;
 
   LidarInformation information;
-  information.one_sided = -(bend * (target_of_step.transpose() * evidence.one_sided)).head<3>();
+  information.one_sided =
+      -(bend * (target_of_step.transpose() * wrenchOfDepth(all, evidence, target_T_source))).head<3>();
   information.degenerate = directionsWithoutStructure(evidence, all, target_T_source, d2);
   for (const Vector6d& direction : information.degenerate)
     metres += kUnknownDeviation * kUnknownDeviation * direction * direction.transpose();

@@ -77,13 +77,10 @@ class PoseSum
 
   Matrix6d matrix() const
   {
-    Eigen::Matrix3d moved, mixed, turned;
-    moved << moved_.xx, moved_.xy, moved_.xz, moved_.xy, moved_.yy, moved_.yz, moved_.xz, moved_.yz, moved_.zz;
+    Eigen::Matrix3d mixed;
     mixed << mixed_[0], mixed_[1], mixed_[2], mixed_[3], mixed_[4], mixed_[5], mixed_[6], mixed_[7], mixed_[8];
-    turned << turned_.xx, turned_.xy, turned_.xz, turned_.xy, turned_.yy, turned_.yz, turned_.xz, turned_.yz,
-        turned_.zz;
     Matrix6d m;
-    m << moved, -mixed, -mixed.transpose(), turned;
+    m << matrixOf(moved_), -mixed, -mixed.transpose(), matrixOf(turned_);
     return m;
   }
 

@@ -27,8 +27,8 @@ Rigid withHeadingOf(const Rigid& estimate, const RegistrationResult& fine, const
                     const HeadingDoubt& doubt)
 {
   const double shared = std::pow(doubt.deviation(), 2);
+  if (shared == 0) return fine.target_T_source;
   const double own = up_in_source.dot(fine.covariance.bottomRightCorner<3, 3>() * up_in_source);
-  if (!(shared > 0)) return fine.target_T_source;
   const double turn = up_in_source.dot(boxMinus(estimate, fine.target_T_source).tail<3>());
   Vector6d step = Vector6d::Zero();
   step.tail<3>() = shared / (shared + own) * turn * up_in_source;

@@ -6,11 +6,11 @@
 namespace scanloom
 {
 /**
- * What is seen from one side displaces a registration sideways (RegistrationResult::one_sided), and differently so at
- * the map's begin and at its end, because both were seen from elsewhere. The heading then errs by about the
- * displacement over the map's length, in the same way for all registrations to that map: their number does not lessen
- * it, and every keyframe hands it on. A gyroscope errs less. With a lidar on each side the displacements cancel, and so
- * does the doubt.
+ * What is seen from one side displaces a registration sideways (RegistrationResult::one_sided): by other amounts where
+ * the map begins than where it ends, because the machine saw both from different places. So the heading errs by about
+ * the displacement over the length of the map. All registrations to that map share this error: more of them do not
+ * lessen it, and every keyframe hands it on. A gyroscope errs less. With a lidar on each side the displacements cancel,
+ * and the doubt is near zero.
  */
 class HeadingDoubt
 {
@@ -19,10 +19,10 @@ class HeadingDoubt
   void add(const RegistrationResult&, const Eigen::Vector3d& up_in_source, const Eigen::Vector3d& map_begin,
            double travel);
 
-  /** rad, of the error that all registrations to the map share. */
+  /** rad, standard deviation of the heading error that all registrations to the map share. */
   double deviation() const;
 
-  /** m, on which registrations share it. */
+  /** m, of the map: registrations on so much way share the error. */
   double length() const { return length_; }
 
  private:
@@ -30,7 +30,10 @@ class HeadingDoubt
   double length_ = 0;
 };
 
-/** The fine registration's pose, its heading weighted with that of the estimate by the doubt. */
+/**
+ * The pose of the fine registration, but the heading is a mean of its own and the estimate's: the more doubt, the
+ * nearer to the estimate's.
+ */
 Rigid withHeadingOf(const Rigid& estimate, const RegistrationResult& fine, const Eigen::Vector3d& up_in_source,
                     const HeadingDoubt&);
 }  // namespace scanloom

@@ -20,15 +20,15 @@ std::vector<Eigen::Vector3d> positionsOf(const std::vector<MountedLidar>& lidars
   return positions;
 }
 
-/** m, since the last registration. */
+/** m, from the last registration. */
 double travelTo(const Rigid& local_T_body, const TrackerState& state)
 {
   return state.last_registered ? (local_T_body.translation - state.last_registered->translation).norm() : 0;
 }
 
 /**
- * How many registrations count as one where errors stay the same on `length` m. As independent measurements the
- * registrations would outvote the IMU by their number.
+ * How many registrations, `travel` m apart, count as one if their errors stay the same over `length` m: as independent
+ * measurements they would outvote the IMU by their number.
  */
 double registrationsPerMeasurement(double travel, double length)
 {
@@ -36,23 +36,15 @@ double registrationsPerMeasurement(double travel, double length)
   return std::max(1.0, length / std::max(travel, kLeastTravel));
 }
 
-/** Along the body's axes. */
-Eigen::Vector3d upInBody(const Rigid& local_T_body, const TrackerState& state)
-{
-  return (state.map_T_local() * local_T_body).rotation.conjugate() * Eigen::Vector3d::UnitZ();
-}
+Eigen::Vector3d upInBody(const Rigid& map_T_body) { return map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ(); }
 
 /**
  * Of a registration among others. Errors of the map's cells, leaves seen from one side and occlusions stay the same
  * from scan to scan until the machine has moved by `correlation` m; those of the heading on the length of the map.
  */
-Matrix6d informationAmongOthers(const RegistrationResult& registration, TrackerState& state, double correlation)
+Matrix6d informationAmongOthers(const RegistrationResult& registration, const HeadingDoubt& doubt,
+                                const Eigen::Vector3d& up, double travel, double correlation)
 {
-  const Rigid& local_T_body = registration.target_T_source;
-  const Eigen::Vector3d up = upInBody(local_T_body, state);
-  const double travel = travelTo(local_T_body, state);
-  HeadingDoubt& doubt = state.heading_doubt;
-  doubt.add(registration, up, state.local_map.oldest(), travel);
   Vector6d turn = Vector6d::Zero();
   turn.tail<3>() = doubt.deviation() * std::sqrt(registrationsPerMeasurement(travel, doubt.length())) * up;
   return informationWithError(registration.information / registrationsPerMeasurement(travel, correlation), turn);
@@ -115,7 +107,7 @@ Matrix6d Tracker::driftOf(const TrackerState& state, const StateEstimate& estima
   Matrix6d drift = state.local_map.drift(state.map_T_local().inverse() * estimate.map_T_body);
   const FixedLagSmoother& smoother = state.smoother;
   const Eigen::Matrix3d body_R_imu = smoother.body_T_imu().rotation.toRotationMatrix();
-  const Eigen::Vector3d up = estimate.map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up = upInBody(estimate.map_T_body);
   const Eigen::Matrix3d to_tilt = (Eigen::Matrix3d::Identity() - up * up.transpose()) * body_R_imu;
   drift.bottomRightCorner<3, 3>() += to_tilt * smoother.newestCovariance().block<3, 3>(3, 3) * to_tilt.transpose();
   return drift;
@@ -194,7 +186,11 @@ void Tracker::addRegistration(const PoseGuess& predicted, TrackerState& state, S
   else
     state.trust.contradiction.add(estimate.stamp, estimate.surprise);
 
-  const Matrix6d information = informationAmongOthers(registration, state, options.correlation);
+  const Eigen::Vector3d up = upInBody(state.map_T_local() * local_T_body);
+  const double travel = travelTo(local_T_body, state);
+  state.heading_doubt.add(registration, up, state.local_map.oldest(), travel);
+  const Matrix6d information =
+      informationAmongOthers(registration, state.heading_doubt, up, travel, options.correlation);
   state.last_registered = local_T_body;
   FixedLagSmoother& smoother = state.smoother;
   if (smoother.hasAnchor())
@@ -370,7 +366,7 @@ void Tracker::addKeyframe(Seen& seen, TrackerState& state, StateEstimate& estima
     const RegistrationResult fine = align(state.local_map.ndt(), source, guess, settings_.registration.fine);
     if (fine.trustworthy())
     {
-      local_T_body = withHeadingOf(estimated, fine, upInBody(estimated, state), state.heading_doubt);
+      local_T_body = withHeadingOf(estimated, fine, upInBody(estimate.map_T_body), state.heading_doubt);
       alignment = fine.covariance;
     }
   }
