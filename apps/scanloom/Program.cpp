@@ -75,6 +75,15 @@ catch (const std::exception& e)
   std::cerr << fmt::format("scanloom {}: {}\n", name, messageIn(e.what()));
   return kFailed;
 }
+int printHelp(const CLI::App& app, const std::string& verb)
+{
+  const auto chosen =
+      app.get_subcommands([&](const CLI::App* subcommand) { return !verb.empty() && subcommand->get_name() == verb; });
+  if (chosen.empty() && !verb.empty())
+    throw UsageError(fmt::format("{}: is no verb; {}", verb, suggestion(verb, namesKnownTo(app))));
+  std::cout << (chosen.empty() ? app.help() : chosen.front()->help(app.get_name()));
+  return kDone;
+}
 }  // namespace
 
 Schema knownToAnyVerb()
@@ -94,6 +103,12 @@ int runProgram(int argc, const char* const* argv)
       "scanloom");
   app.set_version_flag("--version", fmt::format("scanloom {}", programVersion()));
   app.require_subcommand(1);
+  app.get_formatter()->column_width(34);
+  app.get_formatter()->label("TEXT:FILE", "FILE");
+  app.get_formatter()->label("Excludes", "not with");
+  app.footer(
+      "Exit status: 0 done; 1 failed; 2 wrong usage or configuration; 3 the result is not good; 4 some runs of an\n"
+      "experiment failed; 130 interrupted, and what there was is saved.");
 
   std::string name;
   std::function<int()> run;
@@ -107,6 +122,15 @@ int runProgram(int argc, const char* const* argv)
           run = chosen;
         });
   }
+  std::string explained;
+  CLI::App* help = app.add_subcommand("help", "the options of a verb, as its --help");
+  help->add_option("verb", explained, "the verb; none: the list of verbs")->type_name("VERB");
+  help->callback(
+      [&]
+      {
+        name = "help";
+        run = [&] { return printHelp(app, explained); };
+      });
 
   try
   {

@@ -1,5 +1,5 @@
 /**
- * A verb of the program: a file that defines `Verb slamVerb()`, and in main.cpp its declaration and a row of the table.
+ * A verb of the program: a file that defines `Verb slamVerb()`, and in allVerbs.cpp its declaration and a row of the table.
  *
  *   int run(const SlamArguments& arguments)
  *   {
@@ -51,7 +51,7 @@ struct Verb
   std::function<std::function<int()>(CLI::App&)> add;
 };
 
-/** The table in main.cpp. */
+/** The table in allVerbs.cpp. */
 const std::vector<Verb>& verbs();
 
 /** The sections and keys of all verbs: a configuration file may have these. */

@@ -1,51 +1,26 @@
-#include "Program.h"
-#include "Verb.h"
+/** The program `scanloom`: libscanloom_program.so, but for --version: MRPT and what it needs take 0.2 s to load. */
+#include "Version.h"
+#include "core/ExitCode.h"
 
-#include <malloc.h>
+#include <dlfcn.h>
 
-namespace scanloom
-{
-Verb configVerb();
-Verb doctorVerb();
-Verb editVerb();
-Verb evaluateVerb();
-Verb experimentVerb();
-Verb infoVerb();
-Verb mapVerb();
-Verb recordVerb();
-Verb registerVerb();
-Verb reportVerb();
-Verb simulateVerb();
-Verb slamVerb();
-Verb viewVerb();
-
-const std::vector<Verb>& verbs()
-{
-  static const std::vector<Verb> table{
-      recordVerb(),   infoVerb(), editVerb(), doctorVerb(),   configVerb(),     slamVerb(),   evaluateVerb(),
-      registerVerb(), mapVerb(),  viewVerb(), simulateVerb(), experimentVerb(), reportVerb(),
-  };
-  return table;
-}
-}  // namespace scanloom
-
-namespace
-{
-/**
- * Every scan needs the same tens of MB again. If they are returned to the kernel in between, each of their pages causes
- * a fault again, which took a third of the time of `slam` (doc/performance.md).
- */
-void keepFreedMemory()
-{
-#ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 512 << 20);
-#endif
-}
-}  // namespace
+#include <cstdio>
+#include <string_view>
 
 int main(int argc, char** argv)
 {
-  keepFreedMemory();
-  return scanloom::runProgram(argc, argv);
+  if (argc == 2 && argv[1] == std::string_view("--version"))
+  {
+    std::printf("scanloom %s\n", scanloom::programVersion());
+    return std::fflush(stdout) == 0 ? scanloom::kDone : scanloom::kFailed;
+  }
+
+  void* const program = ::dlopen("libscanloom_program.so", RTLD_NOW | RTLD_GLOBAL);
+  void* const run = program ? ::dlsym(program, "runScanloom") : nullptr;
+  if (!run)
+  {
+    std::fprintf(stderr, "scanloom: %s\n", ::dlerror());
+    return scanloom::kFailed;
+  }
+  return reinterpret_cast<int (*)(int, char**)>(run)(argc, argv);
 }

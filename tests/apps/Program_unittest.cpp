@@ -215,6 +215,13 @@ TEST_F(Program, writesTheDefaultsOfAVerb)
             "scanloom config: --default weeve: is no verb with parameters; did you mean 'weave'?\n");
 }
 
+TEST_F(Program, helpOfAVerbIsWhatItsHelpOptionPrints)
+{
+  EXPECT_EQ(run({"help", "weave"}).results, run({"weave", "--help"}).results);
+  EXPECT_EQ(run({"help"}).results, run({"--help"}).results);
+  EXPECT_EQ(run({"help", "weeve"}).messages, "scanloom help: weeve: is no verb; did you mean 'weave'?\n");
+}
+
 TEST_F(Program, writesThePageOfAllParameters)
 {
   const std::string page = run({"config", "--parameters"}).results;
