@@ -75,14 +75,18 @@ catch (const std::exception& e)
   std::cerr << fmt::format("scanloom {}: {}\n", name, messageIn(e.what()));
   return kFailed;
 }
+
 int printHelp(const CLI::App& app, const std::string& verb)
 {
-  const auto chosen =
-      app.get_subcommands([&](const CLI::App* subcommand) { return !verb.empty() && subcommand->get_name() == verb; });
-  if (chosen.empty() && !verb.empty())
-    throw UsageError(fmt::format("{}: is no verb; {}", verb, suggestion(verb, namesKnownTo(app))));
-  std::cout << (chosen.empty() ? app.help() : chosen.front()->help(app.get_name()));
-  return kDone;
+  const auto print = [&](const CLI::App& chosen, const std::string& name)
+  {
+    std::cout << app.get_formatter()->make_help(&chosen, name, CLI::AppFormatMode::Normal);
+    return kDone;
+  };
+  if (verb.empty()) return print(app, app.get_name());
+  for (const CLI::App* subcommand : app.get_subcommands(nullptr))
+    if (subcommand->get_name() == verb) return print(*subcommand, app.get_name() + " " + verb);
+  throw UsageError(fmt::format("{}: is no verb; {}", verb, suggestion(verb, namesKnownTo(app))));
 }
 }  // namespace
 

@@ -1,0 +1,30 @@
+#!/bin/sh
+# Makes the Debian packages of this commit on a bare Debian, has lintian look at them, installs them on another bare one, and
+# uses them there: a simulated drive is localised and recorded, and MRPT's rawlog-edit reads the rawlog by the plugin's name
+# alone. By hand, as root, with debootstrap:
+#   tests/end_to_end/packages.sh SUITE       the packages stay in $BARE_DEBIAN/SUITE/packages
+set -eu
+suite=$1 here=$(dirname "$0")
+folder=${BARE_DEBIAN:-/var/tmp/bare_debian}/$suite
+
+"$here/bare_debian.sh" "$suite" root '
+  .ci/install run package &&
+  cmake --preset release -DSCANLOOM_TESTS=OFF -DCMAKE_INSTALL_PREFIX=/usr && cmake --build --preset release &&
+  cd build/release && DEBFULLNAME=Forester DEBEMAIL=forester@debian.org cpack -G DEB &&
+  for package in *.deb; do dpkg -c "$package"; lintian --allow-root --fail-on error "$package" || exit 1; done'
+rm -rf "$folder/packages" "$folder/clean"
+mkdir "$folder/packages" "$folder/clean"
+mv "$folder"/system/home/scanloom/build/release/*.deb "$folder/packages"
+
+tar -C "$folder/clean" -xf "$folder/base.tar"
+cp "$folder"/packages/*.deb "$folder/clean/root"
+unshare --mount --pid --fork --root="$folder/clean" --mount-proc env -i PATH="$PATH" HOME=/root DEBIAN_FRONTEND=noninteractive sh -c '
+  set -e
+  cd /root
+  apt-get -q update
+  apt-get -q -y install --no-install-recommends ./scanloom_*.deb ./scanloom-mrpt-plugin_*.deb mrpt-apps
+  scanloom --version
+  params=/usr/share/scanloom/params
+  scanloom slam --simulate $params/simulation/demo.ini -c $params/harvester.ini --out-dir slam
+  scanloom record --simulate $params/simulation/demo.ini -o drive.rawlog
+  rawlog-edit -p libscanloom_mrpt.so --info -i drive.rawlog'
