@@ -12,7 +12,7 @@ install(FILES completions/_scanloom DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/ven
 # Where the loader finds it by its name alone: `rawlog-edit -p` and others hand the name to dlopen().
 install(TARGETS scanloom_mrpt LIBRARY COMPONENT plugin)
 
-install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
+install(DIRECTORY doc DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
 install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT doc)
 
 find_program(HELP2MAN help2man)
