@@ -7,9 +7,11 @@ namespace
 std::vector<Kernel> findRunnable()
 {
   std::vector<Kernel> kernels{Kernel::Portable};
+#ifdef __x86_64__
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("popcnt")) return kernels;
   kernels.push_back(Kernel::Avx2);
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")) kernels.push_back(Kernel::Avx512);
+#endif
   return kernels;
 }
 }  // namespace

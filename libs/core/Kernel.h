@@ -3,6 +3,15 @@
 #include <string_view>
 #include <vector>
 
+// Before a function: compile it for a kernel. Elsewhere than on x86 it is compiled as the rest, and never called.
+#ifdef __x86_64__
+#define SCANLOOM_AVX2 [[gnu::target("avx2")]]
+#define SCANLOOM_AVX512 [[gnu::target("avx512f,avx512dq")]]
+#else
+#define SCANLOOM_AVX2
+#define SCANLOOM_AVX512
+#endif
+
 namespace scanloom
 {
 enum class Kernel

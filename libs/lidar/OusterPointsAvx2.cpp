@@ -1,6 +1,9 @@
 /** Eight channels at a time. A permutation from a table moves those with a return to the front. */
 #include "lidar/OusterKernels.h"
 
+#ifndef __x86_64__
+const scanloom::ouster_kernels::Table scanloom::ouster_kernels::kAvx2{};  // OusterPoints refuses to use it
+#else
 #include <x86intrin.h>
 
 #define AVX2 [[gnu::target("avx2,popcnt,prfchw")]]
@@ -231,3 +234,4 @@ constexpr Table makeTable(std::index_sequence<kRows...>)
 
 const Table kAvx2 = makeTable(std::make_index_sequence<kOusterProfiles.size()>());
 }  // namespace scanloom::ouster_kernels
+#endif

@@ -64,14 +64,14 @@ void gatherPortable(const PairBatch& batch, const StructureBlock* structures, do
   gatherAll(batch, structures, d2, evidence);
 }
 
-[[gnu::target("avx2")]] void gatherAvx2(const PairBatch& batch, const StructureBlock* structures, double d2,
-                                        PairEvidence* evidence)
+SCANLOOM_AVX2 void gatherAvx2(const PairBatch& batch, const StructureBlock* structures, double d2,
+                              PairEvidence* evidence)
 {
   gatherAll(batch, structures, d2, evidence);
 }
 
-[[gnu::target("avx512f,avx512dq")]] void gatherAvx512(const PairBatch& batch, const StructureBlock* structures,
-                                                      double d2, PairEvidence* evidence)
+SCANLOOM_AVX512 void gatherAvx512(const PairBatch& batch, const StructureBlock* structures, double d2,
+                                  PairEvidence* evidence)
 {
   gatherAll(batch, structures, d2, evidence);
 }

@@ -35,12 +35,9 @@ SCANLOOM_INLINE void sumAll(const PairBatch& batch, double d2, PairSums* sums)
 
 void sumPortable(const PairBatch& batch, double d2, PairSums* sums) { sumAll(batch, d2, sums); }
 
-[[gnu::target("avx2")]] void sumAvx2(const PairBatch& batch, double d2, PairSums* sums) { sumAll(batch, d2, sums); }
+SCANLOOM_AVX2 void sumAvx2(const PairBatch& batch, double d2, PairSums* sums) { sumAll(batch, d2, sums); }
 
-[[gnu::target("avx512f,avx512dq")]] void sumAvx512(const PairBatch& batch, double d2, PairSums* sums)
-{
-  sumAll(batch, d2, sums);
-}
+SCANLOOM_AVX512 void sumAvx512(const PairBatch& batch, double d2, PairSums* sums) { sumAll(batch, d2, sums); }
 }  // namespace
 
 void sumPairs(const PairBatch& batch, double d2, PairSums* sums, Kernel kernel)

@@ -78,12 +78,12 @@ void widen(const Coordinates& points, PointCells& located)
 
 void locatePortable(std::size_t count, const Cells& cells, PointCells& located) { locateAll(count, cells, located); }
 
-[[gnu::target("avx2")]] void locateAvx2(std::size_t count, const Cells& cells, PointCells& located)
+SCANLOOM_AVX2 void locateAvx2(std::size_t count, const Cells& cells, PointCells& located)
 {
   locateAll(count, cells, located);
 }
 
-[[gnu::target("avx512f,avx512dq")]] void locateAvx512(std::size_t count, const Cells& cells, PointCells& located)
+SCANLOOM_AVX512 void locateAvx512(std::size_t count, const Cells& cells, PointCells& located)
 {
   locateAll(count, cells, located);
 }

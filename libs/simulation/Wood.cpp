@@ -89,7 +89,14 @@ double longestBranch(const std::vector<std::vector<Cone>>& looks)
 }
 }  // namespace
 
-std::string embreeInstructionSet() { return __builtin_cpu_supports("avx2") ? "avx2" : "sse4.2"; }
+std::string embreeInstructionSet()
+{
+#ifdef __x86_64__
+  return __builtin_cpu_supports("avx2") ? "avx2" : "sse4.2";
+#else
+  return "sse2";  // which Embree has for ARM, in terms of NEON
+#endif
+}
 
 void Wood::Release::operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
 void Wood::Release::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }

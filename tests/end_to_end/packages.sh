@@ -9,8 +9,9 @@ folder=${BARE_DEBIAN:-/var/tmp/bare_debian}/$suite
 
 "$here/bare_debian.sh" "$suite" root '
   .ci/install run package &&
+  export DEBFULLNAME=Forester DEBEMAIL=forester@debian.org &&
   cmake --preset release -DSCANLOOM_TESTS=OFF -DCMAKE_INSTALL_PREFIX=/usr && cmake --build --preset release &&
-  cd build/release && DEBFULLNAME=Forester DEBEMAIL=forester@debian.org cpack -G DEB &&
+  cd build/release && cpack -G DEB &&
   for package in *.deb; do dpkg -c "$package"; lintian --allow-root --fail-on error "$package" || exit 1; done'
 rm -rf "$folder/packages" "$folder/clean"
 mkdir "$folder/packages" "$folder/clean"
