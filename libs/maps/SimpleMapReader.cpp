@@ -68,7 +68,7 @@ void append(PointCloud& points, const CObservationPointCloud& cloud, const Rigid
 std::unique_ptr<mrpt::maps::CSimpleMap> load(const std::filesystem::path& path)
 {
   registerClasses();
-  GzipArchive::uncompressedBytes(path);  // throws if the file is cut short or damaged
+  uncompressedBytes(path);  // throws if the file is cut short or damaged
   CountedArchive archive(path);
   auto map = std::make_unique<mrpt::maps::CSimpleMap>();
   try

@@ -77,8 +77,7 @@ const CountedClass* classNamed(std::string_view text)
 }  // namespace
 
 CountedArchive::CountedArchive(const std::filesystem::path& path)
-  : file_(GzipArchive::reading(path)),
-    largest_object_(kLargestObject + kLargestRatio * std::filesystem::file_size(path))
+  : file_(path), largest_object_(kLargestObject + kLargestRatio * std::filesystem::file_size(path))
 {
 }
 
@@ -96,7 +95,7 @@ std::size_t CountedArchive::read(void* bytes, std::size_t count)
   const std::size_t known = std::min(count, ahead_.size() - ahead_taken_);
   std::copy_n(ahead_.begin() + static_cast<std::ptrdiff_t>(ahead_taken_), known, static_cast<char*>(bytes));
   ahead_taken_ += known;
-  if (known < count) file_.ReadBuffer(static_cast<char*>(bytes) + known, count - known);
+  if (known < count) file_.read(static_cast<char*>(bytes) + known, count - known);
   followObjects(static_cast<const char*>(bytes), count);
   follow(static_cast<const char*>(bytes), count);
   return count;

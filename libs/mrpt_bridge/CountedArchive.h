@@ -1,11 +1,13 @@
 /**
- * Reads objects of a gzip file for MRPT and refuses counts of items that cannot fit into the rest of the file. MRPT
- * itself reserves memory for any count that it reads: a flipped bit in a file of 2 kB can ask for 60 GB. Counts are
- * known in the classes of kCountedClasses; objects of other classes are read as MRPT reads them. Also refuses actions
- * that MRPT would crash on: of another class, without a pose, or of billions of particles.
+ * Reads objects of a plain, gzip or zstd file for MRPT and refuses counts of items that cannot fit into the rest of the
+ * file. MRPT itself reserves memory for any count that it reads: a flipped bit in a file of 2 kB can ask for 60 GB.
+ * Counts are known in the classes of kCountedClasses; objects of other classes are read as MRPT reads them. Also
+ * refuses actions that MRPT would crash on: of another class, without a pose, or of billions of particles.
  */
 #pragma once
-#include "mrpt_bridge/GzipArchive.h"
+#include "formats/CompressedFile.h"
+
+#include <mrpt/serialization/CArchive.h>
 
 #include <cstdint>
 #include <string>
@@ -32,7 +34,7 @@ class CountedArchive : public mrpt::serialization::CArchive
   /** Throws std::runtime_error with the file's name if it cannot be opened. */
   explicit CountedArchive(const std::filesystem::path&);
 
-  /** To be called between objects. Throws as GzipArchive::atEnd(). */
+  /** To be called between objects. Throws as CompressedFile::atEnd(). */
   bool atEnd();
 
   /** Compressed bytes, for a progress bar; ahead of the objects. */
@@ -69,7 +71,7 @@ class CountedArchive : public mrpt::serialization::CArchive
   [[noreturn]] void refuseLargeObject();
   [[noreturn]] void refuse(const std::string& why);
 
-  GzipArchive file_;
+  CompressedFile file_;
   std::uint64_t largest_object_;  // uncompressed bytes
   std::uint64_t object_ = 0;      // bytes of the object that is being read
   std::vector<char> ahead_;       // unpacked to see whether so many bytes follow

@@ -1,6 +1,6 @@
 /**
- * A gzip file as MRPT's archive. MRPT's own CFileGZInputStream and CFileGZOutputStream do not report a damaged or cut
- * file (gzread's -1 becomes a length of 2^64 - 1) nor a full disk (gzclose's result is ignored).
+ * Writes objects of MRPT to a gzip file. MRPT's own CFileGZOutputStream does not report a full disk: gzclose's result
+ * is ignored.
  */
 #pragma once
 #include <mrpt/serialization/CArchive.h>
@@ -13,27 +13,13 @@ namespace scanloom
 class GzipArchive : public mrpt::serialization::CArchive
 {
  public:
-  /** Also reads plain files. Throws std::runtime_error with the file's name if it can't be opened. */
-  static GzipArchive reading(const std::filesystem::path&);
-  /** Level 0 (stored) to 9. */
+  /** Level 0 (stored) to 9. Throws std::runtime_error with the file's name if it can't be opened. */
   static GzipArchive writing(const std::filesystem::path&, int level);
   /** To an open file, whose descriptor the archive closes. @param path for messages. */
   static GzipArchive writing(int descriptor, const std::filesystem::path& path, int level);
-  /** Reads the file to its end. Throws std::runtime_error if it can't be opened, is cut short or damaged. */
-  static std::uint64_t uncompressedBytes(const std::filesystem::path&);
-
   GzipArchive(GzipArchive&&) noexcept;
   GzipArchive& operator=(GzipArchive&&) = delete;
   ~GzipArchive() override;
-
-  /** Whether the file ends here. Throws std::runtime_error if it ends because it is cut or damaged. */
-  bool atEnd();
-
-  /** Reads `count` bytes, or fewer if the file ends before. Throws std::runtime_error if its data are damaged. */
-  std::size_t readUpTo(void* bytes, std::size_t count);
-
-  /** Compressed bytes, for a progress bar; ahead of the objects by up to one buffer. */
-  std::uint64_t bytesRead() const;
 
   /**
    * Ends the gzip member and passes it to the operating system: what was written so far is readable even if the program
@@ -46,8 +32,7 @@ class GzipArchive : public mrpt::serialization::CArchive
 
  protected:
   std::size_t write(const void* bytes, std::size_t count) override;
-  /** Reads all `count` bytes, or throws std::runtime_error. */
-  std::size_t read(void* bytes, std::size_t count) override;
+  [[noreturn]] std::size_t read(void* bytes, std::size_t count) override;
 
  private:
   GzipArchive(const std::filesystem::path&, gzFile opened);

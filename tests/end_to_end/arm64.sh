@@ -1,6 +1,52 @@
 #!/bin/sh
-# Builds decoding, batching, IMU and registration for arm64 and runs their tests, and the example of the manual, in an
-# emulator: the same points, columns and poses to the bit as on this machine. By hand, as root, with debootstrap:
+# Cross-compiles decoding, batching, IMU and registration for arm64 and runs their tests in an emulator. Then merges and
+# registers a simulated recording there and by this machine's build: points, poses and preintegration must be the same bits.
+# By hand, as root, with debootstrap, after `cmake --build --preset release --target scanloom scanloom_bits`:
 #   tests/end_to_end/arm64.sh
-# $BARE_DEBIAN/arm64 (default: /var/tmp/bare_debian) keeps the system with compiler and packages for the next time.
+# Not the program: the headers of MRPT 2.5.8 for arm64 ask for a processor of Intel's.
+# $BARE_DEBIAN/arm64 (default: /var/tmp/bare_debian) keeps the system with all packages for the next time.
 set -eu
+project=$(cd "$(dirname "$0")/../.." && pwd)
+folder=${BARE_DEBIAN:-/var/tmp/bare_debian}/arm64
+system=$folder/system
+work=$system/root/scanloom
+inside() { unshare --mount --pid --fork --root="$system" --mount-proc env -i PATH="$PATH" HOME=/root sh -c "$1"; }
+linesOf() { awk -v group="$1" '/^# group:/ { here = $3 == group; next } here && /-dev/ { print $1 }' "$project/apt-packages.txt"; }
+
+if [ ! -f "$folder/ready" ]; then
+  mkdir -p "$folder"
+  mirror=${DEBIAN_MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)}
+  debootstrap --variant=minbase bookworm "$system" $mirror
+  echo 'Acquire::Check-Valid-Until "false";' > "$system/etc/apt/apt.conf.d/80mirror"
+  inside "
+    set -e
+    export DEBIAN_FRONTEND=noninteractive
+    dpkg --add-architecture arm64
+    apt-get -q update
+    apt-get -q -y install --no-install-recommends crossbuild-essential-arm64 qemu-user-static cmake ninja-build pkg-config zstd
+    for package in $(echo $(linesOf run) $(linesOf check)); do
+      apt-cache show \$package 2>/dev/null | grep -q '^Architecture: all' && echo \$package || echo \$package:arm64
+    done | grep -v libclang > /root/packages
+    apt-get -q -y install --no-install-recommends \$(cat /root/packages)"
+  touch "$folder/ready"
+fi
+
+mkdir -p "$work"
+git -C "$project" archive HEAD | tar -C "$work" -x
+inside "
+  set -e
+  cd /root/scanloom
+  cmake --preset release -DCMAKE_TOOLCHAIN_FILE=tests/end_to_end/arm64.toolchain.cmake > /dev/null
+  cmake --build --preset release --target scanloom_bits \
+    scanloom_test_core scanloom_test_lidar scanloom_test_batching scanloom_test_imu scanloom_test_ndt
+  ctest --preset release -R '^(core|lidar|batching|imu|ndt)\.' -j $(nproc)"
+
+rm -rf "$work/recording"
+"$project/build/release/bin/scanloom" simulate -c "$project/params/simulation/demo.ini" --set simulated_drive.standstill=1 \
+  --set simulated_drive.speed_up=1 --set simulated_drive.duration=4 --out-dir "$work/recording" > /dev/null
+cd "$work/recording"
+files="recording.pcap left.json right.json extrinsics.txt"
+"$project/build/release/bin/scanloom_bits" $files > here.txt
+inside "cd /root/scanloom/recording && qemu-aarch64-static ../build/release/bin/scanloom_bits $files > arm64.txt"
+cmp here.txt arm64.txt
+echo "$(wc -l < here.txt) lines of digests and poses are the same bits on arm64"

@@ -59,7 +59,7 @@ int main(int argc, char** argv)
     before = cells;
   }
   const Preintegration motion = preintegrate(samples, {}, {});
-  std::printf("IMU %zu %a %a, covariance %s\n", samples.size(), motion.delta.position.x(), motion.delta.rotation.z(),
-              digestOf(motion.covariance).c_str());
+  // Not its covariance: for matrices of 9 x 9 Eigen has another kernel on each kind of processor.
+  std::printf("IMU %zu %a %a\n", samples.size(), motion.delta.position.x(), motion.delta.rotation.z());
   return 0;
 }

@@ -15,7 +15,7 @@ folder=${BARE_DEBIAN:-/var/tmp/bare_debian}/$suite
   for package in *.deb; do dpkg -c "$package"; lintian --allow-root --fail-on error "$package" || exit 1; done'
 rm -rf "$folder/packages" "$folder/clean"
 mkdir "$folder/packages" "$folder/clean"
-mv "$folder"/system/home/scanloom/build/release/*.deb "$folder/packages"
+mv "$folder"/system/root/scanloom/build/release/*.deb "$folder/packages"
 
 tar -C "$folder/clean" -xf "$folder/base.tar"
 cp "$folder"/packages/*.deb "$folder/clean/root"

@@ -1,6 +1,8 @@
 /** RawlogWriter, RawlogReader and RawlogInfo on files. */
 #include "mrpt_bridge/CGenericPointsMap.h"
 #include "mrpt_bridge/GzipArchive.h"
+
+#include "formats/CompressedFile.h"
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogInfo.h"
 #include "mrpt_bridge/RawlogInput.h"
@@ -77,8 +79,8 @@ std::string serialised(const fs::path& path, const std::vector<const mrpt::seria
   GzipArchive archive = GzipArchive::writing(path, 0);
   for (const auto* object : objects) archive << *object;
   archive.close();
-  std::string plain(GzipArchive::uncompressedBytes(path), '\0');
-  GzipArchive::reading(path).ReadBuffer(plain.data(), plain.size());
+  std::string plain(uncompressedBytes(path), '\0');
+  CompressedFile(path).read(plain.data(), plain.size());
   return plain;
 }
 
