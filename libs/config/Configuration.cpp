@@ -192,8 +192,8 @@ void Configuration::refuseBeyond(std::size_t size, const std::string& section, c
   std::vector<std::string> problems;
   for (const std::string& key : keys(section))
     if (const auto element = elementOf(list, key); element && *element > size)
-      problems.push_back(fmt::format("{}: [{}] {}: there are only {}: number them from 1 on, and give each {}",
-                                     toString(place(section, key)), section, key, size, needs));
+      problems.push_back(fmt::format("{}: [{}] {}: number {} is missing: number them without a gap, and give each {}",
+                                     toString(place(section, key)), section, key, size + 1, needs));
   refuse(problems);
 }
 

@@ -21,8 +21,9 @@ bool sameName(std::string_view, std::string_view);
 std::size_t editDistance(std::string_view, std::string_view);
 
 /**
- * `did you mean 'cell_size'?` if a candidate is a few typing errors away from `name`; otherwise
- * `known are 'a', 'b' and 'c'`; empty if there are no candidates.
+ * `did you mean 'cell_size'?` if a candidate is a few typing errors away from `name`, also with its words in another
+ * order, or if candidates contain it. Otherwise `known are 'a', 'b' and 'c'`, or of more than ten the nearest; empty if
+ * there are no candidates.
  */
 std::string suggestion(std::string_view name, const std::vector<std::string>& candidates);
 }  // namespace scanloom

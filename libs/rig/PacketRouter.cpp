@@ -13,6 +13,8 @@ namespace
 {
 constexpr std::size_t kMostOrigins = 1000;
 constexpr std::size_t kMostStrangersTold = 20;
+constexpr int kPacketsElsewhere = 50;  // at a wrong port, until it is told: a tenth of a second
+constexpr std::size_t kMostPortsWatched = 100;
 
 /** How badly a decoder understands a packet: only the candidates that understand it best are kept. */
 int strangeness(PacketKind kind)
@@ -51,7 +53,7 @@ void refuseWithoutPort(const std::string& label, const LidarAddress& address)
 }  // namespace
 
 PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars)
-  : lidars_(std::move(lidars)), senders_(lidars_.size()), of_other_senders_(lidars_.size(), 0)
+  : lidars_(std::move(lidars)), senders_(lidars_.size()), of_other_senders_(lidars_.size(), 0), heard_(lidars_.size())
 {
   for (LidarIndex i = 0; i < lidars_.size(); ++i) replace(i, lidars_[i].address, lidars_[i].decoder);
 }
@@ -71,8 +73,12 @@ std::optional<RoutedPacket> PacketRouter::route(const DatagramView& datagram)
   if (sender == LidarSender::Verdict::Refused)
   {
     ++unmatched_[countedOrigin(datagram)];
+    if (!lidar) noticeWrongPort(datagram);
     return std::nullopt;
   }
+  Heard& heard = heard_[lidar->lidar];
+  heard.lidar |= lidar->kind == PacketKind::Lidar;
+  heard.imu |= lidar->kind == PacketKind::Imu;
   RoutedPacket packet =
       readPacket(lidar->lidar, *lidars_[lidar->lidar].decoder, lidar->kind, datagram.payload, datagram.received);
   packet.of_new_sender = sender == LidarSender::Verdict::TakesOver;
@@ -168,6 +174,31 @@ PacketRouter::Candidates PacketRouter::fromKnownSource(const Candidates& candida
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(from_there),
                [&](const Candidate& c) { return senders_[c.lidar]->address() == source; });
   return from_there.empty() ? candidates : from_there;
+}
+
+/** Of a lidar that is not heard where it should be, if it can be no other one's. */
+void PacketRouter::noticeWrongPort(const DatagramView& datagram)
+{
+  Candidates unheard;
+  for (LidarIndex i = 0; i < lidars_.size(); ++i)
+  {
+    const LidarAddress& address = lidars_[i].address;
+    if (!lidars_[i].decoder || address.key.empty() || (address.source && *address.source != datagram.source)) continue;
+    const PacketKind kind = lidars_[i].decoder->kindByHeader(datagram.payload);
+    const bool is_sought =
+        (kind == PacketKind::Lidar && !heard_[i].lidar) || (kind == PacketKind::Imu && !heard_[i].imu);
+    if (is_sought && lidars_[i].decoder->isIntact(datagram.payload)) unheard.push_back({i, kind});
+  }
+  if (unheard.size() != 1 || elsewhere_.size() >= kMostPortsWatched) return;
+  const auto [lidar, kind] = unheard.front();
+  const std::uint16_t port = datagram.destination_port;
+  if (++elsewhere_[{lidar, kind, port}] != kPacketsElsewhere) return;
+  const LidarAddress& address = lidars_[lidar].address;
+  const bool is_imu = kind == PacketKind::Imu;
+  warnings_.push_back(fmt::format("lidar '{}': its {}packets come to port {}, not to {}: set {}_{} = {}",
+                                  lidars_[lidar].label, is_imu ? "IMU " : "", port,
+                                  is_imu ? address.imu_port : address.lidar_port, address.key,
+                                  is_imu ? "imu_port" : "port", port));
 }
 
 /** One damaged packet must not end a run, and where all are ambiguous the lidars are silent: that is told at the end.

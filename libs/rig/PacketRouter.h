@@ -19,6 +19,7 @@ struct LidarAddress
   std::uint16_t lidar_port = 0;     // never 0
   std::uint16_t imu_port = 0;       // may be the same; 0 if there is none
   std::optional<IpAddress> source;  // of the sensor; needed where sensors send to the same port
+  std::string key{};                // of its keys in the configuration: "lidar2" of lidar2_port; empty if there is none
 };
 
 struct RoutedLidar
@@ -79,10 +80,17 @@ class PacketRouter
   };
   using Candidates = std::vector<Candidate>;
 
+  /** Whether packets came to the port where they should. */
+  struct Heard
+  {
+    bool lidar = false, imu = false;
+  };
+
   Candidates listenersTo(const DatagramView&) const;
   Candidates bestOf(Candidates, Bytes packet) const;
   Candidates fromKnownSource(const Candidates&, const IpAddress& source) const;
   std::optional<Candidate> decide(const DatagramView&);
+  void noticeWrongPort(const DatagramView&);
   LidarSender::Verdict judgeSender(const Candidate&, const DatagramView&);
   Origin countedOrigin(const DatagramView&) const;
   void warnOfAmbiguity(const DatagramView&, const Candidates&);
@@ -91,7 +99,10 @@ class PacketRouter
   std::vector<RoutedLidar> lidars_;
   std::vector<std::optional<LidarSender>> senders_;  // of each lidar; none while it is not known
   std::map<Origin, std::uint64_t> unmatched_;
-  std::vector<std::uint64_t> of_other_senders_;           // of each lidar
+  std::vector<std::uint64_t> of_other_senders_;  // of each lidar
+  std::vector<Heard> heard_;                     // of each lidar
+  std::map<std::tuple<LidarIndex, PacketKind, std::uint16_t>, int>
+      elsewhere_;                                         // packets at another port, up to a limit
   std::set<std::uint16_t> ambiguous_ports_;               // that were told
   std::set<std::pair<LidarIndex, IpAddress>> strangers_;  // that were told, up to a limit
   std::vector<std::string> warnings_;

@@ -113,7 +113,8 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
     if (!wanted(options.name, only)) continue;
     RigSensor sensor;
     sensor.options = options;
-    sensor.body_T_sensor = poseOf(fmt::format("lidar{}_pose", i + 1), options.pose, options.name, settings.rig, poses);
+    sensor.key = fmt::format("lidar{}", i + 1);
+    sensor.body_T_sensor = poseOf(sensor.key + "_pose", options.pose, options.name, settings.rig, poses);
     rig.sensors.push_back(std::move(sensor));
   }
   askForMetadata(rig.sensors, rig.captures.empty() ? MetadataNeed::OfSome : MetadataNeed::OfAll);

@@ -28,6 +28,7 @@ std::shared_ptr<const PacketDecoder> decoderOf(const RigSensor& lidar)
 LidarAddress addressOf(const RigSensor& lidar, const PacketDecoder* decoder)
 {
   LidarAddress address;
+  address.key = lidar.key;
   address.lidar_port = portOf(lidar.options.port, decoder, &LidarDescription::lidar_port, defaultPorts().lidar);
   address.imu_port = portOf(lidar.options.imu_port, decoder, &LidarDescription::imu_port, defaultPorts().imu);
   if (const auto sensor = sensorOf(lidar.options)) address.source = sensor->address.ip;

@@ -11,6 +11,7 @@ namespace scanloom
 struct RigSensor
 {
   LidarOptions options;
+  std::string key;  // of its keys in the configuration: "lidar2" of lidar2_port
   Rigid body_T_sensor;
   std::optional<LidarSensor> sensor;      // none if its metadata are in a file
   std::optional<LidarMetadata> metadata;  // none while not known

@@ -18,7 +18,7 @@ namespace scanloom
 struct RunSummary
 {
   std::string command;                          // the line that repeats the run
-  std::string outcome;                          // "OK", "INITIALISING", "DEGENERATE", "LOST", "INTERRUPTED", "FAILED"
+  std::string outcome;                          // see SlamRunResult
   std::string error;                            // what ended the run, or which maps are missing and why; empty: nothing
   std::map<std::string, std::string> versions;  // program or library -> version
   std::uint64_t seed = 0;                       // 0: no random numbers

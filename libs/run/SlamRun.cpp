@@ -1,5 +1,6 @@
 #include "run/SlamRun.h"
 
+#include "rig/silentLidars.h"
 #include "run/CropReport.h"
 #include "run/ImuInUse.h"
 #include "run/RigCheck.h"
@@ -50,6 +51,7 @@ class SlamRun
     for (const auto& [name, refused] : imu_.refused())
       warn_(fmt::format("the IMU '{}': samples were refused: {}", name, refused.toString()));
     for (const std::string& warning : cropWarnings(slam_.cropped(), lidars())) warn_(warning);
+    for (const std::string& line : silentLidars(input_.account())) warn_(line);
   }
 
   RunProgress progress() const
@@ -74,11 +76,14 @@ class SlamRun
     SlamRunResult result;
     RunSummary& summary = result.summary;
     const bool whole = slam_.mapRestarts() == 0;
-    result.passed = counts_.passed() && whole && !check_.warned();
+    const RigAccount account = input_.account();
+    const bool silent = !silentLidars(account).empty();
+    result.passed = counts_.passed() && whole && !silent && !check_.warned();
     summary.imu = check_.imu();
     summary.lidars = check_.lidars();
     summary.outcome = interrupted ? "INTERRUPTED" : whole ? counts_.outcome() : "LOST";
-    summary.counts = countsOf(input_.account());
+    if (silent && summary.outcome == "OK") summary.outcome = "LIDAR MISSING";
+    summary.counts = countsOf(account);
     summary.counts["scans_skipped"] = slam_.skippedScans();
     summary.counts["recoveries"] = slam_.recoveries();
     summary.counts["map_restarts"] = slam_.mapRestarts();

@@ -22,10 +22,15 @@ using KeepGoing = std::function<bool(const RunProgress&)>;
 
 struct SlamRunResult
 {
-  RunSummary summary;  // counts, stages, outcome: OK, INITIALISING, DEGENERATE, LOST, NOTHING, INTERRUPTED or FAILED
+  /**
+   * Counts, stages, and the outcome: OK, LIDAR MISSING (OK, but a lidar is in no scan), INITIALISING, DEGENERATE, LOST,
+   * NOTHING, INTERRUPTED or FAILED.
+   */
+  RunSummary summary;
   /**
    * False if there is no pose, if the state was LOST at the end or for more than 5 % of the poses, if the local map was
-   * started anew (the trajectory has a break), or if a lidar or the IMU is at fault (RigCheck).
+   * started anew (the trajectory has a break), if a lidar is in no scan, or if a lidar or the IMU is at fault
+   * (RigCheck).
    */
   bool passed = true;
 };

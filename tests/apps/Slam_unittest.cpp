@@ -63,6 +63,19 @@ TEST(SlamVerb, aDamageOfTheCaptureEndsTheReadingButNotTheRun)
   EXPECT_GT(readTum(folder / "trajectory.tum").size(), 20u);
 }
 
+TEST(SlamVerb, aLidarAtAnotherPortIsMissingAndThePortIsNamed)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  const TemporaryFolder copy, folder;
+  const Ended ended = slam(damagedCopy(recording, copy.path()),
+                           "--set output.maps=false --set lidars.lidar2_port=9999 --out-dir " + folder.path().string());
+  EXPECT_EQ(ended.status, 3) << ended.output;
+  EXPECT_NE(ended.output.find("lidar 'right': its packets come to port 7504, not to 9999: set lidar2_port = 7504"),
+            std::string::npos)
+      << ended.output;
+  EXPECT_EQ(summaryIn(folder.path())["outcome"], "LIDAR MISSING");
+}
+
 TEST(SlamVerb, aFailedRunLeavesTheResultsOfAnEarlierOneWhole)
 {
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");

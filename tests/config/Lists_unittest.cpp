@@ -72,8 +72,8 @@ TEST(Lists, areAsLongAsThereAreNames)
 
 TEST(Lists, refuseNumbersWithoutNameAndKeysThatNoElementHas)
 {
-  EXPECT_THAT(problemOf("[seats]\nseat3_height = 1\n"), HasSubstr("there are only 2"));
-  EXPECT_THAT(problemOf("[seats]\nseat1_name = a\nseat3_name = c\n"), HasSubstr("seat3_name"));
+  EXPECT_THAT(problemOf("[seats]\nseat3_height = 1\n"), HasSubstr("seat3_height: number 3 is missing"));
+  EXPECT_THAT(problemOf("[seats]\nseat1_name = a\nseat3_name = c\n"), HasSubstr("seat3_name: number 2 is missing"));
   EXPECT_THAT(problemOf("[seats]\nseat2_hight = 1\n"), HasSubstr("seat2_hight"));
   EXPECT_THAT(problemOf("[seats]\nseat2_height = -1\n"), HasSubstr("must be > 0"));
 }

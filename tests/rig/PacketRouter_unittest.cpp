@@ -93,6 +93,23 @@ TEST(PacketRouter, countsByPortAndSourceWhatIsNoLidars)
   EXPECT_TRUE(router.unmatched() == expected);
 }
 
+TEST(PacketRouter, namesThePortToSetIfALidarIsHeardAtAnotherOneOnly)
+{
+  PacketRouter router({{"left", {7502, 7503, {}, "lidar1"}, &kLeft}, {"right", {9999, 9998, {}, "lidar2"}, &kRight}});
+  for (int i = 0; i < 200; ++i)
+  {
+    route(router, datagram("La", 7502));
+    EXPECT_EQ(route(router, datagram("Lb", 7504)), "none");
+    EXPECT_EQ(route(router, datagram("Ib", 7505)), "none");
+    route(router, datagram("La", 8502));  // a copy of what is heard
+    route(router, datagram("Lc", 7504));
+  }
+  EXPECT_THAT(router.takeWarnings(),
+              testing::UnorderedElementsAre(
+                  "lidar 'right': its packets come to port 7504, not to 9999: set lidar2_port = 7504",
+                  "lidar 'right': its IMU packets come to port 7505, not to 9998: set lidar2_imu_port = 7505"));
+}
+
 TEST(PacketRouter, tellsLidarsOnOnePortApartBySerial)
 {
   PacketRouter router = twoLidars({7502, 7502, {}}, {7502, 7502, {}});
