@@ -3,7 +3,7 @@
 # registers a simulated recording there and by this machine's build: points, poses and preintegration must be the same bits.
 # By hand, as root, with debootstrap, after `cmake --build --preset release --target scanloom scanloom_bits`:
 #   tests/end_to_end/arm64.sh
-# Not the program: the headers of MRPT 2.5.8 for arm64 ask for a processor of Intel's.
+# $SCANLOOM_DATA, if set, names the recordings for the tests that read them.
 # $BARE_DEBIAN/arm64 (default: /var/tmp/bare_debian) keeps the system with all packages for the next time.
 set -eu
 project=$(cd "$(dirname "$0")/../.." && pwd)
@@ -27,11 +27,16 @@ if [ ! -f "$folder/ready" ]; then
     for package in $(echo $(linesOf run) $(linesOf check)); do
       apt-cache show \$package 2>/dev/null | grep -q '^Architecture: all' && echo \$package || echo \$package:arm64
     done | grep -v libclang > /root/packages
-    apt-get -q -y install --no-install-recommends \$(cat /root/packages)"
+    apt-get -q -y install --no-install-recommends \$(cat /root/packages)
+    # apt takes libmrpt-common-dev of this machine for arm64's, but its config.h tells the processor.
+    apt-get -q -o APT::Sandbox::User=root download libmrpt-common-dev:arm64
+    dpkg -x libmrpt-common-dev_*_arm64.deb /"
   touch "$folder/ready"
 fi
 
+rm -rf "$work" "$system/root/data"
 mkdir -p "$work"
+[ -z "${SCANLOOM_DATA:-}" ] || cp -r "$SCANLOOM_DATA" "$system/root/data"
 git -C "$project" archive HEAD | tar -C "$work" -x
 inside "
   set -e
@@ -39,9 +44,9 @@ inside "
   cmake --preset release -DCMAKE_TOOLCHAIN_FILE=tests/end_to_end/arm64.toolchain.cmake > /dev/null
   cmake --build --preset release --target scanloom_bits \
     scanloom_test_core scanloom_test_lidar scanloom_test_batching scanloom_test_imu scanloom_test_ndt
+  [ ! -d /root/data ] || export SCANLOOM_DATA=/root/data
   ctest --preset release -R '^(core|lidar|batching|imu|ndt)\.' -j $(nproc)"
 
-rm -rf "$work/recording"
 "$project/build/release/bin/scanloom" simulate -c "$project/params/simulation/demo.ini" --set simulated_drive.standstill=1 \
   --set simulated_drive.speed_up=1 --set simulated_drive.duration=4 --out-dir "$work/recording" > /dev/null
 cd "$work/recording"
