@@ -75,9 +75,9 @@ void Configuration::add(const std::vector<IniEntry>& entries)
 {
   std::vector<std::string> problems;
   for (const IniEntry& entry : entries)
-    if (const auto& [first, is_new] = insert(entry); !is_new)
-      problems.push_back(fmt::format("{}: [{}] {}: is already set at {}", toString(entry.place), entry.section,
-                                     entry.key, toString(first.place)));
+    if (const auto& [first, is_new] = insert(entry); !is_new && first.value != entry.value)
+      problems.push_back(fmt::format("{}: [{}] {} = {}: is already set to {} at {}", toString(entry.place),
+                                     entry.section, entry.key, entry.value, first.value, toString(first.place)));
   refuse(problems);
 }
 

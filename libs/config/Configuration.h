@@ -26,7 +26,7 @@ void collect(std::vector<std::string>& problems, const std::function<void()>& ch
 class Configuration
 {
  public:
-  /** @throws ConfigError with every file that cannot be read, and both places of each key that is given twice. */
+  /** @throws ConfigError with every file that cannot be read, and both places of each key that is given two values. */
   static Configuration fromFiles(const std::vector<std::filesystem::path>&);
   static Configuration fromText(std::string_view text, const std::string& name);
 

@@ -16,10 +16,9 @@ namespace scanloom
  */
 struct CropOptions
 {
-  // Larger than a harvester with its boom: losing some trees is better than keeping a part of the machine.
-  double min_x = -4.0, max_x = 10.0;
-  double min_y = -3.0, max_y = 3.0;
-  double min_z = -0.5, max_z = 6.0;
+  double min_x = 0, max_x = 0;
+  double min_y = 0, max_y = 0;
+  double min_z = 0, max_z = 0;
   double min_range = 0.5;
   double max_range = 100.0;
   std::string lidar_boxes;
@@ -27,7 +26,7 @@ struct CropOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.min_x, Field{"min_x", "m", "rear of the machine's box in the body frame"});
+    visit(o.min_x, Field{"min_x", "m", "rear of the machine's box in the body frame; the default is no box"});
     visit(o.max_x, Field{"max_x", "m", "front of the box"});
     visit(o.min_y, Field{"min_y", "m", "right side of the box"});
     visit(o.max_y, Field{"max_y", "m", "left side of the box"});

@@ -39,9 +39,9 @@ class Journey
   static SlamSettings settings()
   {
     SlamSettings settings;
-    settings.crop.max_x = 3;
-    settings.crop.max_y = 2;
-    settings.crop.min_y = -2;
+    settings.crop.min_x = -4, settings.crop.max_x = 3;
+    settings.crop.min_y = -2, settings.crop.max_y = 2;
+    settings.crop.min_z = -0.5, settings.crop.max_z = 6;
     settings.slam.trust.contradiction = 0;
     settings.slam.trust.restart_after = 1000;
     return settings;

@@ -234,16 +234,22 @@ TEST_F(ConfigurationFiles, areReadTogether)
   EXPECT_THAT(configuration.keys("NDT"), ElementsAre("cell_size", "overlap"));
 }
 
-TEST_F(ConfigurationFiles, refuseAKeyInTwoFilesNamingBothPlaces)
+TEST_F(ConfigurationFiles, mayGiveOneValueTwice)
+{
+  const auto a = write("a.ini", "[ndt]\ncell_size = 2\n"), b = write("b.ini", "[NDT]\nCELL_SIZE = 2\n");
+  EXPECT_EQ(Configuration::fromFiles({a, b}).text("ndt", "cell_size"), "2");
+}
+
+TEST_F(ConfigurationFiles, refuseTwoValuesOfAKeyNamingBothPlaces)
 {
   const auto a = write("a.ini", "[ndt]\ncell_size = 2\n");
-  const auto b = write("b.ini", "[NDT]\n\nCELL_SIZE = 2\n");
+  const auto b = write("b.ini", "[NDT]\n\nCELL_SIZE = 3\n");
 
   EXPECT_THAT(problemsOf(
                   [&] {
                     Configuration::fromFiles({a, b});
                   }),
-              ElementsAre(b.string() + ":3: [NDT] CELL_SIZE: is already set at " + a.string() + ":2"));
+              ElementsAre(b.string() + ":3: [NDT] CELL_SIZE = 3: is already set to 2 at " + a.string() + ":2"));
 }
 
 TEST_F(ConfigurationFiles, areAllNamedIfTheyAreMissing)

@@ -5,6 +5,7 @@
 #include "run/SlamRun.h"
 #include "simulation/SceneInput.h"
 #include "support/TemporaryFolder.h"
+#include "support/harvesterSettings.h"
 
 #include <nlohmann/json.hpp>
 
@@ -140,7 +141,7 @@ LeftBehind localise(const Fault& fault, const std::vector<int>& imus = {SensorIm
   SlamFiles files(folder.path(), input.setup().header.lidars, std::nullopt);
   LeftBehind outcome;
   const SlamRunResult result = runSlam(
-      input, {}, files, [](const RunProgress&) { return true; },
+      input, harvesterSettings(), files, [](const RunProgress&) { return true; },
       [&](const std::string& warning) { outcome.warnings += warning + '\n'; });
   files.close(result.summary);
 

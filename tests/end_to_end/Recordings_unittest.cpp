@@ -10,6 +10,7 @@
 #include "run/SlamRun.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/harvesterSettings.h"
 
 using namespace scanloom;
 
@@ -26,7 +27,8 @@ Rig rigOf(const std::filesystem::path& recording, const std::vector<std::string>
   return makeRig(readRigSettings(configuration, "rig"), only);
 }
 
-RunSummary localise(SensorInput& input, const std::filesystem::path& folder, const SlamSettings& settings = {})
+RunSummary localise(SensorInput& input, const std::filesystem::path& folder,
+                    const SlamSettings& settings = harvesterSettings())
 {
   OctoMapOptions coarse;  // not what is looked at here
   coarse.resolution = 1;
@@ -49,7 +51,7 @@ void expectDrift(const std::filesystem::path& recording, const std::vector<std::
                  double limit)
 {
   const TemporaryFolder folder;
-  SlamSettings settings;
+  SlamSettings settings = harvesterSettings();
   settings.slam.every_nth = every_nth;
   const auto input = openRig(rigOf(recording, lidars));
   localise(*input, folder.path(), settings);

@@ -5,6 +5,7 @@
 #include "run/SlamRun.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/harvesterSettings.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -63,7 +64,7 @@ Told localise(SensorInput& input, const std::filesystem::path& folder)
   Told told;
   SlamFiles files(folder, input.setup().header.lidars, std::nullopt);
   const SlamRunResult result = runSlam(
-      input, {}, files, [](const RunProgress&) { return true; },
+      input, harvesterSettings(), files, [](const RunProgress&) { return true; },
       [&](const std::string& warning) { told.warnings.push_back(warning); });
   files.close(result.summary);
   told.passed = result.passed;

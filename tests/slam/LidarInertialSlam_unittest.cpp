@@ -24,9 +24,9 @@ Driven runFor(
     const Machine& machine, Duration length, SlamSettings settings = {}, const ChangeScan& change = [](Scan&) {},
     const ChangeImu& changeImu = [](ImuSample&) {})
 {
-  settings.crop.max_x = 3;
-  settings.crop.max_y = 2;
-  settings.crop.min_y = -2;
+  settings.crop.min_x = -4, settings.crop.max_x = 3;
+  settings.crop.min_y = -2, settings.crop.max_y = 2;
+  settings.crop.min_z = -0.5, settings.crop.max_z = 6;
   const StandOfStems stand;
   LidarInertialSlam slam(settings, kBodyTImu, {{"left", Rigid::fromXyzYawPitchRoll(0, 0, 3, 0, 0, 0)}});
   Driven run;
@@ -263,9 +263,9 @@ Driven goOnWithAnotherImu(const Machine& machine, bool both_were_heard)
   const Rigid imu_T_other = kBodyTImu.inverse() * body_T_other;
   const StandOfStems stand;
   SlamSettings settings;
-  settings.crop.max_x = 3;
-  settings.crop.max_y = 2;
-  settings.crop.min_y = -2;
+  settings.crop.min_x = -4, settings.crop.max_x = 3;
+  settings.crop.min_y = -2, settings.crop.max_y = 2;
+  settings.crop.min_z = -0.5, settings.crop.max_z = 6;
   LidarInertialSlam slam(settings, kBodyTImu, {});
   Driven run;
   std::vector<ImuSample> first, other;
