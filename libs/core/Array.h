@@ -89,7 +89,8 @@ class Array
     Array larger;
     larger.begin_ = static_cast<T*>(::operator new(capacity * sizeof(T), kAlignment));
     larger.limit_ = larger.begin_ + capacity;
-    larger.end_ = std::copy(begin_, end_, larger.begin_);
+    larger.end_ = larger.begin_ + size();
+    if (!empty()) std::memcpy(larger.begin_, begin_, size() * sizeof(T));
     swap(larger);
   }
 
