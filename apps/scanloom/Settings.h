@@ -1,6 +1,7 @@
 /** Reads and checks the whole configuration of a verb. */
 #pragma once
 #include "Arguments.h"
+#include "Recording.h"
 #include "Verb.h"
 
 namespace scanloom
@@ -10,16 +11,22 @@ struct Loaded
 {
   Configuration configuration;
   Settings settings;
+  bool poses_known = true;  // of the lidars, in a body frame; else their own frames are taken for it
 };
 
-/** @throws ConfigError with all problems: wrong values, and names that no verb knows. */
+/**
+ * From -c, then the recording, then --set. @throws ConfigError with all problems: wrong values, and names that no verb
+ * knows; and what recognising the recording throws.
+ */
 template <typename Settings>
-Loaded<Settings> load(const ConfigurationArguments& arguments)
+Loaded<Settings> load(const ConfigurationArguments& arguments, const RecordingFiles& recording = {},
+                      Poses poses = Poses::Needed)
 {
   Configuration configuration = Configuration::fromFiles(arguments.files);
+  const bool poses_known = addCaptures(recording, configuration, poses);
   for (const std::string& assignment : arguments.assignments) configuration.set(assignment);
   Settings settings = readSettings<Settings>(configuration, knownToAnyVerb());
-  return {std::move(configuration), std::move(settings)};
+  return {std::move(configuration), std::move(settings), poses_known};
 }
 
 /** The INI file that repeats the run: --dry-run prints it, and it is written beside the results. */

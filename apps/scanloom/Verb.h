@@ -1,5 +1,6 @@
 /**
- * A verb of the program: a file that defines `Verb slamVerb()`, and in allVerbs.cpp its declaration and a row of the table.
+ * A verb of the program: a file that defines `Verb slamVerb()`, and in allVerbs.cpp its declaration and a row of the
+ * table.
  *
  *   int run(const SlamArguments& arguments)
  *   {

@@ -3,6 +3,7 @@
 #include "Verb.h"
 #include "config/Names.h"
 #include "core/ConfigError.h"
+#include "recordings/RecognisedRig.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,6 +19,7 @@ namespace
 struct ConfigArguments
 {
   std::string default_of;
+  std::vector<std::filesystem::path> recording;
   bool parameters = false;
 };
 
@@ -49,8 +51,20 @@ std::string parametersPage()
   return page + "\n" + toMarkdown(knownToAnyVerb());
 }
 
+int printRigOf(const std::vector<std::filesystem::path>& recording)
+{
+  const RecordingFiles files = filesOf(recording);
+  if (files.captures.empty())
+    throw UsageError(fmt::format("{}: only captures need a configuration of their lidars", recording.front().string()));
+  const RecognisedRig rig = recogniseRig(files);
+  for (const std::string& note : rig.notes) fmt::print(stderr, "warning: {}\n", note);
+  std::cout << rig.ini;
+  return kDone;
+}
+
 int run(const ConfigArguments& arguments)
 {
+  if (!arguments.recording.empty()) return printRigOf(arguments.recording);
   if (arguments.parameters)
     std::cout << parametersPage();
   else
@@ -64,6 +78,10 @@ std::function<int()> addConfigOptions(CLI::App& app)
   addOption(app, "--default", arguments->default_of,
             "print a commented configuration file with the defaults of this verb")
       .typeName("VERB");
+  addOption(app, "--for", arguments->recording,
+            "print a configuration file for these captures: lidars, ports, metadata, poses and IMU as recognised; what "
+            "must be filled in is marked")
+      .typeName("FILE...");
   addFlag(app, "--parameters", arguments->parameters, "print the parameters of all verbs, as Markdown");
   requireOneOption(app);
   return [arguments] { return run(*arguments); };
@@ -72,6 +90,9 @@ std::function<int()> addConfigOptions(CLI::App& app)
 
 Verb configVerb()
 {
-  return {"config", "default configuration files, and the manual of all parameters", {}, &addConfigOptions};
+  return {"config",
+          "a configuration file for a recording, defaults of a verb, the manual of all parameters",
+          {},
+          &addConfigOptions};
 }
 }  // namespace scanloom

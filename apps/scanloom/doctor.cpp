@@ -10,9 +10,6 @@
 #include "doctor/DoctorJson.h"
 #include "doctor/Listening.h"
 #include "doctor/RawlogEvidence.h"
-#include "packets/CaptureInfo.h"
-#include "packets/describeFile.h"
-#include "rig/CaptureRig.h"
 
 #include <fmt/format.h>
 
@@ -28,8 +25,7 @@ constexpr double kListen = 10;  // s, live: enough to measure a drift of 1 ppm, 
 struct DoctorArguments
 {
   ConfigurationArguments configuration;
-  std::vector<std::filesystem::path> sources;
-  std::vector<std::string> metadata;
+  RecordingArguments recording;
   double seconds = 0;  // 0: a whole capture, or kListen live
   bool json = false;
 };
@@ -48,16 +44,8 @@ struct DoctorSettings : DoctorLimits
   }
 };
 
-/** From -c, or from the captures and metadata of the command line. */
-Rig rigOf(const DoctorArguments& arguments, const Configuration& configuration)
+Rig rigOf(const Configuration& configuration)
 {
-  if (!arguments.sources.empty())
-  {
-    if (arguments.metadata.empty())
-      throw UsageError("a capture needs the metadata of its lidars: --metadata FILE.json for each lidar, or -c CONFIG");
-    return captureRig(arguments.sources, arguments.metadata);
-  }
-  if (!arguments.metadata.empty()) throw UsageError("--metadata needs captures: name them, or give only -c CONFIG");
   Rig rig = makeRig(readRigSettings(configuration, rigSection(configuration)));
   for (const RigSensor& sensor : rig.sensors)
     if (!sensor.metadata)
@@ -66,9 +54,9 @@ Rig rigOf(const DoctorArguments& arguments, const Configuration& configuration)
   return rig;
 }
 
-RigEvidence listen(const Rig& rig, const DoctorArguments& arguments)
+RigEvidence listen(const Rig& rig, bool poses_known, const DoctorArguments& arguments)
 {
-  RigListener listener(rig, arguments.sources.empty());
+  RigListener listener(rig, poses_known);
   if (rig.captures.empty())
   {
     const double longest = arguments.seconds > 0 ? arguments.seconds : kListen;
@@ -89,15 +77,10 @@ RigEvidence listen(const Rig& rig, const DoctorArguments& arguments)
   return listener.finish();
 }
 
-bool isRawlog(const std::vector<std::filesystem::path>& sources)
-{
-  return sources.size() == 1 && !isCapture(sources[0]);
-}
-
 RigEvidence read(const std::filesystem::path& rawlog, const DoctorArguments& arguments)
 {
-  if (!arguments.metadata.empty() || arguments.seconds > 0)
-    throw UsageError(fmt::format("{} is no capture: --metadata and --seconds are for captures", rawlog.string()));
+  if (arguments.seconds > 0)
+    throw UsageError(fmt::format("{} is no capture: --seconds is for captures and live lidars", rawlog.string()));
   RawlogEvidence evidence = rawlogEvidence(rawlog);
   if (!evidence.damage.empty()) fmt::print(stderr, "warning: {}\n", evidence.damage);
   return std::move(evidence.rig);
@@ -105,11 +88,12 @@ RigEvidence read(const std::filesystem::path& rawlog, const DoctorArguments& arg
 
 int run(const DoctorArguments& arguments)
 {
-  const Loaded<DoctorSettings> loaded = load<DoctorSettings>(arguments.configuration);
-  if (arguments.sources.empty() && arguments.configuration.files.empty())
-    throw UsageError("nothing to examine: name captures and --metadata, or a rawlog, or give -c CONFIG");
-  const bool rawlog = isRawlog(arguments.sources);
-  const std::optional<Rig> rig = rawlog ? std::nullopt : std::optional(rigOf(arguments, loaded.configuration));
+  if (!arguments.recording.given() && arguments.configuration.files.empty())
+    throw UsageError("nothing to examine: name a recording, or give -c CONFIG for live lidars");
+  const RecordingFiles recording = arguments.recording.given() ? filesOf(arguments.recording) : RecordingFiles{};
+  const Loaded<DoctorSettings> loaded = load<DoctorSettings>(arguments.configuration, recording, Poses::TakenAsZero);
+  const bool rawlog = !recording.rawlogs.empty();
+  const std::optional<Rig> rig = rawlog ? std::nullopt : std::optional(rigOf(loaded.configuration));
   if (arguments.configuration.dry_run)
   {
     std::cout << toIni(loaded);
@@ -117,8 +101,8 @@ int run(const DoctorArguments& arguments)
   }
 
   catchInterruption();
-  const RigExamination examination =
-      examine(rig ? listen(*rig, arguments) : read(arguments.sources.front(), arguments), loaded.settings);
+  const RigExamination examination = examine(
+      rig ? listen(*rig, loaded.poses_known, arguments) : read(recording.rawlogs.front(), arguments), loaded.settings);
   const Findings findings = findingsOf(examination, loaded.settings);
   if (arguments.json)
     std::cout << toJson(examination, findings) << '\n';
@@ -131,8 +115,7 @@ int run(const DoctorArguments& arguments)
 std::function<int()> addDoctorOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<DoctorArguments>();
-  addOption(app, "SOURCE", arguments->sources, "captures (pcap, pcapng) or one rawlog; default: the lidars of -c");
-  addOption(app, "--metadata", arguments->metadata, "metadata JSON of a lidar in the captures (repeatable)");
+  addRecording(app, arguments->recording);
   addConfiguration(app, arguments->configuration);
   addOption(app, "--seconds", arguments->seconds,
             "how much to examine, in s: from the start of captures (default: all), or live (default: 10)")

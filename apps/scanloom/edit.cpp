@@ -11,6 +11,7 @@
 #include "info.h"
 #include "mrpt_bridge/jsonText.h"
 #include "record.h"
+#include "recordings/RecognisedRig.h"
 #include "rig/RigOptions.h"
 
 #include <fmt/format.h>
@@ -30,7 +31,7 @@ struct EditArguments
   std::filesystem::path input, output;
   bool overwrite = false, json = false, quiet = false;
   bool info = false, check = false, approach_a = false;
-  std::vector<std::string> from_pcap;
+  std::vector<std::filesystem::path> from_pcap;
   EditOptions options;
 };
 
@@ -157,20 +158,17 @@ int check(const EditArguments& arguments)
 
 int recordCaptures(const EditArguments& arguments)
 {
-  if (arguments.configuration.files.empty()) throw UsageError("--from-pcap needs -c CONFIG, which names the lidars");
   if (arguments.output.empty()) throw UsageError("-o/--output is required: the rawlog to write");
+  const Configuration configuration = Configuration::fromFiles(arguments.configuration.files);
+  const std::string section = hasRigSection(configuration) ? rigSection(configuration) : kRecognisedSection;
   RecordArguments record_arguments;
   record_arguments.configuration = arguments.configuration;
   record_arguments.output = arguments.output;
   record_arguments.overwrite = arguments.overwrite;
   record_arguments.json = arguments.json;
   record_arguments.quiet = arguments.quiet;
-  Configuration configuration = Configuration::fromFiles(arguments.configuration.files);
-  std::vector<std::string>& assignments = record_arguments.configuration.assignments;
-  for (const std::string& assignment : assignments) configuration.set(assignment);
-  const std::string section = rigSection(configuration);
-  assignments.push_back(fmt::format("{}.pcap_input={}", section, fmt::join(arguments.from_pcap, ",")));
-  if (arguments.approach_a) assignments.push_back(section + ".batching=nearest_turns");
+  record_arguments.recording.paths = arguments.from_pcap;
+  if (arguments.approach_a) record_arguments.configuration.assignments.push_back(section + ".batching=nearest_turns");
   return record(record_arguments);
 }
 
@@ -278,7 +276,7 @@ std::function<int()> addEditOptions(CLI::App& app)
   group.add("--check", arguments->check, "look for faults in the rawlog; status 3 if it is not fit for SLAM");
   group
       .add("--from-pcap", arguments->from_pcap, "FILE,...",
-           "make a rawlog of these captures and the lidars of -c, as 'scanloom record' does")
+           "make a rawlog of these captures, as 'scanloom record' does")
       .commaSeparated();
   group.add("--approach-a", arguments->approach_a,
             "with --from-pcap: merge whole turns, the paper's approach A, for comparison");

@@ -2,11 +2,12 @@
 
 #include "Arguments.h"
 #include "Options.h"
+#include "Recording.h"
 #include "Verb.h"
 #include "core/ConfigError.h"
 #include "edit/RawlogReport.h"
 #include "packets/CaptureReport.h"
-#include "packets/describeFile.h"
+#include "recordings/FoundLidars.h"
 
 #include <fmt/format.h>
 
@@ -19,34 +20,60 @@ namespace
 {
 struct InfoArguments
 {
-  std::filesystem::path file;
-  std::vector<std::string> metadata;
+  RecordingArguments recording;
   bool digests = false;
   bool json = false;
 };
 
+/** Those that fit the capture's packets; all that were named. */
+std::vector<std::string> metadataOf(const RecordingFiles& files, const RecordingArguments& arguments)
+{
+  std::vector<std::string> metadata;
+  if (!arguments.metadata.empty())
+    for (const auto& file : arguments.metadata) metadata.push_back(file.string());
+  else
+    try
+    {
+      const auto streams = streamsOf(files.captures);
+      for (const FoundLidar& lidar : findLidars(streams, candidatesFrom(files.metadata), files.captures).lidars)
+        metadata.push_back(lidar.metadata.string());
+    }
+    catch (const UsageError& none)
+    {
+      fmt::print(stderr, "warning: {}\n", none.what());
+    }
+  return metadata;
+}
+
+int printCaptureInfo(const RecordingFiles& files, const InfoArguments& arguments)
+{
+  const std::vector<std::string> metadata = metadataOf(files, arguments.recording);
+  if (arguments.digests && metadata.empty())
+    throw UsageError("--digests needs the sensor's metadata: --metadata FILE.json");
+  if (arguments.json && files.captures.size() > 1) throw UsageError("--json is for one capture: name one");
+  int status = kDone;
+  for (const auto& capture : files.captures)
+  {
+    const CaptureInfo info = captureInfo(capture, metadata, arguments.digests ? Digests::Yes : Digests::No);
+    if (files.captures.size() > 1 && !arguments.json) fmt::print("{}\n", capture.string());
+    std::cout << (arguments.json ? toJson(info) : toText(info)) << std::flush;
+    if (!info.counters.damages.empty()) status = kQualityGate;
+  }
+  return status;
+}
+
 int run(const InfoArguments& arguments)
 {
-  if (isCapture(arguments.file))
-  {
-    if (arguments.digests && arguments.metadata.empty())
-      throw UsageError("--digests needs the sensor's metadata: --metadata FILE.json");
-    const CaptureInfo info =
-        captureInfo(arguments.file, arguments.metadata, arguments.digests ? Digests::Yes : Digests::No);
-    std::cout << (arguments.json ? toJson(info) : toText(info));
-    return info.counters.damages.empty() ? kDone : kQualityGate;
-  }
-  if (!arguments.metadata.empty() || arguments.digests)
-    throw UsageError(
-        fmt::format("{} is no capture: --metadata and --digests are for pcap and pcapng", arguments.file.string()));
-  return printRawlogInfo(arguments.file, arguments.json);
+  const RecordingFiles files = filesOf(arguments.recording);
+  if (!files.captures.empty()) return printCaptureInfo(files, arguments);
+  if (arguments.digests) throw UsageError("--digests is for captures");
+  return printRawlogInfo(files.rawlogs.front(), arguments.json);
 }
 
 std::function<int()> addInfoOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<InfoArguments>();
-  addOption(app, "FILE", arguments->file, "capture (pcap, pcapng) or rawlog").required();
-  addOption(app, "--metadata", arguments->metadata, "metadata JSON of a lidar in the capture (repeatable)");
+  addRecording(app, arguments->recording).required();
   addFlag(app, "--digests", arguments->digests, "MD5 of every channel field of each turn (Ouster)");
   addJson(app, arguments->json);
   return [arguments] { return run(*arguments); };

@@ -4,6 +4,7 @@
 #include "Settings.h"
 #include "Verb.h"
 #include "core/AtomicFile.h"
+#include "core/ConfigError.h"
 #include "core/Interruption.h"
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/RigObservations.h"
@@ -180,12 +181,29 @@ RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& dr
   return options;
 }
 
+RecordingFiles capturesOf(const RecordingArguments& arguments)
+{
+  if (!arguments.given()) return {};
+  RecordingFiles files = filesOf(arguments);
+  if (files.captures.empty())
+    throw UsageError(
+        fmt::format("{}: is a rawlog already: 'record' makes one of captures", arguments.paths.front().string()));
+  return files;
+}
+
+std::filesystem::path defaultRawlog(const RecordingArguments& recording)
+{
+  if (!recording.given()) throw UsageError("-o is required where no RECORDING is given: name the rawlog to write");
+  return besideRecording(recording, ".rawlog");
+}
+
 std::function<int()> addRecordOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<RecordArguments>();
   addConfiguration(app, arguments->configuration);
-  addScene(app, arguments->scene);
-  addOption(app, "-o,--output", arguments->output, "the rawlog to write").required();
+  const Option scene = addScene(app, arguments->scene);
+  addRecording(app, arguments->recording).excludes(scene);
+  addOption(app, "-o,--output", arguments->output, "the rawlog to write; default: beside the recording");
   addSeconds(app, arguments->seconds);
   addOverwrite(app, arguments->overwrite);
   addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas (default: all)")
@@ -195,9 +213,12 @@ std::function<int()> addRecordOptions(CLI::App& app)
 }
 }  // namespace
 
-int record(const RecordArguments& arguments)
+int record(RecordArguments arguments)
 {
-  const Loaded<RecordSettings> loaded = load<RecordSettings>(withScene(arguments.configuration, arguments.scene));
+  const RecordingFiles recording = capturesOf(arguments.recording);
+  if (arguments.output.empty()) arguments.output = defaultRawlog(arguments.recording);
+  const Loaded<RecordSettings> loaded =
+      load<RecordSettings>(withScene(arguments.configuration, arguments.scene), recording);
   const Source source = openSource(arguments, loaded.configuration);
   const bool live = source.isLive();
   if (!live) refuseSeconds(arguments.seconds);

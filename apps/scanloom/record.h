@@ -1,5 +1,6 @@
 #pragma once
 #include "Arguments.h"
+#include "Recording.h"
 
 #include <filesystem>
 #include <string>
@@ -11,7 +12,8 @@ struct RecordArguments
 {
   ConfigurationArguments configuration;
   SceneArguments scene;
-  std::filesystem::path output;
+  RecordingArguments recording;
+  std::filesystem::path output;  // empty: beside the recording
   std::vector<std::string> lidars;
   double seconds = 0;  // live: 0 until it is interrupted
   bool overwrite = false;
@@ -20,5 +22,5 @@ struct RecordArguments
 };
 
 /** Writes a rawlog; for `scanloom record` and `scanloom edit --from-pcap`. @return the exit status. */
-int record(const RecordArguments&);
+int record(RecordArguments);
 }  // namespace scanloom

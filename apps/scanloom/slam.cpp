@@ -4,6 +4,7 @@
 #include "Verb.h"
 #include "Version.h"
 #include "core/AtomicFile.h"
+#include "core/ConfigError.h"
 #include "core/Interruption.h"
 #include "core/ResultFolder.h"
 #include "mrpt_bridge/ImuDriverInput.h"
@@ -32,7 +33,7 @@ struct SlamArguments
   ConfigurationArguments configuration;
   OutputFolderArguments output;
   SceneArguments scene;
-  std::filesystem::path rawlog;
+  RecordingArguments recording;
   std::vector<std::string> lidars;
   int every_nth = 0;
   double seconds = 0;  // live lidars; 0: until it is interrupted
@@ -52,7 +53,7 @@ struct SlamVerbSettings : SlamSettings
   }
 };
 
-constexpr const char* kConfigurationName = "configuration.ini";
+constexpr const char* kConfigurationFile = "configuration.ini";
 
 struct Input
 {
@@ -75,9 +76,10 @@ std::unique_ptr<SensorInput> readAhead(std::unique_ptr<SensorInput> input)
   return std::make_unique<ReadAhead>(std::move(input));
 }
 
-Input openInput(const SlamArguments& arguments, const Configuration& configuration)
+Input openInput(const SlamArguments& arguments, const RecordingFiles& files, const Configuration& configuration)
 {
-  if (!arguments.rawlog.empty()) return {readAhead(std::make_unique<RawlogInput>(arguments.rawlog, arguments.lidars))};
+  if (!files.rawlogs.empty())
+    return {readAhead(std::make_unique<RawlogInput>(files.rawlogs.front(), arguments.lidars))};
   if (arguments.scene.given())
   {
     const SimulatedRig simulated = simulatedRig(configuration, arguments.scene.seed, arguments.lidars);
@@ -98,7 +100,8 @@ std::string commandOf(const SlamArguments& arguments)
   for (const auto& file : arguments.configuration.files) command += fmt::format(" -c {}", file.string());
   for (const std::string& assignment : arguments.configuration.assignments)
     command += fmt::format(" --set {}", assignment);
-  if (!arguments.rawlog.empty()) command += fmt::format(" -i {}", arguments.rawlog.string());
+  for (const auto& path : arguments.recording.paths) command += " " + path.string();
+  for (const auto& file : arguments.recording.metadata) command += fmt::format(" --metadata {}", file.string());
   if (arguments.scene.given())
     command += fmt::format(" --simulate {} --seed {}", arguments.scene.file.string(), arguments.scene.seed);
   if (!arguments.lidars.empty()) command += fmt::format(" --lidars {}", fmt::join(arguments.lidars, ","));
@@ -184,7 +187,7 @@ int process(const Input& input, const SlamArguments& arguments, const Loaded<Sla
 {
   const SlamVerbSettings& settings = loaded.settings;
   ResultFolder folder(arguments.output.folder);
-  writeAtomically(folder.running() / kConfigurationName, [&](std::ostream& file) { file << toIni(loaded); });
+  writeAtomically(folder.running() / kConfigurationFile, [&](std::ostream& file) { file << toIni(loaded); });
   SlamFiles files(folder.running(), input.sensors->setup().header.lidars,
                   settings.output.maps ? std::optional(settings.octomap) : std::nullopt);
   SlamRunResult result = runShowingProgress(input, settings, files, arguments.seconds);
@@ -211,15 +214,25 @@ int process(const Input& input, const SlamArguments& arguments, const Loaded<Sla
   return statusOf(result);
 }
 
+std::filesystem::path defaultFolder(const RecordingArguments& recording)
+{
+  if (!recording.given())
+    throw UsageError("--out-dir is required where no RECORDING is given: name a folder for results");
+  return besideRecording(recording, "_slam");
+}
+
 int run(SlamArguments arguments)
 {
   if (arguments.every_nth > 0)
     arguments.configuration.assignments.push_back(fmt::format("slam.every_nth={}", arguments.every_nth));
-  const Loaded<SlamVerbSettings> loaded = load<SlamVerbSettings>(withScene(arguments.configuration, arguments.scene));
-  std::vector<std::string> names{kConfigurationName};
+  const RecordingFiles recording = arguments.recording.given() ? filesOf(arguments.recording) : RecordingFiles{};
+  if (arguments.output.folder.empty()) arguments.output.folder = defaultFolder(arguments.recording);
+  const Loaded<SlamVerbSettings> loaded =
+      load<SlamVerbSettings>(withScene(arguments.configuration, arguments.scene), recording);
+  std::vector<std::string> names{kConfigurationFile};
   for (std::string& name : SlamFiles::names()) names.push_back(std::move(name));
   refuseExisting(arguments.output, names);
-  const Input input = openInput(arguments, loaded.configuration);
+  const Input input = openInput(arguments, recording, loaded.configuration);
   if (!input.live) refuseSeconds(arguments.seconds);
   if (arguments.configuration.dry_run)
   {
@@ -234,11 +247,8 @@ std::function<int()> addSlamOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<SlamArguments>();
   addConfiguration(app, arguments->configuration);
-  addOutputFolder(app, arguments->output).required();
-  const Option rawlog = addOption(app, "-i,--input", arguments->rawlog,
-                                  "a rawlog written by scanloom, instead of the lidars of the configuration")
-                            .existingFile();
-  addScene(app, arguments->scene).excludes(rawlog);
+  addOutputFolder(app, arguments->output);
+  addScene(app, arguments->scene).excludes(addRecording(app, arguments->recording, "RECORDING,-i,--input"));
   addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas; default: all")
       .commaSeparated();
   addSeconds(app, arguments->seconds);

@@ -1,5 +1,6 @@
 /** `scanloom view`: shows a file in a window, or draws it into a picture. */
 #include "Arguments.h"
+#include "Recording.h"
 #include "Verb.h"
 #include "core/AtomicFile.h"
 #include "core/ConfigError.h"
@@ -12,6 +13,10 @@
 #include "maps/SceneFile.h"
 #include "maps/SimpleMapReader.h"
 #include "mrpt_bridge/ObservationReader.h"
+#include "packets/describeFile.h"
+#include "rig/Rig.h"
+#include "rig/RigOptions.h"
+#include "rig/openRig.h"
 
 #include <fmt/format.h>
 #include <mrpt/gui/CDisplayWindow3D.h>
@@ -48,6 +53,34 @@ void addScan(SceneBuilder& scene, const Path& path, std::uint64_t wanted)
       fmt::format("{}: has {} point clouds, so there is no number {}{}", path.string(), clouds, wanted, damage));
 }
 
+std::vector<Eigen::Vector3f> positionsOf(const PointCloud& cloud)
+{
+  std::vector<Eigen::Vector3f> positions;
+  for (std::size_t i = 0; i < cloud.size(); ++i) positions.emplace_back(cloud.x[i], cloud.y[i], cloud.z[i]);
+  return positions;
+}
+
+RecordingFiles capturesOf(const Path& path)
+{
+  RecordingFiles files = filesOf(std::vector<Path>{path});
+  if (files.captures.empty()) throw UsageError(fmt::format("{}: holds no capture", path.string()));
+  return files;
+}
+
+void addCapturedScan(SceneBuilder& scene, const RecordingFiles& files, std::uint64_t wanted)
+{
+  Configuration configuration;
+  addCaptures(files, configuration);
+  const std::unique_ptr<SensorInput> input =
+      openRig(makeRig(readRigSettings(configuration, rigSection(configuration))));
+  std::uint64_t scans = 0;
+  while (const std::optional<SensorEvent> event = input->next())
+    if (const auto* scan = std::get_if<Scan>(&*event); scan && scans++ == wanted)
+      return scene.addPoints(positionsOf(scan->points));
+  throw std::runtime_error(
+      fmt::format("{}: has {} scans, so there is no number {}", files.captures.front().string(), scans, wanted));
+}
+
 void addKeyframes(SceneBuilder& scene, const Path& path)
 {
   const SimpleMapReader reader(path);
@@ -63,6 +96,8 @@ void addKeyframes(SceneBuilder& scene, const Path& path)
 
 SceneBuilder sceneOf(const ViewArguments& arguments)
 {
+  if (!std::filesystem::exists(arguments.file))
+    throw UsageError(fmt::format("{}: no such file", arguments.file.string()));
   SceneBuilder scene;
   const std::string ending = arguments.file.extension().string();
   if (ending == ".rawlog")
@@ -75,9 +110,12 @@ SceneBuilder sceneOf(const ViewArguments& arguments)
     scene.addPath(readTrajectory(arguments.file));
   else if (ending == ".ply" || ending == ".pcd" || ending == ".bin" || ending == ".gz")
     scene.addPoints(readCloud(arguments.file).points);
+  else if (std::filesystem::is_directory(arguments.file) || isCapture(arguments.file))
+    addCapturedScan(scene, capturesOf(arguments.file), arguments.scan);
   else
-    throw UsageError(fmt::format("{}: must be a .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin or a trajectory",
-                                 arguments.file.string()));
+    throw UsageError(
+        fmt::format("{}: must be a capture, .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin or a trajectory",
+                    arguments.file.string()));
   return scene;
 }
 
@@ -119,13 +157,13 @@ int run(const ViewArguments& arguments)
 std::function<int()> addViewOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<ViewArguments>();
-  addOption(app, "file", arguments->file, "a .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin (KITTI) or .tum")
-      .required()
-      .existingFile();
+  addOption(app, "file", arguments->file,
+            "a capture or its folder, .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin (KITTI) or .tum")
+      .required();
   addOption(app, "--png", arguments->png, "draw into this picture instead of a window; needs no display")
       .typeName("FILE");
   addOverwrite(app, arguments->overwrite);
-  addOption(app, "--scan", arguments->scan, "rawlog: number of the point cloud, from 0").showDefault().typeName("N");
+  addOption(app, "--scan", arguments->scan, "capture, rawlog: number of the scan, from 0").showDefault().typeName("N");
   addOption(app, "--width", arguments->width, "width in pixels").between(64, 8192).showDefault();
   addOption(app, "--height", arguments->height, "height in pixels").between(64, 8192).showDefault();
   return [arguments] { return run(*arguments); };
@@ -134,6 +172,6 @@ std::function<int()> addViewOptions(CLI::App& app)
 
 Verb viewVerb()
 {
-  return {"view", "a rawlog, map, point cloud or trajectory in a window or as a picture", {}, &addViewOptions};
+  return {"view", "a recording, map, point cloud or trajectory in a window or as a picture", {}, &addViewOptions};
 }
 }  // namespace scanloom

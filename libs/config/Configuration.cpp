@@ -81,6 +81,12 @@ void Configuration::add(const std::vector<IniEntry>& entries)
   refuse(problems);
 }
 
+void Configuration::addDefaults(const Configuration& defaults)
+{
+  for (const auto& [section, keys] : defaults.sections_)
+    for (const auto& [key, entry] : keys.entries) insert(entry);
+}
+
 void Configuration::set(const std::string& assignment)
 {
   const auto equals = assignment.find('=');

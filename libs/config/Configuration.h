@@ -30,6 +30,9 @@ class Configuration
   static Configuration fromFiles(const std::vector<std::filesystem::path>&);
   static Configuration fromText(std::string_view text, const std::string& name);
 
+  /** Adds each key that is not set. */
+  void addDefaults(const Configuration&);
+
   /** @param assignment `section.key=value` from the command line; replaces the value of a file. */
   void set(const std::string& assignment);
 

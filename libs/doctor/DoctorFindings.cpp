@@ -48,6 +48,8 @@ Findings findingsOf(const RigExamination& rig, const DoctorLimits& limits)
             poseFinding(rig.lidars[i].name, rig.lidars[pair.reference].name, pair.agreement, limits.pose));
   }
   for (std::size_t i = 0; i < rig.imus.size(); ++i) append(findings, imuFindings(rig, i, limits.imu));
+  for (const std::string& wrong : rig.wrong_keys)
+    findings.push_back({"rig", "configuration", Verdict::Warning, wrong, ""});
   if (rig.sockets) findings.push_back(socketFinding(*rig.sockets));
   for (const auto& [origin, datagrams] : rig.strangers) findings.push_back(strangersFinding(origin, datagrams));
   return findings;

@@ -24,9 +24,12 @@ RigListener::RigListener(const Rig& rig, bool poses_known)
     delays_(rig.lidars.size(), Duration{0})
 {
   evidence_.imus.push_back({"imu", rig.body_imu, rig.body_T_imu.value_or(Rigid{})});
-  for (const BatchedLidar& lidar : lidars_)
+  for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
-    const LidarDescription& description = lidar.decoder->description();
+    const BatchedLidar& lidar = lidars_[i];
+    LidarDescription description = lidar.decoder->description();
+    description.lidar_port = addresses_[i].lidar_port;
+    description.imu_port = addresses_[i].imu_port;
     evidence_.lidars.push_back({lidar.name, description, {}, 0, 0});
     evidence_.imus.push_back({"imu_" + lidar.name, {}, description.body_T_sensor * description.sensor_T_imu});
   }
@@ -86,6 +89,7 @@ RigEvidence RigListener::finish()
                     [port = origin.destination_port](const LidarAddress& address)
                     { return port == address.lidar_port || port == address.imu_port; }))
       evidence_.strangers[origin] = datagrams;
+  evidence_.wrong_keys = router_.takeWarnings();
   evidence_.snapshots = snapshots_.finish();
   auto& imus = evidence_.imus;
   imus.erase(std::remove_if(imus.begin(), imus.end(), [](const ImuEvidence& imu) { return imu.samples.empty(); }),

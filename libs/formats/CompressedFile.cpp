@@ -19,6 +19,13 @@ namespace
 constexpr std::size_t kBuffer = 1 << 18;       // bytes
 constexpr std::size_t kLargestCall = 1 << 30;  // zlib counts in int
 constexpr std::array<char, 4> kZstdMagic{'\x28', '\xB5', '\x2F', '\xFD'};
+
+std::array<char, 4> firstBytesOf(const std::filesystem::path& path)
+{
+  std::array<char, 4> bytes{};
+  std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
+  return bytes;
+}
 }  // namespace
 
 class CompressedFile::Source
@@ -112,9 +119,7 @@ class CompressedFile::Zstd : public Source
 
 CompressedFile::CompressedFile(const std::filesystem::path& path) : path_(path)
 {
-  std::array<char, 4> magic{};
-  std::ifstream(path, std::ios::binary).read(magic.data(), magic.size());
-  if (magic == kZstdMagic)
+  if (firstBytesOf(path) == kZstdMagic)
     source_ = std::make_unique<Zstd>(path);
   else
     source_ = std::make_unique<Gzip>(path);
@@ -163,6 +168,13 @@ std::uint64_t CompressedFile::bytesRead() const { return source_->bytesRead(); }
 void CompressedFile::fail(const char* what) const
 {
   throw std::runtime_error(fmt::format("{}: {}", path_.string(), what));
+}
+
+bool isCompressed(const std::filesystem::path& path)
+{
+  if (!std::filesystem::is_regular_file(path)) return false;  // what is read from a pipe is gone
+  const std::array<char, 4> bytes = firstBytesOf(path);
+  return bytes == kZstdMagic || (bytes[0] == '\x1F' && bytes[1] == '\x8B');
 }
 
 std::uint64_t uncompressedBytes(const std::filesystem::path& path)

@@ -38,6 +38,9 @@ class CompressedFile
   std::optional<char> next_;  // read by atEnd()
 };
 
+/** Whether the first bytes are those of gzip or zstd; false for a file that can't be read. */
+bool isCompressed(const std::filesystem::path&);
+
 /** Reads the file to its end, and throws as CompressedFile does. */
 std::uint64_t uncompressedBytes(const std::filesystem::path&);
 }  // namespace scanloom

@@ -117,4 +117,16 @@ NavEstimate gravityOnly(const std::vector<ImuSample>& samples, const Rigid& body
                                     {kMovingVelocity, kMovingGyroBias, kMovingAcceleration, accel_bias_sigma});
   return initial;
 }
+
+NavEstimate levelWithBody(Timestamp stamp)
+{
+  constexpr double kNoBias = 1e-6;  // of an IMU that does not exist: rad/s, m/s2
+  NavEstimate initial;
+  initial.state.stamp = stamp;
+  auto variances = initial.covariance.diagonal();
+  variances.head<6>().setConstant(kOriginSigma * kOriginSigma);
+  variances.segment<3>(6).setConstant(kMovingVelocity * kMovingVelocity);
+  variances.tail<6>().setConstant(kNoBias * kNoBias);
+  return initial;
+}
 }  // namespace scanloom

@@ -56,4 +56,7 @@ std::optional<NavEstimate> initialiseAtRest(const std::vector<ImuSample>&, const
  * force.
  */
 NavEstimate gravityOnly(const std::vector<ImuSample>&, const Rigid& body_T_imu, double accel_bias_sigma = 0.05);
+
+/** For a start without an IMU: the map is as level as the body is, whose attitude is exact; the velocity is unknown. */
+NavEstimate levelWithBody(Timestamp);
 }  // namespace scanloom

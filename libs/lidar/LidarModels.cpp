@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <stdexcept>
 
@@ -53,6 +54,12 @@ std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_text, con
     expected += fmt::format("{}{}", expected.empty() ? "" : ", or ", family.described);
   }
   throw std::invalid_argument(fmt::format("{}: belongs to no known lidar; expected {}", name, expected));
+}
+
+bool isLidarMetadata(const std::string& text)
+{
+  return std::any_of(kFamilies.begin(), kFamilies.end(),
+                     [&](const LidarFamily& family) { return family.recognises(text); });
 }
 
 SensorPorts defaultPorts() { return {kOusterLidarPort, kOusterImuPort}; }

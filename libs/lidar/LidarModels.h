@@ -18,6 +18,9 @@ std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_file, con
 std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_text, const std::string& name,
                                            const Rigid& body_T_sensor);
 
+/** Whether the text looks like a metadata file of one of the families; makeDecoder may still find faults in it. */
+bool isLidarMetadata(const std::string& text);
+
 /** UDP ports of a sensor's packets. */
 struct SensorPorts
 {

@@ -1,5 +1,6 @@
 #include "packets/CaptureReader.h"
 
+#include "formats/CompressedFile.h"
 #include "packets/LinkLayer.h"
 #include "packets/describeFile.h"
 
@@ -8,11 +9,21 @@
 
 #include <array>
 #include <cstdio>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
 namespace scanloom
 {
+/** A capture in gzip or zstd, for libpcap to read. */
+struct PackedCapture
+{
+  explicit PackedCapture(const std::filesystem::path& path) : file(path) {}
+
+  CompressedFile file;
+  std::string damage;  // that ended the reading; empty if none did
+};
+
 namespace
 {
 /** libpcap has no code for a missing end, but all its messages about one begin like this. */
@@ -29,11 +40,45 @@ Timestamp stampOf(const pcap_pkthdr& record)
   return Timestamp{std::chrono::seconds{record.ts.tv_sec} + Duration{record.ts.tv_usec}};
 }
 
-pcap* open(const std::filesystem::path& path)
+/** What libpcap calls to read; no exception may pass through it. */
+ssize_t readPacked(void* cookie, char* bytes, std::size_t count)
+{
+  auto* packed = static_cast<PackedCapture*>(cookie);
+  try
+  {
+    const std::size_t got = packed->file.readUpTo(bytes, count);
+    if (got < count) packed->file.atEnd();  // throws if the file is cut
+    return static_cast<ssize_t>(got);
+  }
+  catch (const std::exception& damage)
+  {
+    packed->damage = damage.what();
+    return 0;
+  }
+}
+
+/** Null if the file is not compressed: libpcap opens it by itself, also a pipe. */
+std::unique_ptr<PackedCapture> openPacked(const std::filesystem::path& path)
+{
+  return isCompressed(path) ? std::make_unique<PackedCapture>(path) : nullptr;
+}
+
+pcap* openAs(const std::filesystem::path& path, PackedCapture* packed, char* error)
+{
+  if (!packed) return pcap_open_offline_with_tstamp_precision(path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error);
+  cookie_io_functions_t functions{};
+  functions.read = &readPacked;
+  std::FILE* file = fopencookie(packed, "rb", functions);
+  if (!file) throw std::bad_alloc();
+  pcap* capture = pcap_fopen_offline_with_tstamp_precision(file, PCAP_TSTAMP_PRECISION_NANO, error);
+  if (!capture) std::fclose(file);
+  return capture;
+}
+
+pcap* open(const std::filesystem::path& path, PackedCapture* packed)
 {
   std::array<char, PCAP_ERRBUF_SIZE> error{};
-  pcap* capture = pcap_open_offline_with_tstamp_precision(path.c_str(), PCAP_TSTAMP_PRECISION_NANO, error.data());
-  if (capture) return capture;
+  if (pcap* capture = openAs(path, packed, error.data())) return capture;
   throw std::runtime_error(fmt::format("{}: {}; a pcap or pcapng capture of UDP packets is needed ({})", path.string(),
                                        describeFile(path), error.data()));
 }
@@ -57,7 +102,10 @@ CaptureCounters operator+(const CaptureCounters& a, const CaptureCounters& b)
 void CaptureReader::Close::operator()(pcap* capture) const { pcap_close(capture); }
 
 CaptureReader::CaptureReader(const std::filesystem::path& path)
-  : path_(path), capture_(open(path)), link_type_(pcap_datalink(capture_.get()))
+  : path_(path),
+    packed_(openPacked(path)),
+    capture_(open(path, packed_.get())),
+    link_type_(pcap_datalink(capture_.get()))
 {
   if (!isKnownLinkType(link_type_))
   {
@@ -70,6 +118,9 @@ CaptureReader::CaptureReader(const std::filesystem::path& path)
   const auto size = std::filesystem::file_size(path, not_a_file);
   if (!not_a_file) file_size_ = static_cast<double>(size);
 }
+
+CaptureReader::CaptureReader(CaptureReader&&) noexcept = default;
+CaptureReader::~CaptureReader() = default;
 
 bool CaptureReader::next(Datagram& datagram)
 {
@@ -103,7 +154,9 @@ CaptureCounters CaptureReader::counters() const
 double CaptureReader::progress() const
 {
   if (file_size_ == 0) return 0;
-  return static_cast<double>(std::ftell(pcap_file(capture_.get()))) / file_size_;
+  const auto read = packed_ ? static_cast<double>(packed_->file.bytesRead())
+                            : static_cast<double>(std::ftell(pcap_file(capture_.get())));
+  return read / file_size_;
 }
 
 bool CaptureReader::nextRecord()
@@ -113,6 +166,11 @@ bool CaptureReader::nextRecord()
   const int outcome = pcap_next_ex(capture_.get(), &record, &frame_);
   record_ = record;
   if (outcome == 1) return true;
+  if (packed_ && !packed_->damage.empty())
+  {
+    counters_.damages.push_back(fmt::format("{}; it was read up to record {}", packed_->damage, counters_.records));
+    return false;
+  }
   if (outcome == PCAP_ERROR_BREAK) return false;
 
   const std::string error = pcap_geterr(capture_.get());

@@ -13,6 +13,8 @@ struct pcap_pkthdr;
 
 namespace scanloom
 {
+struct PackedCapture;
+
 /** Counts of the records of a capture. */
 struct CaptureCounters
 {
@@ -30,14 +32,17 @@ struct CaptureCounters
 CaptureCounters operator+(const CaptureCounters&, const CaptureCounters&);
 
 /**
- * The UDP datagrams of a pcap or pcapng file in the file's order, with stamps in nanoseconds. Link types: Ethernet with
- * or without VLAN tags, Linux cooked, raw IP, loopback. IPv4 and IPv6; fragments are joined.
+ * The UDP datagrams of a pcap or pcapng file, plain or in gzip or zstd, in the file's order, with stamps in
+ * nanoseconds. Link types: Ethernet with or without VLAN tags, Linux cooked, raw IP, loopback. IPv4 and IPv6; fragments
+ * are joined.
  */
 class CaptureReader
 {
  public:
   /** Throws std::runtime_error if the file cannot be read or is no capture; the error tells what it is. */
   explicit CaptureReader(const std::filesystem::path&);
+  CaptureReader(CaptureReader&&) noexcept;
+  ~CaptureReader();
 
   /**
    * Replaces `datagram` by the next one, reusing its memory; false at the end of the file. A joined datagram gets the
@@ -60,6 +65,7 @@ class CaptureReader
   bool readDatagram(Bytes frame, Datagram&);
 
   std::filesystem::path path_;
+  std::unique_ptr<PackedCapture> packed_;  // that capture_ reads; null if the file is not compressed
   std::unique_ptr<pcap, Close> capture_;
   int link_type_ = 0;
   double file_size_ = 0;

@@ -1,5 +1,7 @@
 #include "packets/describeFile.h"
 
+#include "formats/CompressedFile.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,8 +25,8 @@ struct Kind
 using namespace std::string_view_literals;
 
 constexpr std::array kKinds{
-    Kind{"\x1f\x8b"sv, "a gzip file (a compressed capture is read after gunzip; an MRPT rawlog is no capture)"},
-    Kind{"\x28\xb5\x2f\xfd"sv, "a zstd file: unpack it first"},
+    Kind{"\x1f\x8b"sv, "a gzip file that holds no capture (an MRPT rawlog?)"},
+    Kind{"\x28\xb5\x2f\xfd"sv, "a zstd file that holds no capture"},
     Kind{"\xfd"
          "7zXZ"sv,
          "an xz file: unpack it first"},
@@ -50,12 +52,13 @@ std::string firstBytesOf(std::istream& file)
   return bytes;
 }
 
-bool beginsLikeCapture(const std::string& bytes)
+}  // namespace
+
+bool beginsLikeCapture(std::string_view bytes)
 {
   return std::any_of(kCaptures.begin(), kCaptures.end(),
-                     [&](std::string_view magic) { return bytes.compare(0, magic.size(), magic) == 0; });
+                     [&](std::string_view magic) { return bytes.substr(0, magic.size()) == magic; });
 }
-}  // namespace
 
 std::string describeFile(const std::filesystem::path& path)
 {
@@ -77,8 +80,10 @@ std::string describeFile(const std::filesystem::path& path)
 
 bool isCapture(const std::filesystem::path& path)
 {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(fmt::format("{}: cannot be read", path.string()));
-  return beginsLikeCapture(firstBytesOf(file));
+  if (!std::ifstream(path, std::ios::binary))
+    throw std::runtime_error(fmt::format("{}: cannot be read", path.string()));
+  std::array<char, 4> bytes{};
+  CompressedFile file(path);
+  return beginsLikeCapture({bytes.data(), file.readUpTo(bytes.data(), bytes.size())});
 }
 }  // namespace scanloom

@@ -71,6 +71,13 @@ std::vector<std::filesystem::path> splitByComma(const std::string& list)
   return paths;
 }
 
+/** One lidar without a pose, and nothing that would have a pose beside it: its frame is the body's. */
+bool isWholeBody(const RigSettings& settings)
+{
+  return settings.lidars.size() == 1 && settings.lidars.front().pose.empty() && settings.rig.extrinsics.empty() &&
+         settings.rig.imu_csv.empty();
+}
+
 LiveOptions liveOptions(const RigOptions& options)
 {
   LiveOptions live;
@@ -114,7 +121,9 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
     RigSensor sensor;
     sensor.options = options;
     sensor.key = fmt::format("lidar{}", i + 1);
-    sensor.body_T_sensor = poseOf(sensor.key + "_pose", options.pose, options.name, settings.rig, poses);
+    sensor.body_T_sensor = isWholeBody(settings)
+                               ? Rigid::identity()
+                               : poseOf(sensor.key + "_pose", options.pose, options.name, settings.rig, poses);
     rig.sensors.push_back(std::move(sensor));
   }
   askForMetadata(rig.sensors, rig.captures.empty() ? MetadataNeed::OfSome : MetadataNeed::OfAll);

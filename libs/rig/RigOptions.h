@@ -27,8 +27,10 @@ struct LidarOptions
     visit(o.name, Field{"name", "", "the lidar's name in all outputs; empty: lidar1, lidar2, ..."});
     visit(o.metadata, Field{"metadata", "",
                             "the sensor's metadata, a JSON file; empty: the sensor at 'address' is asked for them"});
-    visit(o.pose, Field{"pose", "m, deg",
-                        "pose of the sensor in the body frame, [x y z yaw pitch roll]; empty: from extrinsics"});
+    visit(o.pose,
+          Field{"pose", "m, deg",
+                "pose of the sensor in the body frame, [x y z yaw pitch roll]; empty: from extrinsics; without those a "
+                "single lidar's frame is the body's"});
     visit(o.address, Field{"address", "",
                            "the sensor's IP address, or address:port of its web page: only packets from there are this "
                            "lidar's; it is asked for metadata if no file is given"});

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <deque>
+
 namespace scanloom
 {
 namespace
@@ -27,10 +29,9 @@ class SlamRun
       files_(files),
       warn_(warn),
       settings_(settings),
-      imu_(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms)),
-      slam_(settingsInUse(), imu_.body_T_imu(), mountedLidars(lidars())),
-      motion_(imu_.body_T_imu()),
-      check_(mountedLidars(lidars()), imu_.body_T_imu(), warn)
+      imu_(imuOf(input, settings.slam)),
+      slam_(settingsInUse(), imuPose(), mountedLidars(lidars())),
+      check_(mountedLidars(lidars()), imuPose(), warn)
   {
   }
 
@@ -46,9 +47,10 @@ class SlamRun
 
   void finish()
   {
+    if (mayGoWithoutImu()) goOnWithoutImu();
     keep(slam_.finish());
     times_.measure("rig_check", [&] { check_.check(); });
-    for (const auto& [name, refused] : imu_.refused())
+    for (const auto& [name, refused] : refusedReadings())
       warn_(fmt::format("the IMU '{}': samples were refused: {}", name, refused.toString()));
     for (const std::string& warning : cropWarnings(slam_.cropped(), lidars())) warn_(warning);
     for (const std::string& line : silentLidars(input_.account())) warn_(line);
@@ -88,7 +90,7 @@ class SlamRun
     summary.counts["recoveries"] = slam_.recoveries();
     summary.counts["map_restarts"] = slam_.mapRestarts();
     summary.counts["imu_samples_refused"] = 0;
-    for (const auto& [name, refused] : imu_.refused()) summary.counts["imu_samples_refused"] += refused.sum();
+    for (const auto& [name, refused] : refusedReadings()) summary.counts["imu_samples_refused"] += refused.sum();
     counts_.addTo(summary.counts);
     addCounts(slam_.cropped(), lidars(), summary.counts);
     summary.stages = slam_.times().stages();
@@ -102,50 +104,100 @@ class SlamRun
  private:
   std::vector<RecordedLidar> lidars() const { return input_.setup().header.lidars; }
 
-  const ImuNoise& noise() const { return imu_.insideLidar() ? settings_.lidar_imu : settings_.imu; }
+  static std::optional<ImuInUse> imuOf(const SensorInput& input, const SlamOptions& options)
+  {
+    const bool may_be_none = options.imu == "none" || (options.imu == "auto" && input.setup().body_T_imu.empty());
+    if (may_be_none) return std::nullopt;
+    return std::optional<ImuInUse>(std::in_place, input, options.imu, fromSeconds(1e-3 * options.imu_delay_ms));
+  }
+
+  Rigid imuPose() const { return imu_ ? imu_->body_T_imu() : Rigid::identity(); }
+
+  const ImuNoise& noise() const
+  {
+    if (!imu_) return settings_.no_imu;
+    return imu_->insideLidar() ? settings_.lidar_imu : settings_.imu;
+  }
+
+  std::map<std::string, RefusedReadings> refusedReadings() const
+  {
+    return imu_ ? imu_->refused() : std::map<std::string, RefusedReadings>{};
+  }
 
   SlamSettings settingsInUse() const
   {
     SlamSettings in_use = settings_;
     in_use.imu = noise();
-    in_use.slam.imu_wait_ms = 1e3 * seconds(imu_.patience(fromSeconds(1e-3 * settings_.slam.imu_wait_ms)));
+    if (imu_) in_use.slam.imu_wait_ms = 1e3 * seconds(imu_->patience(fromSeconds(1e-3 * settings_.slam.imu_wait_ms)));
     return in_use;
   }
 
   void take(const SensorImu& read)
   {
-    for (const ImuSample& sample : imu_.take(read))
+    if (motion_ || !imu_) return;
+    imu_heard_ = true;
+    uncovered_.clear();
+    for (const ImuSample& sample : imu_->take(read))
     {
       check_.add(sample);
-      if (motion_.known()) continue;
       slam_.addImu(sample);
-      if (!settings_.slam.constant_motion) keep(slam_.process());
+      keep(slam_.process());
     }
   }
 
   void take(Scan scan)
   {
+    constexpr Duration kImuIsHeard = 1s;  // every IMU sends far more often
     ++counts_.scans;
-    if (!settings_.slam.constant_motion) chooseImu(scan.end());
-    for (const ImuSample& imagined : motion_.samplesUntil(scan.end())) slam_.addImu(imagined);
+    if (!first_scan_) first_scan_ = scan.start;
+    if (motion_ || mayGoWithoutImu()) uncovered_.push_back(scan.end());
+    if (mayGoWithoutImu() && (!imu_ || scan.end() - *first_scan_ > kImuIsHeard)) goOnWithoutImu();
+    if (!motion_) chooseImu(scan.end());
     keep(slam_.addScan(std::move(scan)));
+    coverScans();
+  }
+
+  bool mayGoWithoutImu() const
+  {
+    return !motion_ && first_scan_ && !imu_heard_ && (!imu_ || settings_.slam.imu == "auto");
+  }
+
+  /** From the first scan on: none was processed so far, because that takes an IMU. */
+  void goOnWithoutImu()
+  {
+    if (settings_.slam.imu != "none")
+      warn_("there is no IMU: constant velocity and turn rate are assumed between scans, and a level start");
+    imu_.reset();
+    motion_.emplace(*first_scan_);
+    slam_.changeImu({{Rigid::identity(), settings_.no_imu, true}, {}, {}});
+    coverScans();
+  }
+
+  /** Scan by scan, because what is assumed for the next one follows from the estimate of the last one. */
+  void coverScans()
+  {
+    for (; motion_ && !uncovered_.empty(); uncovered_.pop_front())
+    {
+      for (const ImuSample& assumed : motion_->samplesUntil(uncovered_.front())) slam_.addImu(assumed);
+      keep(slam_.process());
+    }
   }
 
   void chooseImu(Timestamp now)
   {
-    if (imu_.changeIfSilent(now))
-      changeImu(fmt::format("the IMU '{}' is silent: '{}' goes on", imu_.previousName(), imu_.name()));
-    else if (imu_.returnToBetter(now))
+    if (imu_->changeIfSilent(now))
+      changeImu(fmt::format("the IMU '{}' is silent: '{}' goes on", imu_->previousName(), imu_->name()));
+    else if (imu_->returnToBetter(now))
       changeImu(
-          fmt::format("the IMU '{}' is there again: it goes on in place of '{}'", imu_.name(), imu_.previousName()));
+          fmt::format("the IMU '{}' is there again: it goes on in place of '{}'", imu_->name(), imu_->previousName()));
   }
 
   void changeImu(const std::string& why)
   {
     ++counts_.imu_changes;
     warn_(why);
-    check_.changeImu(imu_.body_T_imu());
-    slam_.changeImu({{imu_.body_T_imu(), noise()}, imu_.recent(), imu_.previous()});
+    check_.changeImu(imuPose());
+    slam_.changeImu({{imuPose(), noise()}, imu_->recent(), imu_->previous()});
   }
 
   void keep(const std::vector<StateEstimate>& estimates)
@@ -153,7 +205,7 @@ class SlamRun
     for (const StateEstimate& estimate : estimates)
     {
       counts_.add(estimate);
-      if (settings_.slam.constant_motion) motion_.update(estimate);
+      if (motion_) motion_->update(estimate);
       times_.measure("rig_check", [&] { check_.add(estimate); });
       files_.add(estimate);
     }
@@ -164,9 +216,12 @@ class SlamRun
   SlamFiles& files_;
   const Warn& warn_;
   SlamSettings settings_;
-  ImuInUse imu_;
+  std::optional<ImuInUse> imu_;  // none: there is no IMU
   LidarInertialSlam slam_;
-  ConstantMotion motion_;  // in place of the IMU, with [slam] constant_motion
+  std::optional<ConstantMotion> motion_;  // in place of an IMU
+  std::optional<Timestamp> first_scan_;
+  std::deque<Timestamp> uncovered_;  // ends of scans that an IMU, or what is assumed for it, does not cover yet
+  bool imu_heard_ = false;
   RigCheck check_;
   StageTimes times_;
   RunCounts counts_;

@@ -1,4 +1,5 @@
-/** Instead of an IMU, for comparison: the samples that it would measure at constant velocity and turn rate. */
+/** Where there is no IMU: the samples that one in the body's origin would measure at constant velocity and turn rate.
+ */
 #pragma once
 #include "core/ImuSample.h"
 #include "slam/StateEstimate.h"
@@ -12,20 +13,18 @@ namespace scanloom
 class ConstantMotion
 {
  public:
-  explicit ConstantMotion(const Rigid& body_T_imu) : body_T_imu_(body_T_imu) {}
+  /** From `start` on; until the first estimate the body is taken for level, without a turn. */
+  explicit ConstantMotion(Timestamp start) : given_(start) {}
 
   /** The latest estimate. */
   void update(const StateEstimate&);
 
-  /** At 100 Hz, after those given before, up to `end`; none before the first estimate. */
+  /** At 100 Hz, after those given before, up to `end`. */
   std::vector<ImuSample> samplesUntil(Timestamp end);
 
-  bool known() const { return latest_.has_value(); }
-
  private:
-  Rigid body_T_imu_;
-  std::optional<StampedPose> latest_;                    // of the IMU in the map
-  Eigen::Vector3d turn_rate_ = Eigen::Vector3d::Zero();  // rad/s, in the IMU's frame
+  std::optional<StampedPose> latest_;                    // of the body in the map
+  Eigen::Vector3d turn_rate_ = Eigen::Vector3d::Zero();  // rad/s, in the body's frame
   Timestamp given_;
 };
 }  // namespace scanloom

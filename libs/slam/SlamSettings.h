@@ -45,7 +45,6 @@ struct SlamOptions
 {
   int every_nth = 1;
   std::string imu = "auto";
-  bool constant_motion = false;
   double imu_delay_ms = 0;
   double imu_wait_ms = 50;
   TrackingOptions tracking;
@@ -55,13 +54,11 @@ struct SlamOptions
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.every_nth, Field{"every_nth", "", "use every N-th scan only; IMU samples are all used", atLeast(1)});
-    visit(o.imu, Field{"imu", "",
-                       "body, the name of a lidar (its own IMU), or auto: the body's if there is one, else the first "
-                       "lidar's, and another one when the one in use falls silent"});
-    visit(o.constant_motion,
-          Field{"constant_motion", "",
-                "for comparison: use the IMU only for initialisation, then assume constant velocity and turn rate with "
-                "the noise of [imu_noise]"});
+    visit(o.imu,
+          Field{"imu", "",
+                "body, the name of a lidar (its own IMU), none (constant velocity and turn rate are assumed), or "
+                "auto: the body's if there is one, else the first lidar's, another one when the one in use falls "
+                "silent, and none where no IMU is heard in the first second"});
     visit(o.imu_delay_ms, Field{"imu_delay_ms", "ms",
                                 "how much later the IMU's stamps are than the lidars' for the same instant; slam "
                                 "reports an estimate at its end",
@@ -78,6 +75,7 @@ struct SlamSettings
   StandstillOptions start;
   ImuNoise imu;
   ImuNoise lidar_imu = insideLidar();
+  ImuNoise no_imu = ofConstantMotion();
   CropOptions crop;
   ScanRegistrationOptions registration{cells(2.5), thinned(farCells(1.0)), reach(0.3), reach(1.0)};
   NdtOptions map_cells = farCells(1.0);
@@ -92,6 +90,10 @@ struct SlamSettings
     visit(s.start, Section{"start", "the first attitude and gyro bias, from standstill"});
     visit(s.imu, Section{"imu_noise", "noise of the body's IMU"});
     visit(s.lidar_imu, Section{"lidar_imu_noise", "noise of an IMU inside a lidar, if that is the one in use"});
+    visit(s.no_imu,
+          Section{"no_imu_noise",
+                  "without an IMU: how far the motion may be from constant velocity and turn rate, as if these "
+                  "were measured"});
     visit(s.crop, Section{"crop", "the machine's own points, and the ranges that are used"});
     visit(s.registration.scan_cells, Section{"scan_cells", "NDT cells of a scan for the rough alignment"});
     visit(s.registration.fine_cells, Section{"fine_cells", "NDT cells of a scan for the fine alignment"});
@@ -114,6 +116,14 @@ struct SlamSettings
     noise.gyro_bias_walk_deg = 1e-3;
     noise.accel_bias_walk = 5e-4;
     noise.accel_bias_sigma = 0.2;
+    return noise;
+  }
+  /** Of a machine that sways: it turns with up to 8 deg/s and accelerates with 1 m/s2 (assumed to be white noise). */
+  static ImuNoise ofConstantMotion()
+  {
+    ImuNoise noise;
+    noise.gyro_noise_deg = 3;
+    noise.accel_noise = 0.5;
     return noise;
   }
   static NdtOptions cells(double size)

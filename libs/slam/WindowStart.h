@@ -13,6 +13,7 @@ struct PlacedImu
 {
   Rigid body_T_imu;
   ImuNoise noise;
+  bool assumed = false;  // there is none: the samples are ConstantMotion's
 };
 
 /** Another IMU takes over. */

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 #include "support/runProgram.h"
 
@@ -62,11 +63,24 @@ TEST(Doctor, limitsAreOptions)
 TEST(Doctor, saysWhatIsMissing)
 {
   SCANLOOM_NEEDS_DATA(capture, kReal + "_lb_n3.pcap");
-  const Ended without = doctor(capture.string(), "2>&1");
+  const TemporaryFolder alone;
+  std::filesystem::copy(capture, alone / "drive.pcap");
+  const Ended without = doctor((alone / "drive.pcap").string(), "2>&1");
   EXPECT_EQ(without.status, 2);
   EXPECT_THAT(without.output, HasSubstr("--metadata"));
   EXPECT_EQ(doctor("").status, 2);
-  EXPECT_EQ(doctor("nowhere.pcap --metadata nothing.json").status, 1);
+  EXPECT_EQ(doctor("nowhere.pcap --metadata nothing.json").status, 2);
+}
+
+TEST(Doctor, namesTheKeyOfAPortThatIsWrong)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  ::setenv("SCANLOOM_RECORDING", folder.c_str(), 1);
+  const Ended ended =
+      doctor("-c " SCANLOOM_SOURCE_DIR "/params/dual_os0_recording.ini --set lidars.lidar2_port=9999 --seconds 5");
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_THAT(ended.output, HasSubstr("none at port 9999"));
+  EXPECT_THAT(ended.output, HasSubstr("lidar2_port = 7504"));
 }
 }  // namespace
 }  // namespace scanloom

@@ -9,7 +9,7 @@
 #include "doctor/RigExamination.h"
 #include "doctor/RotorPhase.h"
 #include "packets/MergedCaptures.h"
-#include "rig/CaptureRig.h"
+#include "rig/Rig.h"
 #include "support/TestData.h"
 #include "traces.h"
 
@@ -161,7 +161,11 @@ TEST(RotorPhase, ofARecordedVelodyneIsThatOfItsAzimuths)
 {
   // By the azimuth and time fields of the first and last packets' own bytes: 706.50 rpm, while the metadata says 600.
   SCANLOOM_NEEDS_DATA(capture, "other-lidars/Kitware+VeloView/Testing/Data/monterey-first-100-packets.pcap");
-  const Rig rig = captureRig({capture}, {SCANLOOM_SOURCE_DIR "/params/lidars/velodyne_hdl32e.json"});
+  RigSettings settings;
+  settings.rig.pcap_input = capture;
+  settings.lidars.resize(1);
+  settings.lidars.front().metadata = SCANLOOM_SOURCE_DIR "/params/lidars/velodyne_hdl32e.json";
+  const Rig rig = makeRig(settings);
   RigListener listener(rig, false);
   MergedCaptures captures(rig.captures);
   double hundredths = 0;

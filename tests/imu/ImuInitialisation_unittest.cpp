@@ -170,6 +170,17 @@ TEST(ImuInitialisation, needsAForceToTellUp)
   EXPECT_THROW(gravityOnly({ImuSample{}}, kBodyFromImu), std::invalid_argument);
 }
 
+TEST(ImuInitialisation, withoutAnImuTheMapIsAsLevelAsTheBody)
+{
+  const NavEstimate start = levelWithBody(Timestamp{5s});
+  EXPECT_EQ(start.state.stamp, Timestamp{5s});
+  EXPECT_LT(start.state.map_T_imu.rotation.angularDistance(Eigen::Quaterniond::Identity()), 1e-12);
+  const Eigen::VectorXd sigma = start.covariance.diagonal().cwiseSqrt();
+  EXPECT_LE(sigma.head<6>().maxCoeff(), 1e-3);     // it is defined so
+  EXPECT_GE(sigma.segment<3>(6).minCoeff(), 1.0);  // m/s: the machine may be driving
+  EXPECT_LE(sigma.tail<6>().maxCoeff(), 1e-5);     // what is assumed has no bias
+}
+
 TEST(ImuInitialisation, tellsTheStandstillOfARecordingFromItsDrive)
 {
   SCANLOOM_NEEDS_DATA(file, "recordings/sparse/imu.csv");

@@ -2,7 +2,9 @@
 
 #include "HandmadeCapture.h"
 #include "support/TemporaryFolder.h"
+#include "support/runProgram.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace scanloom
@@ -63,6 +65,28 @@ TEST(CaptureReader, tellsTimeToTheNanosecondAndWhoSentWhatWhere)
   EXPECT_EQ(datagram.source_port, 4000);
   EXPECT_EQ(datagram.destination_port, 7502);
   EXPECT_EQ(datagram.payload, kPayload);
+}
+
+TEST(CaptureReader, readsGzipAndZstdUpToACutThatItTells)
+{
+  HandmadeCapture capture;
+  for (int i = 0; i < 5000; ++i) capture.add(ethernet(ipv4Packet(udp(7502, content(100 + i % 7)))));
+  const TemporaryFolder folder;
+  std::filesystem::copy(capture.file(), folder / "plain.pcap");
+  ASSERT_EQ(runProgram(fmt::format("cd {} && gzip -k plain.pcap && zstd -q plain.pcap && head -c 2000 plain.pcap.gz > "
+                                   "cut.pcap.gz",
+                                   folder.path().string()))
+                .status,
+            0);
+  const std::vector<ByteVector> plain = payloads(read(folder / "plain.pcap"));
+  EXPECT_EQ(payloads(read(folder / "plain.pcap.gz")), plain);
+  EXPECT_EQ(payloads(read(folder / "plain.pcap.zst")), plain);
+
+  const Contents cut = read(folder / "cut.pcap.gz");
+  EXPECT_THAT(cut.counters.damages, ElementsAre(HasSubstr("cut")));
+  EXPECT_LT(cut.datagrams.size(), plain.size());
+  EXPECT_EQ(payloads(cut),
+            std::vector<ByteVector>(plain.begin(), plain.begin() + static_cast<long>(cut.datagrams.size())));
 }
 
 struct Framing

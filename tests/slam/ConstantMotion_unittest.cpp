@@ -8,8 +8,6 @@ namespace scanloom
 {
 namespace
 {
-const Rigid kBodyTImu = Rigid::fromXyzYawPitchRoll(0.2, -0.3, 1.5, 0.5, 0.02, -0.01);
-
 StateEstimate estimateAt(Timestamp stamp, const Rigid& map_T_body)
 {
   StateEstimate estimate;
@@ -18,12 +16,13 @@ StateEstimate estimateAt(Timestamp stamp, const Rigid& map_T_body)
   return estimate;
 }
 
-TEST(ConstantMotion, givesNothingBeforeTheFirstEstimate)
+TEST(ConstantMotion, isALevelRestUntilTheFirstEstimate)
 {
-  ConstantMotion motion(kBodyTImu);
-  EXPECT_TRUE(motion.samplesUntil(Timestamp{1s}).empty());
-  motion.update(estimateAt(Timestamp{1s}, Rigid::identity()));
-  EXPECT_EQ(motion.samplesUntil(Timestamp{1100ms}).size(), 10U);
+  ConstantMotion motion(Timestamp{1s});
+  const auto samples = motion.samplesUntil(Timestamp{1100ms});
+  ASSERT_EQ(samples.size(), 10U);
+  EXPECT_EQ(samples.back().gyro, Eigen::Vector3d::Zero());
+  EXPECT_LT((samples.back().accel - Eigen::Vector3d(0, 0, 9.80665)).norm(), 1e-9);
   EXPECT_EQ(motion.samplesUntil(Timestamp{1105ms}).size(), 1U);  // the rest only
 }
 
@@ -31,15 +30,15 @@ TEST(ConstantMotion, samplesIntegrateToAStraightLineAndTheSameTurnAgain)
 {
   const Rigid first = Rigid::fromXyzYawPitchRoll(1, 2, 3, 0.3, 0.2, 0.1);
   const Rigid turn = Rigid::fromXyzYawPitchRoll(0, 0, 0, 0.05, -0.02, 0.03);
-  ConstantMotion motion(kBodyTImu);
+  ConstantMotion motion(Timestamp{1s});
   motion.update(estimateAt(Timestamp{900ms}, first));
   motion.update(estimateAt(Timestamp{1s}, first * turn));
 
   NavState state;
   state.stamp = Timestamp{1010ms};
   const auto samples = motion.samplesUntil(Timestamp{1100ms});
-  const Rigid now = first * turn * kBodyTImu;
-  const Eigen::AngleAxisd rate(Eigen::Quaterniond(((first * kBodyTImu).inverse() * now).rotation));
+  const Rigid now = first * turn;
+  const Eigen::AngleAxisd rate(Eigen::Quaterniond((first.inverse() * now).rotation));
   const auto turned = [&](double share)
   { return Eigen::Quaterniond(Eigen::AngleAxisd(share * rate.angle(), rate.axis())); };
   state.map_T_imu = {now.rotation * turned(0.1), now.translation};

@@ -1,0 +1,71 @@
+#include "Recording.h"
+
+#include "core/ConfigError.h"
+#include "recordings/RecognisedRig.h"
+#include "rig/RigOptions.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace scanloom
+{
+Option addRecording(CLI::App& app, RecordingArguments& arguments, const std::string& name)
+{
+  const Option recording = addOption(app, name, arguments.paths,
+                                     "a recording: captures (pcap, pcapng; also .gz, .zst), a rawlog, or a "
+                                     "folder of these; the lidars' metadata, poses and IMU are found beside it");
+  addOption(app, "--metadata", arguments.metadata, "metadata of a lidar, instead of those beside the captures")
+      .typeName("FILE")
+      .repeatable();
+  return recording;
+}
+
+RecordingFiles filesOf(const RecordingArguments& arguments)
+{
+  std::vector<std::filesystem::path> given = arguments.paths;
+  given.insert(given.end(), arguments.metadata.begin(), arguments.metadata.end());
+  const RecordingFiles files = filesOf(given);
+  if (!files.captures.empty() && !files.rawlogs.empty())
+    throw UsageError(fmt::format("{} is a capture and {} a rawlog: name one of them", files.captures.front().string(),
+                                 files.rawlogs.front().string()));
+  if (files.rawlogs.size() > 1)
+    throw UsageError(
+        fmt::format("{} and {}: two rawlogs: name one of them", files.rawlogs[0].string(), files.rawlogs[1].string()));
+  if (files.captures.empty() && !arguments.metadata.empty())
+    throw UsageError("--metadata is for captures: other recordings hold what it tells");
+  return files;
+}
+
+bool addCaptures(const RecordingFiles& files, Configuration& configuration, Poses poses)
+{
+  if (files.captures.empty()) return true;
+  if (hasRigSection(configuration))
+  {
+    std::vector<std::string> names;
+    for (const auto& capture : files.captures) names.push_back(capture.string());
+    configuration.set(fmt::format("{}.pcap_input={}", rigSection(configuration), fmt::join(names, ", ")));
+    return true;
+  }
+  RecognisedRig rig = recogniseRig(files);
+  for (const std::string& line : rig.found) fmt::print(stderr, "{}\n", line);
+  for (const std::string& note : rig.notes) fmt::print(stderr, "warning: {}\n", note);
+  if (poses == Poses::TakenAsZero)
+    for (const std::string& key : rig.unknown_poses) rig.ini += fmt::format("{} = [0 0 0 0 0 0]\n", key);
+  configuration.addDefaults(Configuration::fromText(rig.ini, "recognised"));
+  return rig.poses_known;
+}
+
+std::filesystem::path besideRecording(const RecordingArguments& arguments, const std::string& ending)
+{
+  const std::filesystem::path& path = arguments.paths.front();
+  if (std::filesystem::is_directory(path))
+  {
+    std::filesystem::path folder = std::filesystem::absolute(path).lexically_normal();
+    if (!folder.has_filename()) folder = folder.parent_path();  // "dense/"
+    return path.parent_path() / (folder.filename().string() + ending);
+  }
+  std::filesystem::path name = path.filename();
+  if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
+  return path.parent_path() / (name.stem().string() + ending);
+}
+}  // namespace scanloom

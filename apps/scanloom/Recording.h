@@ -1,0 +1,43 @@
+/** A recording on the command line: files and folders that are recognised by what they hold. */
+#pragma once
+#include "Options.h"
+#include "config/Configuration.h"
+#include "recordings/RecordingFiles.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+struct RecordingArguments
+{
+  std::vector<std::filesystem::path> paths;
+  std::vector<std::filesystem::path> metadata;
+
+  bool given() const { return !paths.empty(); }
+};
+
+/** Adds the argument RECORDING and --metadata. @return the argument. */
+Option addRecording(CLI::App&, RecordingArguments&, const std::string& name = "RECORDING");
+
+/** What the arguments name. @throws UsageError as filesOf() does, and for captures together with rawlogs. */
+RecordingFiles filesOf(const RecordingArguments&);
+
+enum class Poses
+{
+  Needed,
+  TakenAsZero,  // where a lidar's pose is not known
+};
+
+/**
+ * Adds the captures: to the lidars that the configuration describes, else with the lidars that are recognised, which
+ * are printed to stderr.
+ * @return whether the lidars' poses in a body frame are known.
+ */
+bool addCaptures(const RecordingFiles&, Configuration&, Poses = Poses::Needed);
+
+/** A name for results beside the recording: drive.pcap.gz and "_slam" give drive_slam, a folder dense/ gives
+ * dense_slam. */
+std::filesystem::path besideRecording(const RecordingArguments&, const std::string& ending);
+}  // namespace scanloom

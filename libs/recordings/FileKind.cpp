@@ -1,0 +1,86 @@
+#include "recordings/FileKind.h"
+
+#include "formats/CompressedFile.h"
+#include "lidar/LidarModels.h"
+#include "lidar/MetadataKeys.h"
+#include "packets/describeFile.h"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kBytesLookedAt = 4096;
+
+std::string firstBytesOf(const std::filesystem::path& path)
+{
+  std::string bytes(kBytesLookedAt, '\0');
+  CompressedFile file(path);
+  bytes.resize(file.readUpTo(bytes.data(), bytes.size()));
+  return bytes;
+}
+
+bool beginsWith(std::string_view bytes, std::string_view beginning)
+{
+  return bytes.substr(0, beginning.size()) == beginning;
+}
+
+/** MRPT writes the length of a class's name with its highest bit set, then the name. */
+bool isSerialisedObject(std::string_view bytes)
+{
+  if (bytes.size() < 3 || (static_cast<unsigned char>(bytes[0]) & 0x80U) == 0) return false;
+  const std::size_t length = static_cast<unsigned char>(bytes[0]) & 0x7FU;
+  const std::string_view name = bytes.substr(1, length);
+  const auto inName = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':' || c == '<' || c == '>'; };
+  return name.size() == length && length > 1 && std::all_of(name.begin(), name.end(), inName);
+}
+
+bool isText(std::string_view bytes)
+{
+  return std::all_of(bytes.begin(), bytes.end(),
+                     [](unsigned char c) { return c >= ' ' || std::isspace(c) || c >= 0x80; });
+}
+
+/** The first line that is neither empty nor a comment. */
+std::string firstLine(const std::string& text)
+{
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin != std::string::npos && line[begin] != '#') return line.substr(begin);
+  }
+  return "";
+}
+
+/** An integer stamp in ns and six numbers. */
+bool isImuLine(const std::string& line)
+{
+  const std::size_t stamp = line.find_first_not_of("0123456789");
+  return stamp >= 10 && stamp < line.size() && line[stamp] == ',' && std::count(line.begin(), line.end(), ',') == 6;
+}
+
+FileKind kindOfText(const std::filesystem::path& path, const std::string& text)
+{
+  const std::string first = firstLine(text);
+  if (beginsWith(first, "T_body_")) return FileKind::Extrinsics;
+  if (isImuLine(first)) return FileKind::BodyImu;
+  if (beginsWith(first, "{") && isLidarMetadata(readMetadataText(path.string()))) return FileKind::LidarMetadata;
+  return FileKind::Other;
+}
+}  // namespace
+
+FileKind kindOf(const std::filesystem::path& path)
+{
+  const std::string bytes = firstBytesOf(path);
+  if (beginsLikeCapture(bytes)) return FileKind::Capture;
+  if (isSerialisedObject(bytes)) return FileKind::Rawlog;
+  if (!bytes.empty() && isText(bytes)) return kindOfText(path, bytes);
+  return FileKind::Other;
+}
+}  // namespace scanloom

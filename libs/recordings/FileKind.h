@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+
+namespace scanloom
+{
+/** What a file of a recording is good for. */
+enum class FileKind
+{
+  Capture,        // pcap, pcapng
+  Rawlog,         // of MRPT
+  LidarMetadata,  // of any known brand
+  BodyImu,        // EuRoC csv
+  Extrinsics,     // lines "T_body_<name> x y z yaw pitch roll"
+  Other,
+};
+
+/**
+ * By the first bytes, those of a gzip or zstd file unpacked. Throws std::runtime_error if the file cannot be read or
+ * unpacked.
+ */
+FileKind kindOf(const std::filesystem::path&);
+}  // namespace scanloom

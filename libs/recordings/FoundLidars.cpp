@@ -1,0 +1,236 @@
+#include "recordings/FoundLidars.h"
+
+#include "core/ConfigError.h"
+#include "lidar/LidarModels.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace scanloom
+{
+namespace
+{
+using Candidates = std::vector<std::size_t>;  // indices
+using Paths = std::vector<std::filesystem::path>;
+
+constexpr std::uint64_t kWorthANote = 100;  // datagrams of a stream that no lidar sends
+
+/** The candidates that understand a packet of the stream as lidar data, most packets first, and how many. */
+using Fits = std::map<Candidates, std::size_t>;
+
+/** By the set of candidates that understand it: how many packets. */
+Fits fitsOf(const SampledStream& stream, const std::vector<MetadataCandidate>& candidates)
+{
+  Fits fits;
+  for (const SampledStream::Packet& packet : stream.samples)
+  {
+    Candidates understand;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (candidates[i].decoder && candidates[i].decoder->kind(packet) == PacketKind::Lidar) understand.push_back(i);
+    if (!understand.empty()) ++fits[understand];
+  }
+  return fits;
+}
+
+/** Those that the test keeps, or all if it keeps none. */
+Candidates preferred(const Candidates& candidates, const std::function<bool(std::size_t)>& isBetter)
+{
+  Candidates better;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(better), isBetter);
+  return better.empty() ? candidates : better;
+}
+
+bool isNamedLike(const std::filesystem::path& metadata, const Paths& captures)
+{
+  return std::any_of(captures.begin(), captures.end(),
+                     [&](const auto& capture) { return capture.stem().stem() == metadata.stem(); });
+}
+
+[[noreturn]] void refuseSeveral(const SampledStream& stream, const Candidates& fitting,
+                                const std::vector<MetadataCandidate>& candidates)
+{
+  std::vector<std::string> files;
+  for (const std::size_t i : fitting) files.push_back(candidates[i].file.string());
+  throw UsageError(fmt::format("the packets from {} to port {} fit each of {}: name the right one, --metadata FILE",
+                               stream.source.text(), stream.port, fmt::join(files, ", ")));
+}
+
+/** Why a candidate is no lidar of these streams. */
+std::string whyNot(const MetadataCandidate& candidate, const std::vector<SampledStream>& streams)
+{
+  if (!candidate.decoder) return candidate.fault;
+  const LidarDescription& lidar = candidate.decoder->description();
+  const std::string described = fmt::format("{}: a {} {}", candidate.file.string(), lidar.model, lidar.serial);
+  for (const SampledStream& stream : streams)
+    for (const SampledStream::Packet& packet : stream.samples)
+    {
+      const PacketKind kind = candidate.decoder->kind(packet);
+      if (kind == PacketKind::Foreign)
+      {
+        const auto serial = candidate.decoder->header(packet).serial;
+        return serial
+                   ? fmt::format("{}, but packets to port {} are of serial number {}", described, stream.port, *serial)
+                   : fmt::format("{}, but packets to port {} are of another model", described, stream.port);
+      }
+      if (kind == PacketKind::BadCrc)
+        return fmt::format("{}, but packets to port {} have a wrong checksum", described, stream.port);
+    }
+  return fmt::format("{}: no packet has the format or size of its packets", described);
+}
+
+std::string describe(const SampledStream& stream)
+{
+  std::set<std::size_t> sizes;
+  for (const SampledStream::Packet& packet : stream.samples) sizes.insert(packet.size());
+  const std::string bytes =
+      sizes.size() == 1 ? fmt::format("{}", *sizes.begin()) : fmt::format("{} to {}", *sizes.begin(), *sizes.rbegin());
+  return fmt::format("{} datagrams of {} bytes from {} to port {}", stream.datagrams, bytes, stream.source.text(),
+                     stream.port);
+}
+
+[[noreturn]] void refuseNone(const std::vector<SampledStream>& streams,
+                             const std::vector<MetadataCandidate>& candidates, const Paths& captures)
+{
+  std::string message = fmt::format("{}: no lidar is recognised", captures.front().string());
+  std::vector<std::string> held;
+  for (const SampledStream& stream : streams) held.push_back(describe(stream));
+  message += held.empty() ? "; there is no datagram" : fmt::format("; there are {}", fmt::join(held, ", "));
+  for (const MetadataCandidate& candidate : candidates) message += "\n  " + whyNot(candidate, streams);
+  if (candidates.empty()) message += "; an Ouster needs its metadata (JSON) beside the capture, or --metadata FILE";
+  throw UsageError(message);
+}
+
+class Search
+{
+ public:
+  Search(const std::vector<SampledStream>& streams, const std::vector<MetadataCandidate>& candidates,
+         const Paths& captures)
+    : streams_(streams), candidates_(candidates), captures_(captures)
+  {
+    for (const SampledStream& stream : streams_) fits_.push_back(fitsOf(stream, candidates_));
+  }
+
+  LidarsFound result()
+  {
+    for (std::size_t s = 0; s < streams_.size(); ++s) chooseFor(s);
+    for (FoundLidar& lidar : found_.lidars) lidar.imu_port = imuPortOf(lidar);
+    for (FoundLidar& one : found_.lidars)
+      for (const FoundLidar& other : found_.lidars)
+        one.source_matters |= sharesPort(one, other) && one.source != other.source;
+    std::sort(found_.lidars.begin(), found_.lidars.end(),
+              [](const FoundLidar& a, const FoundLidar& b)
+              { return std::tie(a.port, a.source) < std::tie(b.port, b.source); });
+    return std::move(found_);
+  }
+
+ private:
+  void chooseFor(std::size_t s)
+  {
+    const SampledStream& stream = streams_[s];
+    std::set<std::size_t> chosen;
+    for (const auto& [fitting, packets] : fits_[s]) chosen.insert(choose(s, fitting));
+    for (const std::size_t i : chosen) found_.lidars.push_back(lidarOf(i, stream));
+  }
+
+  std::size_t choose(std::size_t s, const Candidates& fitting) const
+  {
+    const SampledStream& stream = streams_[s];
+    Candidates left = preferred(fitting, [&](std::size_t i) { return isNamedLike(candidates_[i].file, captures_); });
+    left =
+        preferred(left, [&](std::size_t i) { return candidates_[i].decoder->description().lidar_port == stream.port; });
+    left = preferred(left, [&](std::size_t i) { return !fitsElsewhere(i, s); });
+    if (left.size() > 1) refuseSeveral(stream, left, candidates_);
+    return left.front();
+  }
+
+  bool fitsElsewhere(std::size_t candidate, std::size_t s) const
+  {
+    for (std::size_t other = 0; other < streams_.size(); ++other)
+      for (const auto& [fitting, packets] : fits_[other])
+        if (other != s && std::find(fitting.begin(), fitting.end(), candidate) != fitting.end()) return true;
+    return false;
+  }
+
+  FoundLidar lidarOf(std::size_t candidate, const SampledStream& stream) const
+  {
+    FoundLidar lidar;
+    lidar.metadata = candidates_[candidate].file;
+    lidar.description = candidates_[candidate].decoder->description();
+    lidar.source = stream.source;
+    lidar.port = stream.port;
+    return lidar;
+  }
+
+  /** The port that its IMU packets go to: of its own address, rather the one that its metadata name. */
+  std::uint16_t imuPortOf(const FoundLidar& lidar) const
+  {
+    const auto candidate = std::find_if(candidates_.begin(), candidates_.end(),
+                                        [&](const MetadataCandidate& c) { return c.file == lidar.metadata; });
+    std::uint16_t port = 0;
+    for (const SampledStream& stream : streams_)
+      if (stream.source == lidar.source && holdsImu(stream, *candidate->decoder) &&
+          (port == 0 || stream.port == lidar.description.imu_port))
+        port = stream.port;
+    return port;
+  }
+
+  static bool holdsImu(const SampledStream& stream, const PacketDecoder& decoder)
+  {
+    return std::any_of(stream.samples.begin(), stream.samples.end(),
+                       [&](const SampledStream::Packet& packet) { return decoder.kind(packet) == PacketKind::Imu; });
+  }
+
+  static bool sharesPort(const FoundLidar& a, const FoundLidar& b)
+  {
+    const auto isOneOf = [](std::uint16_t port, const FoundLidar& lidar)
+    { return port != 0 && (port == lidar.port || port == lidar.imu_port); };
+    return isOneOf(a.port, b) || isOneOf(a.imu_port, b);
+  }
+
+  const std::vector<SampledStream>& streams_;
+  const std::vector<MetadataCandidate>& candidates_;
+  const Paths& captures_;
+  std::vector<Fits> fits_;  // of each stream
+  LidarsFound found_;
+};
+
+bool isOfALidar(const SampledStream& stream, const std::vector<FoundLidar>& lidars)
+{
+  return std::any_of(
+      lidars.begin(), lidars.end(),
+      [&](const FoundLidar& lidar)
+      { return lidar.source == stream.source && (lidar.port == stream.port || lidar.imu_port == stream.port); });
+}
+}  // namespace
+
+std::vector<MetadataCandidate> candidatesFrom(const Paths& metadata_files)
+{
+  std::vector<MetadataCandidate> candidates;
+  for (const std::filesystem::path& file : metadata_files) try
+    {
+      candidates.push_back({file, makeDecoder(file.string(), Rigid::identity()), ""});
+    }
+    catch (const std::invalid_argument& fault)
+    {
+      candidates.push_back({file, nullptr, fault.what()});
+    }
+  return candidates;
+}
+
+LidarsFound findLidars(const std::vector<SampledStream>& streams, const std::vector<MetadataCandidate>& candidates,
+                       const Paths& captures)
+{
+  LidarsFound found = Search(streams, candidates, captures).result();
+  if (found.lidars.empty()) refuseNone(streams, candidates, captures);
+  for (const SampledStream& stream : streams)
+    if (stream.datagrams >= kWorthANote && !isOfALidar(stream, found.lidars))
+      found.notes.push_back(fmt::format("{} are of no lidar with known metadata: left out", describe(stream)));
+  return found;
+}
+}  // namespace scanloom

@@ -1,0 +1,48 @@
+/** Which lidars a capture holds, and where their packets are. */
+#pragma once
+#include "lidar/PacketDecoder.h"
+#include "recordings/SampledStreams.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** What may describe a lidar of the recording. */
+struct MetadataCandidate
+{
+  std::filesystem::path file;
+  std::shared_ptr<const PacketDecoder> decoder;  // null if the file is faulty
+  std::string fault;
+};
+
+/** Of files; a faulty one is a candidate that fits nothing. */
+std::vector<MetadataCandidate> candidatesFrom(const std::vector<std::filesystem::path>& metadata_files);
+
+struct FoundLidar
+{
+  std::filesystem::path metadata;
+  LidarDescription description;
+  IpAddress source;
+  std::uint16_t port = 0;
+  std::uint16_t imu_port = 0;   // 0: no IMU packet came
+  bool source_matters = false;  // another lidar sends to the same port
+};
+
+struct LidarsFound
+{
+  std::vector<FoundLidar> lidars;  // by port, then source
+  std::vector<std::string> notes;  // what is left out, and why
+};
+
+/**
+ * A lidar is in a stream if its decoder understands packets of it: size, format, serial number and checksum fit. Where
+ * several candidates fit, the one that is named like a capture is taken, or the one that names the stream's port, or
+ * the only one that fits no other stream. Throws UsageError if that leaves several, and if no lidar is found; the
+ * message says for each candidate why it does not fit.
+ */
+LidarsFound findLidars(const std::vector<SampledStream>&, const std::vector<MetadataCandidate>&,
+                       const std::vector<std::filesystem::path>& captures);
+}  // namespace scanloom

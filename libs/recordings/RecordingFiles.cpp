@@ -1,0 +1,106 @@
+#include "recordings/RecordingFiles.h"
+
+#include "core/ConfigError.h"
+#include "packets/describeFile.h"
+#include "recordings/FileKind.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+using Paths = RecordingFiles::Paths;
+
+Paths* listFor(FileKind kind, RecordingFiles& files)
+{
+  switch (kind)
+  {
+    case FileKind::Capture:
+      return &files.captures;
+    case FileKind::Rawlog:
+      return &files.rawlogs;
+    case FileKind::LidarMetadata:
+      return &files.metadata;
+    case FileKind::BodyImu:
+      return &files.imus;
+    case FileKind::Extrinsics:
+      return &files.extrinsics;
+    case FileKind::Other:
+      return nullptr;
+  }
+  return nullptr;
+}
+
+/** A folder holds what else a person put there: a file that can't be read is not of the recording. */
+FileKind kindIfReadable(const std::filesystem::path& file)
+try
+{
+  return kindOf(file);
+}
+catch (const std::exception&)
+{
+  return FileKind::Other;
+}
+
+RecordingFiles filesIn(const std::filesystem::path& folder)
+{
+  RecordingFiles files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_regular_file())
+      if (Paths* list = listFor(kindIfReadable(entry.path()), files)) list->push_back(entry.path().lexically_normal());
+  return files;
+}
+
+void append(Paths& to, const Paths& from) { to.insert(to.end(), from.begin(), from.end()); }
+
+void append(RecordingFiles& to, const RecordingFiles& from)
+{
+  append(to.captures, from.captures);
+  append(to.rawlogs, from.rawlogs);
+  append(to.metadata, from.metadata);
+  append(to.imus, from.imus);
+  append(to.extrinsics, from.extrinsics);
+}
+
+void addGiven(const std::filesystem::path& path, RecordingFiles& files)
+{
+  if (std::filesystem::is_directory(path)) return append(files, filesIn(path));
+  if (!std::filesystem::exists(path)) throw UsageError(fmt::format("{}: no such file or folder", path.string()));
+  Paths* list = listFor(kindOf(path), files);
+  if (!list)
+    throw UsageError(fmt::format("{}: {}; expected a capture (pcap, pcapng), a rawlog, or a folder of them",
+                                 path.string(), describeFile(path)));
+  list->push_back(path);
+}
+
+void addWhatLiesBeside(const std::filesystem::path& given, RecordingFiles& files)
+{
+  const std::filesystem::path folder = given.has_parent_path() ? given.parent_path() : ".";
+  const RecordingFiles beside = filesIn(folder);
+  if (files.metadata.empty()) files.metadata = beside.metadata;
+  if (files.imus.empty()) files.imus = beside.imus;
+  if (files.extrinsics.empty()) files.extrinsics = beside.extrinsics;
+}
+
+void sort(Paths& paths)
+{
+  std::sort(paths.begin(), paths.end());
+  paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
+}
+}  // namespace
+
+RecordingFiles filesOf(const std::vector<std::filesystem::path>& given)
+{
+  RecordingFiles files;
+  for (const auto& path : given) addGiven(path, files);
+  if (files.empty())
+    throw UsageError(fmt::format("{}: holds no recording: expected captures (pcap, pcapng) or a rawlog",
+                                 given.empty() ? "" : given.front().string()));
+  if (!std::filesystem::is_directory(given.front())) addWhatLiesBeside(given.front(), files);
+  for (Paths* list : {&files.captures, &files.rawlogs, &files.metadata, &files.imus, &files.extrinsics}) sort(*list);
+  return files;
+}
+}  // namespace scanloom

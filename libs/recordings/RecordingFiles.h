@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+namespace scanloom
+{
+/** The files of one recording, by what they are good for; each list in the order of names. */
+struct RecordingFiles
+{
+  using Paths = std::vector<std::filesystem::path>;
+
+  Paths captures, rawlogs;
+  Paths metadata;          // of lidars
+  Paths imus, extrinsics;  // of the body
+
+  bool empty() const { return captures.empty() && rawlogs.empty(); }
+};
+
+/**
+ * The given files, and all files of the given folders (not of folders within). Metadata, IMU and poses that are not
+ * among them are looked for beside the first of the given files. Throws UsageError for a name that is no file or
+ * folder, for a given file of no known kind, and if there is no recording among them.
+ */
+RecordingFiles filesOf(const std::vector<std::filesystem::path>& given);
+}  // namespace scanloom

@@ -1,0 +1,77 @@
+/** A recording on the command line, without a configuration. */
+#include "support/TemporaryFolder.h"
+#include "support/TestData.h"
+#include "support/runProgram.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+namespace scanloom
+{
+namespace
+{
+using testing::AllOf;
+using testing::HasSubstr;
+
+Ended scanloom(const std::filesystem::path& in, const std::string& command)
+{
+  return runProgram(fmt::format("cd {} && {}/scanloom {} 2>&1", in.string(), SCANLOOM_BIN_DIR, command));
+}
+
+const std::string kVelodynes = "other-lidars/MRPT+mrpt/modules/mrpt_data/tests/sample_velodyne_hdl32.pcap";
+}  // namespace
+
+TEST(Recording, aCaptureAloneGivesATrajectoryAndAMapWithoutAnImu)
+{
+  SCANLOOM_NEEDS_DATA(capture, kVelodynes);
+  const TemporaryFolder folder;
+  std::filesystem::copy(capture, folder / "street.pcap");
+  std::filesystem::copy(SCANLOOM_SOURCE_DIR "/params/lidars/velodyne_hdl32e.json", folder / "velodyne.json");
+  const Ended ended = scanloom(folder.path(), "slam street.pcap");
+  EXPECT_EQ(ended.status, 0) << ended.output;
+  EXPECT_THAT(ended.output, AllOf(HasSubstr("HDL-32E"), HasSubstr("there is no IMU: constant velocity")));
+  EXPECT_FALSE(contentOf(folder / "street_slam/trajectory.tum").empty());
+  EXPECT_TRUE(std::filesystem::exists(folder / "street_slam/map.ply"));
+}
+
+TEST(Recording, compressedIsTheSameRecording)
+{
+  SCANLOOM_NEEDS_DATA(capture, kVelodynes);
+  const TemporaryFolder folder;
+  std::filesystem::copy(SCANLOOM_SOURCE_DIR "/params/lidars/velodyne_hdl32e.json", folder / "velodyne.json");
+  std::filesystem::copy(capture, folder / "plain.pcap");
+  ASSERT_EQ(runProgram(fmt::format("gzip -c {0}/plain.pcap > {0}/packed.pcap.gz", folder.path().string())).status, 0);
+  for (const char* name : {"plain.pcap", "packed.pcap.gz"})
+    ASSERT_EQ(scanloom(folder.path(), fmt::format("record {}", name)).status, 0);
+  const auto unpacked = [&](const char* name)
+  { return runProgram(fmt::format("gzip -dc {}", (folder / name).string())).output; };
+  EXPECT_EQ(unpacked("plain.rawlog"), unpacked("packed.rawlog"));
+}
+
+TEST(Recording, configForItRepeatsIt)
+{
+  SCANLOOM_NEEDS_DATA(capture, kVelodynes);
+  const TemporaryFolder folder;
+  std::filesystem::copy(SCANLOOM_SOURCE_DIR "/params/lidars/velodyne_hdl32e.json", folder / "velodyne.json");
+  std::filesystem::copy(capture, folder / "street.pcap");
+  ASSERT_EQ(scanloom(folder.path(), "config --for street.pcap > rig.ini; test -s rig.ini").status, 0);
+  ASSERT_EQ(scanloom(folder.path(), "record street.pcap").status, 0);
+  ASSERT_EQ(scanloom(folder.path(), "record -c rig.ini -o again.rawlog").status, 0);
+  EXPECT_EQ(contentOf(folder / "again.rawlog"), contentOf(folder / "street.rawlog"));
+}
+
+TEST(Recording, infoFindsTheMetadataBeside)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  EXPECT_THAT(scanloom("/", "info " + recording.string()).output,
+              AllOf(HasSubstr("OS-0-32 122150000151"), HasSubstr("OS-0-32 122322000615")));
+}
+
+TEST(Recording, thatIsMissingEndsWithTwoAndSaysWhatIsExpected)
+{
+  const Ended ended = scanloom("/", "slam nowhere.pcap");
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_THAT(ended.output, HasSubstr("nowhere.pcap: no such file or folder"));
+  EXPECT_THAT(scanloom("/", "slam -c nothing.ini").output, HasSubstr("--out-dir"));
+}
+}  // namespace scanloom

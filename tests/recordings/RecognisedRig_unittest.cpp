@@ -1,0 +1,136 @@
+#include "recordings/RecognisedRig.h"
+
+#include "core/ConfigError.h"
+#include "packets/CaptureWriter.h"
+#include "packets/MergedCaptures.h"
+#include "rig/Rig.h"
+#include "support/TemporaryFolder.h"
+#include "support/TestData.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <functional>
+
+namespace scanloom
+{
+namespace
+{
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Path = std::filesystem::path;
+
+/** Those of the first datagrams that `wanted` keeps and may change. */
+void writeSome(const Path& from, const Path& to, const std::function<bool(Datagram&)>& wanted)
+{
+  MergedCaptures datagrams({from});
+  CaptureWriter writer(to);
+  Datagram datagram;
+  for (int i = 0; i < 2000 && datagrams.next(datagram); ++i)
+    if (wanted(datagram)) writer.write(datagram);
+  writer.close();
+}
+
+bool isOfLeft(const Datagram& datagram) { return datagram.destination_port <= 7503; }
+
+Rig rigFrom(const RecognisedRig& recognised)
+{
+  return makeRig(readRigSettings(Configuration::fromText(recognised.ini, "recognised"), kRecognisedSection));
+}
+
+std::string refusalOf(const std::vector<Path>& recording)
+try
+{
+  recogniseRig(filesOf(recording));
+  return "";
+}
+catch (const UsageError& refusal)
+{
+  return refusal.what();
+}
+}  // namespace
+
+TEST(RecognisedRig, ofAFolderHasItsLidarsPortsPosesAndImu)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const RecognisedRig recognised = recogniseRig(filesOf({folder}));
+  const Rig rig = rigFrom(recognised);
+  ASSERT_EQ(rig.lidars.size(), 2U);
+  EXPECT_EQ(rig.lidars[0].name, "left");
+  EXPECT_EQ(rig.lidars[1].name, "right");
+  EXPECT_EQ(rig.addresses[0].lidar_port, 7502);
+  EXPECT_EQ(rig.addresses[1].imu_port, 7505);
+  EXPECT_NEAR(rig.sensors[0].body_T_sensor.translation.x(), 1.5, 1e-9);  // its extrinsics.txt
+  EXPECT_FALSE(rig.body_imu.empty());
+  EXPECT_TRUE(recognised.poses_known);
+  EXPECT_THAT(recognised.notes, ElementsAre());
+}
+
+TEST(RecognisedRig, hasThePortsThatTheCaptureShows)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const TemporaryFolder moved;
+  writeSome(folder / "recording.pcap", moved / "drive.pcap",
+            [](Datagram& datagram)
+            {
+              datagram.destination_port = static_cast<std::uint16_t>(datagram.destination_port + 50000);
+              return datagram.destination_port <= 57503;
+            });
+  std::filesystem::copy(folder / "left.json", moved / "any_name.json");
+  const Rig rig = rigFrom(recogniseRig(filesOf({moved / "drive.pcap"})));
+  ASSERT_EQ(rig.lidars.size(), 1U);
+  EXPECT_EQ(rig.lidars[0].name, "any_name");
+  EXPECT_EQ(rig.addresses[0].lidar_port, 57502);
+  EXPECT_EQ(rig.addresses[0].imu_port, 57503);
+}
+
+TEST(RecognisedRig, marksThePosesThatItCannotKnow)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const TemporaryFolder bare;
+  writeSome(folder / "recording.pcap", bare / "drive.pcap", [](Datagram&) { return true; });
+  for (const char* metadata : {"left.json", "right.json"}) std::filesystem::copy(folder / metadata, bare / metadata);
+  const RecognisedRig recognised = recogniseRig(filesOf({bare.path()}));
+  EXPECT_THAT(recognised.unknown_poses, ElementsAre("lidar1_pose", "lidar2_pose"));
+  EXPECT_THAT(recognised.ini, AllOf(HasSubstr("FILL IN"), HasSubstr("//lidar2_pose")));
+  EXPECT_THROW(rigFrom(recognised), ConfigError);
+}
+
+TEST(RecognisedRig, isRefusedWhereTwoMetadataFitAlike)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const TemporaryFolder twice;
+  writeSome(folder / "recording.pcap", twice / "drive.pcap", &isOfLeft);
+  std::filesystem::copy(folder / "left.json", twice / "one.json");
+  std::filesystem::copy(folder / "left.json", twice / "other.json");
+  EXPECT_THAT(refusalOf({twice / "drive.pcap"}), AllOf(HasSubstr("one.json"), HasSubstr("other.json")));
+
+  std::filesystem::copy(folder / "left.json", twice / "drive.json");  // named like the capture
+  EXPECT_EQ(rigFrom(recogniseRig(filesOf({twice / "drive.pcap"}))).lidars.front().name, "drive");
+}
+
+TEST(RecognisedRig, ofAnotherSensorsMetadataNamesBothSerialNumbers)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const TemporaryFolder wrong;
+  writeSome(folder / "recording.pcap", wrong / "drive.pcap", &isOfLeft);
+  std::filesystem::copy(folder / "right.json", wrong / "right.json");
+  EXPECT_THAT(refusalOf({wrong / "drive.pcap"}), AllOf(HasSubstr("122322000615"), HasSubstr("122150000151")));
+}
+
+TEST(RecognisedRig, ofACaptureWithoutMetadataSaysWhatItHolds)
+{
+  SCANLOOM_NEEDS_DATA(capture, "other-lidars/Kitware+VeloView/Testing/Data/monterey-first-100-packets.pcap");
+  EXPECT_THAT(refusalOf({capture}), AllOf(HasSubstr("datagrams of 1206 bytes"), HasSubstr("--metadata")));
+}
+
+TEST(RecordingFiles, areRefusedWhereThereIsNoRecording)
+{
+  const TemporaryFolder empty;
+  EXPECT_THAT(refusalOf({empty.path()}), HasSubstr("holds no recording"));
+  EXPECT_THAT(refusalOf({empty / "nowhere.pcap"}), HasSubstr("no such file"));
+  std::ofstream(empty / "notes.txt") << "hello\n";
+  EXPECT_THAT(refusalOf({empty / "notes.txt"}), HasSubstr("a text file"));
+}
+}  // namespace scanloom
