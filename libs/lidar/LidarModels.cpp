@@ -1,6 +1,7 @@
 #include "lidar/LidarModels.h"
 
-#include "lidar/MetadataKeys.h"
+#include "lidar/BuiltInModels.h"
+#include "lidar/HesaiDecoder.h"
 #include "lidar/OusterDecoder.h"
 #include "lidar/VelodyneDecoder.h"
 
@@ -33,15 +34,21 @@ std::unique_ptr<PacketDecoder> makeVelodyne(const std::string& text, const std::
   return std::make_unique<VelodyneDecoder>(parseVelodyneMetadata(text, name), body_T_sensor);
 }
 
-const std::array<LidarFamily, 2> kFamilies{{
+std::unique_ptr<PacketDecoder> makeHesai(const std::string& text, const std::string& name, const Rigid& body_T_sensor)
+{
+  return std::make_unique<HesaiDecoder>(parseHesaiMetadata(text, name), body_T_sensor);
+}
+
+const std::array<LidarFamily, 3> kFamilies{{
     {"a JSON file that begins with \"lidar\": \"velodyne\" (params/lidars/)", &looksLikeVelodyne, &makeVelodyne},
+    {"a JSON file that begins with \"lidar\": \"hesai\" (params/lidars/)", &looksLikeHesai, &makeHesai},
     {"the JSON text of an Ouster sensor's metadata", &looksLikeOuster, &makeOuster},
 }};
 }  // namespace
 
 std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_file, const Rigid& body_T_sensor)
 {
-  return makeDecoder(readMetadataText(metadata_file), metadata_file, body_T_sensor);
+  return makeDecoder(metadataText(metadata_file), metadata_file, body_T_sensor);
 }
 
 std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_text, const std::string& name,
@@ -60,6 +67,27 @@ bool isLidarMetadata(const std::string& text)
 {
   return std::any_of(kFamilies.begin(), kFamilies.end(),
                      [&](const LidarFamily& family) { return family.recognises(text); });
+}
+
+std::vector<std::string> modelsThatSend(Bytes packet)
+{
+  std::vector<std::string> names;
+  for (const BuiltInModel& model : builtInModels())
+  {
+    for (const char* returns : {"", " dual"})
+    {
+      const std::string name = std::string(model.name) + returns;
+      try
+      {
+        if (makeDecoder(*builtInMetadata(name), name, Rigid::identity())->kind(packet) == PacketKind::Lidar)
+          names.push_back(name);
+      }
+      catch (const std::invalid_argument&)  // two returns of this model are not read
+      {
+      }
+    }
+  }
+  return names;
 }
 
 SensorPorts defaultPorts() { return {kOusterLidarPort, kOusterImuPort}; }

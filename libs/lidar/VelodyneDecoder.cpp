@@ -1,10 +1,10 @@
 #include "lidar/VelodyneDecoder.h"
 
 #include "core/Angle.h"
+#include "lidar/ringsFromTheTop.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace scanloom
 {
@@ -20,19 +20,6 @@ std::vector<Beam> beamsOf(const VelodyneMetadata& m)
     beams.push_back(Beam{-m.azimuth_offset_deg[i] * kDegree, m.vertical_deg[i] * kDegree,
                          Eigen::Vector3d(0, 0, 1e-3 * m.vertical_offset_mm[i]), 0});
   return beams;
-}
-
-/** Lasers fire in an order of their own; rings count from the top. */
-std::vector<std::uint8_t> ringsFromTheTop(const std::vector<double>& vertical_deg)
-{
-  std::vector<std::size_t> from_the_top(vertical_deg.size());
-  std::iota(from_the_top.begin(), from_the_top.end(), 0);
-  std::stable_sort(from_the_top.begin(), from_the_top.end(),
-                   [&](std::size_t a, std::size_t b) { return vertical_deg[a] > vertical_deg[b]; });
-  std::vector<std::uint8_t> rings(vertical_deg.size());
-  for (std::size_t place = 0; place < rings.size(); ++place)
-    rings[from_the_top[place]] = static_cast<std::uint8_t>(place);
-  return rings;
 }
 
 int columnOf(double azimuth, int columns)

@@ -24,15 +24,41 @@ constexpr std::uint64_t kWorthANote = 100;  // datagrams of a stream that no lid
 /** The candidates that understand a packet of the stream as lidar data, most packets first, and how many. */
 using Fits = std::map<Candidates, std::size_t>;
 
+/** A packet of one model may look like another's; how much time passes from one to the next does not. */
+bool keepsItsPace(const PacketDecoder& decoder, const std::vector<SampledStream::Packet>& packets)
+{
+  const LidarDescription& lidar = decoder.description();
+  if (lidar.fixed_block_period == Duration{0}) return true;
+  std::vector<Duration> steps;
+  std::vector<MeasurementBlock> blocks;
+  std::optional<Timestamp> last;
+  Duration expected{0};
+  for (const SampledStream::Packet& packet : packets)
+  {
+    if (decoder.kind(packet) != PacketKind::Lidar) continue;
+    decoder.readBlocks(packet, blocks);
+    expected = lidar.fixed_block_period * static_cast<std::int64_t>(blocks.size());
+    if (last && blocks.front().stamp > *last) steps.push_back(blocks.front().stamp - *last);
+    last = blocks.front().stamp;
+  }
+  if (steps.empty()) return true;  // a packet alone has no pace
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 4), steps.end());
+  const double pace = seconds(steps[steps.size() / 4]) / seconds(expected);  // the lower quarter: some may be lost
+  return pace > 0.9 && pace < 1.1;
+}
+
 /** By the set of candidates that understand it: how many packets. */
 Fits fitsOf(const SampledStream& stream, const std::vector<MetadataCandidate>& candidates)
 {
   Fits fits;
+  Candidates in_pace;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (candidates[i].decoder && keepsItsPace(*candidates[i].decoder, stream.samples)) in_pace.push_back(i);
   for (const SampledStream::Packet& packet : stream.samples)
   {
     Candidates understand;
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-      if (candidates[i].decoder && candidates[i].decoder->kind(packet) == PacketKind::Lidar) understand.push_back(i);
+    for (const std::size_t i : in_pace)
+      if (candidates[i].decoder->kind(packet) == PacketKind::Lidar) understand.push_back(i);
     if (!understand.empty()) ++fits[understand];
   }
   return fits;
@@ -81,7 +107,7 @@ std::string whyNot(const MetadataCandidate& candidate, const std::vector<Sampled
       if (kind == PacketKind::BadCrc)
         return fmt::format("{}, but packets to port {} have a wrong checksum", described, stream.port);
     }
-  return fmt::format("{}: no packet has the format or size of its packets", described);
+  return fmt::format("{}: no packet has the format, size or pace of its packets", described);
 }
 
 std::string describe(const SampledStream& stream)
@@ -200,6 +226,17 @@ class Search
   LidarsFound found_;
 };
 
+/** Those whose packets look like the first one of a stream that no candidate fits. */
+void addBuiltInModels(const std::vector<SampledStream>& streams, std::vector<MetadataCandidate>& candidates)
+{
+  Paths models;
+  for (const SampledStream& stream : streams)
+    if (!stream.samples.empty() && fitsOf(stream, candidates).empty())
+      for (const std::string& model : modelsThatSend(stream.samples.front()))
+        if (std::find(models.begin(), models.end(), model) == models.end()) models.emplace_back(model);
+  for (MetadataCandidate& candidate : candidatesFrom(models)) candidates.push_back(std::move(candidate));
+}
+
 bool isOfALidar(const SampledStream& stream, const std::vector<FoundLidar>& lidars)
 {
   return std::any_of(
@@ -223,9 +260,10 @@ std::vector<MetadataCandidate> candidatesFrom(const Paths& metadata_files)
   return candidates;
 }
 
-LidarsFound findLidars(const std::vector<SampledStream>& streams, const std::vector<MetadataCandidate>& candidates,
+LidarsFound findLidars(const std::vector<SampledStream>& streams, std::vector<MetadataCandidate> candidates,
                        const Paths& captures)
 {
+  addBuiltInModels(streams, candidates);
   LidarsFound found = Search(streams, candidates, captures).result();
   if (found.lidars.empty()) refuseNone(streams, candidates, captures);
   for (const SampledStream& stream : streams)

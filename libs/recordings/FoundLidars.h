@@ -13,12 +13,12 @@ namespace scanloom
 /** What may describe a lidar of the recording. */
 struct MetadataCandidate
 {
-  std::filesystem::path file;
+  std::filesystem::path file;                    // or the name of a built-in model
   std::shared_ptr<const PacketDecoder> decoder;  // null if the file is faulty
   std::string fault;
 };
 
-/** Of files; a faulty one is a candidate that fits nothing. */
+/** Of files or names of built-in models; a faulty one is a candidate that fits nothing. */
 std::vector<MetadataCandidate> candidatesFrom(const std::vector<std::filesystem::path>& metadata_files);
 
 struct FoundLidar
@@ -38,11 +38,12 @@ struct LidarsFound
 };
 
 /**
- * A lidar is in a stream if its decoder understands packets of it: size, format, serial number and checksum fit. Where
- * several candidates fit, the one that is named like a capture is taken, or the one that names the stream's port, or
- * the only one that fits no other stream. Throws UsageError if that leaves several, and if no lidar is found; the
- * message says for each candidate why it does not fit.
+ * A lidar is in a stream if its decoder understands packets of it: size, format, serial number and checksum fit, and
+ * packets that have no numbers follow each other at its pace. A stream that no candidate fits may be of a built-in
+ * model. Where several candidates fit, the one that is named like a capture is taken, or the one that names the
+ * stream's port, or the only one that fits no other stream. Throws UsageError if that leaves several, and if no lidar
+ * is found; the message says for each candidate why it does not fit.
  */
-LidarsFound findLidars(const std::vector<SampledStream>&, const std::vector<MetadataCandidate>&,
+LidarsFound findLidars(const std::vector<SampledStream>&, std::vector<MetadataCandidate>,
                        const std::vector<std::filesystem::path>& captures);
 }  // namespace scanloom

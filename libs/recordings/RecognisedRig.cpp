@@ -19,7 +19,7 @@ using Poses = std::map<std::string, Rigid>;
 
 constexpr const char* kUnknownPose = "[0 0 0 0 0 0]";
 
-/** The file's name, unless two lidars would share it. */
+/** The file's name, unless two lidars would share it, or it is a model's. */
 std::vector<std::string> namesOf(const std::vector<FoundLidar>& lidars)
 {
   std::map<std::string, int> uses;
@@ -28,7 +28,8 @@ std::vector<std::string> namesOf(const std::vector<FoundLidar>& lidars)
   for (const FoundLidar& lidar : lidars)
   {
     const std::string name = lidar.metadata.stem().string();
-    names.push_back(uses[name] == 1 ? name : fmt::format("lidar{}", names.size() + 1));
+    const bool is_file = lidar.metadata.has_extension();
+    names.push_back(is_file && uses[name] == 1 ? name : fmt::format("lidar{}", names.size() + 1));
   }
   return names;
 }

@@ -1,7 +1,7 @@
 #include "rig/LidarMetadata.h"
 
 #include "core/ConfigError.h"
-#include "lidar/MetadataKeys.h"
+#include "lidar/BuiltInModels.h"
 #include "packets/OusterHttp.h"
 #include "packets/SocketAddress.h"
 
@@ -36,7 +36,7 @@ MetadataAnswer metadataOf(const LidarOptions& lidar, const SensorHttpLimits& lim
   MetadataAnswer answer;
   if (!lidar.metadata.empty())
   {
-    answer.metadata = LidarMetadata{readMetadataText(lidar.metadata), lidar.metadata};
+    answer.metadata = LidarMetadata{metadataText(lidar.metadata), lidar.metadata};
     return answer;
   }
   answer.sensor = sensorOf(lidar);

@@ -25,8 +25,10 @@ struct LidarOptions
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.name, Field{"name", "", "the lidar's name in all outputs; empty: lidar1, lidar2, ..."});
-    visit(o.metadata, Field{"metadata", "",
-                            "the sensor's metadata, a JSON file; empty: the sensor at 'address' is asked for them"});
+    visit(o.metadata,
+          Field{"metadata", "",
+                "the sensor's metadata, a JSON file or a model's name (VLP-16, XT32 dual); empty: the sensor at "
+                "'address' is asked for them"});
     visit(o.pose,
           Field{"pose", "m, deg",
                 "pose of the sensor in the body frame, [x y z yaw pitch roll]; empty: from extrinsics; without those a "

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "../lidar/simpleMetadata.h"
+#include "lidar/HesaiDecoder.h"
 #include "lidar/MetadataKeys.h"
 #include "lidar/OusterDecoder.h"
 #include "lidar/VelodyneDecoder.h"
@@ -59,6 +60,10 @@ std::vector<SoundFile> soundFiles()
                      "vertical_angles_deg": [-15, 1, -13, 3, -11, 5, -9, 7, -7, 9, -5, 11, -3, 13, -1, 15],
                      "azimuth_offsets_deg": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
                      "vertical_offsets_mm": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]})"),
+      withPlaces(R"({"lidar": "hesai", "model": "XT16", "serial": "x", "rpm": 600, "returns": 2, "port": 2368,
+                     "field_of_view_deg": [270, 90],
+                     "vertical_angles_deg": [15, 13, 11, 9, 7, 5, 3, 1, -1, -3, -5, -7, -9, -11, -13, -15],
+                     "azimuth_offsets_deg": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]})"),
   };
 }
 
@@ -120,6 +125,12 @@ void decode(const std::string& text)
   {
     const VelodyneDecoder decoder(parseVelodyneMetadata(text, "fuzz.json"), Rigid::identity());
     require(decoder.description().blockPeriod() > Duration{0} && decoder.description().columns_per_frame > 0);
+    return;
+  }
+  if (looksLikeHesai(text))
+  {
+    const HesaiDecoder hesai(parseHesaiMetadata(text, "fuzz.json"), Rigid::identity());
+    require(hesai.description().blockPeriod() > Duration{0} && hesai.description().columns_per_frame > 0);
     return;
   }
   const OusterMetadata metadata = parseOusterMetadata(text, "fuzz.json");

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "../lidar/simpleMetadata.h"
+#include "lidar/HesaiModels.h"
 #include "lidar/MetadataKeys.h"
 #include "lidar/OusterDecoder.h"
 #include "lidar/VelodynePacket.h"
@@ -76,6 +77,14 @@ Seed cutDown(const OusterDecoder& decoder, Bytes packet)
   return seed;
 }
 
+void addHesai(Bytes packet, Corpus& corpus)
+{
+  for (std::size_t i = 0; i < kHesaiModels.size(); ++i)
+    if (packet.size() >= kHesaiModels[i].packetBytes() &&
+        packet.size() <= kHesaiModels[i].packetBytes() + kHesaiModels[i].optional_bytes)
+      corpus.add("lidar_hesai_packet", led({0, static_cast<std::uint8_t>(2 * i + 1)}, packet, 1300));
+}
+
 /** Whatever a capture holds, as each target would have it; the metadata file of the same name tells Ouster's apart. */
 void addCapture(const fs::path& path, Corpus& corpus)
 {
@@ -90,6 +99,7 @@ void addCapture(const fs::path& path, Corpus& corpus)
   {
     const Bytes packet = datagram.payload;
     if (of_size[packet.size()]++ >= kPacketsPerCapture) continue;
+    addHesai(packet, corpus);
     if (packet.size() == kVelodynePacketBytes) corpus.add("lidar_velodyne_packet", led({0, 0}, packet, 1300));
     if (!ouster) continue;
     const PacketKind kind = ouster->kind(packet);

@@ -119,10 +119,21 @@ TEST(RecognisedRig, ofAnotherSensorsMetadataNamesBothSerialNumbers)
   EXPECT_THAT(refusalOf({wrong / "drive.pcap"}), AllOf(HasSubstr("122322000615"), HasSubstr("122150000151")));
 }
 
+TEST(RecognisedRig, knowsAVelodyneByItsPackets)
+{
+  SCANLOOM_NEEDS_DATA(hdl32e, "other-lidars/Kitware+VeloView/Testing/Data/monterey-first-100-packets.pcap");
+  EXPECT_THAT(recogniseRig(filesOf({hdl32e})).ini, HasSubstr("lidar1_metadata  = HDL-32E"));
+  // It bears the HDL-32E's number, but is at a VLP-16's pace (INVENTORY).
+  SCANLOOM_NEEDS_DATA(vlp16, "other-lidars/jerry73204+rust-lidar-utils/velodyne-test/test_files/velodyne_vlp16.pcap");
+  EXPECT_THAT(recogniseRig(filesOf({vlp16})).ini, HasSubstr("lidar1_metadata  = VLP-16"));
+}
+
 TEST(RecognisedRig, ofACaptureWithoutMetadataSaysWhatItHolds)
 {
-  SCANLOOM_NEEDS_DATA(capture, "other-lidars/Kitware+VeloView/Testing/Data/monterey-first-100-packets.pcap");
-  EXPECT_THAT(refusalOf({capture}), AllOf(HasSubstr("datagrams of 1206 bytes"), HasSubstr("--metadata")));
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const TemporaryFolder bare;
+  writeSome(folder / "recording.pcap", bare / "drive.pcap", &isOfLeft);
+  EXPECT_THAT(refusalOf({bare / "drive.pcap"}), AllOf(HasSubstr("datagrams of 2304 bytes"), HasSubstr("--metadata")));
 }
 
 TEST(RecordingFiles, areRefusedWhereThereIsNoRecording)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/Bytes.h"
+#include "core/Time.h"
 
 namespace scanloom
 {
@@ -50,6 +51,34 @@ inline std::vector<std::vector<std::uint8_t>> packetsOfBag(const std::filesystem
       const Bytes packet = Bytes(message).slice(aligned(at) + kStamp, packet_bytes);
       packets.emplace_back(packet.begin(), packet.end());
       at = aligned(at) + kStamp + packet_bytes;
+    }
+  }
+  return packets;
+}
+struct StampedPacket
+{
+  Timestamp received;
+  std::vector<std::uint8_t> bytes;
+};
+
+/** The packets of pandar_msgs/PandarScan messages: header, then a sequence of (stamp, uint8[1500], uint32 used). */
+inline std::vector<StampedPacket> pandarPacketsOfBag(const std::filesystem::path& bag)
+{
+  constexpr std::size_t kEncapsulation = 4, kStamp = 8, kLength = 4, kField = 1500;
+  const auto aligned = [](std::size_t offset) { return (offset + 3) / 4 * 4; };
+  std::vector<StampedPacket> packets;
+  for (const std::vector<std::uint8_t>& message : messagesOf(bag))
+  {
+    std::size_t at = kEncapsulation + kStamp;
+    at = aligned(at + kLength + load<std::uint32_t>(message, at));  // frame_id
+    const auto count = load<std::uint32_t>(message, at);
+    at += kLength;
+    for (std::uint32_t i = 0; i < count; ++i, at += kStamp + kField + kLength)
+    {
+      const std::chrono::nanoseconds seconds = std::chrono::seconds{load<std::uint32_t>(message, at)};
+      const Bytes packet = Bytes(message).slice(at + kStamp, load<std::uint32_t>(message, at + kStamp + kField));
+      packets.push_back({Timestamp{seconds + std::chrono::nanoseconds{load<std::uint32_t>(message, at + 4)}},
+                         {packet.begin(), packet.end()}});
     }
   }
   return packets;
