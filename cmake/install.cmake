@@ -5,6 +5,7 @@ set(share ${CMAKE_INSTALL_DATADIR}/scanloom)
 install(TARGETS scanloom RUNTIME COMPONENT program)
 install(TARGETS scanloom_program LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/scanloom COMPONENT program)
 install(DIRECTORY params DESTINATION ${share} COMPONENT program)
+install(DIRECTORY libs/live_view/page/ DESTINATION ${share}/live_view COMPONENT program)
 install(FILES completions/scanloom.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME scanloom COMPONENT program)
 install(FILES completions/_scanloom DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
@@ -25,7 +26,7 @@ if(HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
 endif()
 
 # The libs that others can build on; those behind them need MRPT's maps and sensors, and are the program's own.
-set(public_libs core config formats lidar batching whole_turns packets rig imu preprocessing ndt graph slam)
+set(public_libs core config formats lidar batching whole_turns packets bags rig imu preprocessing ndt graph slam)
 foreach(lib ${public_libs})
   set_target_properties(scanloom_${lib} PROPERTIES EXPORT_NAME ${lib})
   install(TARGETS scanloom_${lib} EXPORT scanloom ARCHIVE COMPONENT dev)

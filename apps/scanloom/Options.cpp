@@ -19,6 +19,10 @@ Option Option::repeatable() const { return Option(option_->allow_extra_args(fals
 Option Option::commaSeparated() const { return Option(option_->delimiter(',')); }
 Option Option::typeName(const std::string& name) const { return Option(option_->type_name(name)); }
 Option Option::group(const std::string& name) const { return Option(option_->group(name)); }
+Option Option::optionalValue(const std::string& otherwise) const
+{
+  return Option(option_->expected(0, 1)->default_str(otherwise));
+}
 Option Option::showDefault() const { return Option(option_->capture_default_str()); }
 Option Option::needs(const Option& other) const { return Option(option_->needs(other.option_)); }
 Option Option::excludes(const Option& other) const { return Option(option_->excludes(other.option_)); }

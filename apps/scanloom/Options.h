@@ -25,9 +25,10 @@ class Option
   Option repeatable() const;      // may be given several times, with one value each
   Option commaSeparated() const;  // several values in one argument
 
-  Option typeName(const std::string&) const;  // shown in the help as the type of the value, e.g. FILE
-  Option group(const std::string&) const;     // shown in the help under this heading
-  Option showDefault() const;                 // shown in the help with the value that it has now
+  Option typeName(const std::string&) const;                 // shown in the help as the type of the value, e.g. FILE
+  Option group(const std::string&) const;                    // shown in the help under this heading
+  Option optionalValue(const std::string& otherwise) const;  // may be given without its value
+  Option showDefault() const;                                // shown in the help with the value that it has now
 
   Option needs(const Option&) const;     // must be given together with the other option
   Option excludes(const Option&) const;  // must not be given together with the other option

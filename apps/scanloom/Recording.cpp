@@ -11,16 +11,18 @@ namespace scanloom
 {
 Option addRecording(CLI::App& app, RecordingArguments& arguments, const std::string& name)
 {
-  const Option recording = addOption(app, name, arguments.paths,
-                                     "a recording: captures (pcap, pcapng; also .gz, .zst), a rawlog, or a "
-                                     "folder of these; the lidars' metadata, poses and IMU are found beside it");
+  const Option recording = addOption(
+      app, name, arguments.paths,
+      "a recording: captures (pcap, pcapng; also .gz, .zst), a bag of ROS (.db3, .mcap, .bag), a rawlog, or a "
+      "folder of these; the lidars' metadata, poses and IMU are found beside it; for slam also clouds (PLY, "
+      "PCD, KITTI)");
   addOption(app, "--metadata", arguments.metadata, "metadata of a lidar, instead of those beside the captures")
       .typeName("FILE")
       .repeatable();
   return recording;
 }
 
-RecordingFiles filesOf(const RecordingArguments& arguments)
+RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds)
 {
   std::vector<std::filesystem::path> given = arguments.paths;
   given.insert(given.end(), arguments.metadata.begin(), arguments.metadata.end());
@@ -31,6 +33,9 @@ RecordingFiles filesOf(const RecordingArguments& arguments)
   if (files.rawlogs.size() > 1)
     throw UsageError(
         fmt::format("{} and {}: two rawlogs: name one of them", files.rawlogs[0].string(), files.rawlogs[1].string()));
+  if (!files.clouds.empty() && clouds == Clouds::Refused)
+    throw UsageError(fmt::format("{}: a point cloud: 'slam' localises with clouds, 'view' shows one",
+                                 files.clouds.front().string()));
   if (files.captures.empty() && !arguments.metadata.empty())
     throw UsageError("--metadata is for captures: other recordings hold what it tells");
   return files;

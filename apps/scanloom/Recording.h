@@ -21,8 +21,15 @@ struct RecordingArguments
 /** Adds the argument RECORDING and --metadata. @return the argument. */
 Option addRecording(CLI::App&, RecordingArguments&, const std::string& name = "RECORDING");
 
-/** What the arguments name. @throws UsageError as filesOf() does, and for captures together with rawlogs. */
-RecordingFiles filesOf(const RecordingArguments&);
+enum class Clouds
+{
+  Refused,
+  Taken,
+};
+
+/** What the arguments name. @throws UsageError as filesOf() does, for captures together with rawlogs, and for clouds
+ * where they are of no use. */
+RecordingFiles filesOf(const RecordingArguments&, Clouds = Clouds::Refused);
 
 enum class Poses
 {

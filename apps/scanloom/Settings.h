@@ -3,6 +3,7 @@
 #include "Arguments.h"
 #include "Recording.h"
 #include "Verb.h"
+#include "rig/RigOptions.h"
 
 namespace scanloom
 {
@@ -14,6 +15,18 @@ struct Loaded
   bool poses_known = true;  // of the lidars, in a body frame; else their own frames are taken for it
 };
 
+/** The settings of a configuration with --set on top. @throws ConfigError as load() does. */
+template <typename Settings>
+Loaded<Settings> loadFrom(Configuration configuration, const std::vector<std::string>& assignments,
+                          bool poses_known = true)
+{
+  for (const std::string& assignment : assignments) configuration.set(assignment);
+  for (const SectionDescription& described : knownToAnyVerb()) configuration.makePathsAbsolute(described);
+  makeRigPathsAbsolute(configuration);
+  Settings settings = readSettings<Settings>(configuration, knownToAnyVerb());
+  return {std::move(configuration), std::move(settings), poses_known};
+}
+
 /**
  * From -c, then the recording, then --set. @throws ConfigError with all problems: wrong values, and names that no verb
  * knows; and what recognising the recording throws.
@@ -24,9 +37,7 @@ Loaded<Settings> load(const ConfigurationArguments& arguments, const RecordingFi
 {
   Configuration configuration = Configuration::fromFiles(arguments.files);
   const bool poses_known = addCaptures(recording, configuration, poses);
-  for (const std::string& assignment : arguments.assignments) configuration.set(assignment);
-  Settings settings = readSettings<Settings>(configuration, knownToAnyVerb());
-  return {std::move(configuration), std::move(settings), poses_known};
+  return loadFrom<Settings>(std::move(configuration), arguments.assignments, poses_known);
 }
 
 /** The INI file that repeats the run: --dry-run prints it, and it is written beside the results. */

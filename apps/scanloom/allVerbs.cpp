@@ -6,6 +6,7 @@
 
 namespace scanloom
 {
+Verb calibrateVerb();
 Verb configVerb();
 Verb doctorVerb();
 Verb editVerb();
@@ -23,8 +24,8 @@ Verb viewVerb();
 const std::vector<Verb>& verbs()
 {
   static const std::vector<Verb> table{
-      recordVerb(),   infoVerb(), editVerb(), doctorVerb(),   configVerb(),     slamVerb(),   evaluateVerb(),
-      registerVerb(), mapVerb(),  viewVerb(), simulateVerb(), experimentVerb(), reportVerb(),
+      recordVerb(),   infoVerb(),     editVerb(), doctorVerb(), calibrateVerb(), configVerb(),     slamVerb(),
+      evaluateVerb(), registerVerb(), mapVerb(),  viewVerb(),   simulateVerb(),  experimentVerb(), reportVerb(),
   };
   return table;
 }

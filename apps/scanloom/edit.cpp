@@ -77,7 +77,7 @@ KeepReading showingProgress(const EditArguments& arguments)
   };
 }
 
-void report(const EditArguments& arguments, const std::string& what, const RawlogEdited& edited)
+void report(const EditArguments& arguments, const std::string& what, bool to_rawlog, const RawlogEdited& edited)
 {
   if (!edited.damage.empty())
     fmt::print(stderr, "damaged: {}: read up to there, {} observations\n", edited.damage, edited.read());
@@ -95,6 +95,11 @@ void report(const EditArguments& arguments, const std::string& what, const Rawlo
                                    {"passed_over", edited.passed_over},
                                    {"damage", edited.damage}};
     std::cout << jsonText(result) << '\n';
+    return;
+  }
+  if (!to_rawlog)
+  {
+    fmt::print("{}: {} observations read\n{}\n", what, edited.read(), edited.output.string());
     return;
   }
   fmt::print("{}: {} observations read, {} written\n", what, edited.read(), edited.written());
@@ -142,7 +147,7 @@ int edit(const EditArguments& arguments, const std::vector<EditOperation>& opera
   const RawlogEdited edited = to_rawlog ? editRawlog(arguments.input, chained(operations, arguments.input, {}),
                                                      arguments.output, showingProgress(arguments))
                                         : exportFiles(arguments, operations);
-  report(arguments, operations.back().option, edited);
+  report(arguments, operations.back().option, to_rawlog, edited);
   if (interrupted()) return kInterrupted;
   return edited.damage.empty() && edited.passed_over == 0 ? kDone : kQualityGate;
 }
@@ -251,7 +256,10 @@ void addFiles(CLI::App& app, OptionGroup& group, EditOptions& o)
   group.add("--to-simplemap", o.to_simplemap, "FILE", "write keyframes along --trajectory, as 'scanloom map' does");
   group.add("--to-octomap", o.to_octomap, "FILE",
             "write an occupancy map along --trajectory, as 'scanloom map' does: this .bt, and an .ot beside it");
-  OptionGroup maps(app, "For --to-simplemap and --to-octomap");
+  group.add("--to-mcap", o.to_mcap, "FILE",
+            "write clouds, IMU and poses as an MCAP file, which Foxglove and ROS 2 play; poses of the rawlog, or of "
+            "--trajectory");
+  OptionGroup maps(app, "For --to-simplemap, --to-octomap and --to-mcap");
   maps.add("--trajectory", o.trajectory, "FILE",
            "poses of the body as TUM, EuRoC (.csv) or KITTI (times.txt beside it)");
   maps.add("--keyframe-distance", o.keyframe_distance, "M", "travel between keyframes, in m")

@@ -1,11 +1,16 @@
 /** `scanloom evaluate`: compares a trajectory with a total station or with true poses. */
 #include "Arguments.h"
 #include "Verb.h"
+#include "bags/BagContents.h"
+#include "core/AtomicFile.h"
 #include "evaluation/Evaluation.h"
+#include "evaluation/EvaluationFigure.h"
 #include "evaluation/EvaluationReport.h"
 #include "evaluation/PositionError.h"
+#include "evaluation/TotalStation.h"
 #include "formats/TrajectoryReader.h"
 #include "rig/Extrinsics.h"
+#include "study/Gnuplot.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -28,17 +33,27 @@ enum class Align
 struct EvaluateArguments
 {
   std::filesystem::path trajectory, imu_trajectory, reference, truth;
+  std::string reference_topic;
   std::string lever_arm = "0 0 0";
   Align align = Align::Yaw;
   bool apply_clock_offset = false;
   RelativeDelta delta;
   double drift_limit = std::numeric_limits<double>::infinity();  // m
-  bool json = false;
+  std::filesystem::path plot;
+  bool json = false, overwrite = false;
 };
 
-bool isTotalStation(const std::filesystem::path& reference)
+decltype(EvaluationInput::reference) referenceOf(const EvaluateArguments& arguments)
 {
-  return reference.extension() == ".csv" && !isEuroc(reference);
+  if (isBag(arguments.reference))
+  {
+    BagPoses found = readBagPoses({arguments.reference}, arguments.reference_topic);
+    if (!found.have_rotations) return positionsOf(found.poses);
+    return std::move(found.poses);
+  }
+  if (!arguments.reference_topic.empty()) throw UsageError("--reference-topic is for a reference in a bag");
+  if (isTotalStation(arguments.reference)) return readTotalStation(arguments.reference);
+  return readTrajectory(arguments.reference);
 }
 
 std::optional<Trajectory> readIfGiven(const std::filesystem::path& path)
@@ -75,19 +90,27 @@ int judge(double drift, double limit)
 
 int compareFromFirstPose(const EvaluateArguments& arguments)
 {
-  if (isTotalStation(arguments.reference))
-    throw UsageError(
-        "--align first needs a reference with rotations, which a total station does not have; use yaw or se3");
+  if (!arguments.plot.empty()) throw UsageError("--plot draws what --align yaw and se3 compare, not first");
+  const auto reference = referenceOf(arguments);
+  if (!std::holds_alternative<Trajectory>(reference))
+    throw UsageError("--align first needs a reference with rotations, which points do not have; use yaw or se3");
   const PositionError error =
-      positionErrorFromFirstPose(readTrajectory(arguments.trajectory), readTrajectory(arguments.reference));
+      positionErrorFromFirstPose(readTrajectory(arguments.trajectory), std::get<Trajectory>(reference));
   print(error, arguments.json);
   return judge(error.largest, arguments.drift_limit);
+}
+
+void plot(const Evaluation& evaluation, const std::filesystem::path& file)
+{
+  const std::filesystem::path folder = file.parent_path();
+  Gnuplot(folder.empty() ? "." : folder).drawInto(file, figureScript(evaluation));
 }
 
 int run(const EvaluateArguments& arguments)
 {
   if (arguments.align == Align::First) return compareFromFirstPose(arguments);
 
+  if (!arguments.plot.empty()) refuseExisting({arguments.plot}, arguments.overwrite);
   EvaluationOptions options;
   options.body_p_point = leverArmOf(arguments.lever_arm);
   options.alignment = arguments.align == Align::Yaw ? AlignmentKind::Yaw : AlignmentKind::Se3;
@@ -98,13 +121,11 @@ int run(const EvaluateArguments& arguments)
   input.scans = readTrajectory(arguments.trajectory);
   input.imu_rate = readIfGiven(arguments.imu_trajectory);
   input.truth = readIfGiven(arguments.truth);
-  if (isTotalStation(arguments.reference))
-    input.reference = readTotalStation(arguments.reference);
-  else
-    input.reference = readTrajectory(arguments.reference);
+  input.reference = referenceOf(arguments);
 
   const Evaluation evaluation = evaluate(input, options);
   print(evaluation, arguments.json);
+  if (!arguments.plot.empty()) plot(evaluation, arguments.plot);
   return judge(evaluation.drift.largest, arguments.drift_limit);
 }
 
@@ -141,9 +162,12 @@ std::function<int()> addEvaluateOptions(CLI::App& app)
   addOption(app, "--imu-trajectory", arguments->imu_trajectory, "trajectory of the same run at the IMU's rate, TUM")
       .typeName("FILE");
   addOption(app, "--reference", arguments->reference,
-            "positions of a total station (.csv), or poses: TUM, EuRoC or KITTI")
+            "positions of a total station (.csv or .tsv), or poses: TUM, EuRoC, KITTI or a bag of ROS")
       .required()
       .typeName("FILE");
+  addOption(app, "--reference-topic", arguments->reference_topic,
+            "bag: topic of the reference's poses (Odometry, PoseStamped, PointStamped) [the only one]")
+      .typeName("TOPIC");
   addOption(app, "--truth", arguments->truth,
             "true poses, TUM: to report the error of the interpolation between scans alone [the reference, if it has "
             "poses]")
@@ -153,6 +177,10 @@ std::function<int()> addEvaluateOptions(CLI::App& app)
             "end with status 3 if the drift is larger than this, in m")
       .notNegative()
       .typeName("M");
+  addOption(app, "--plot", arguments->plot,
+            "picture of both paths from above, their heights, and the error over distance (.svg or .png)")
+      .typeName("FILE");
+  addOverwrite(app, arguments->overwrite);
   addJson(app, arguments->json);
   return [arguments] { return run(*arguments); };
 }

@@ -1,6 +1,7 @@
 /** `scanloom experiment`: runs slam on every combination of drives, lidars, N, seeds and parameters. */
 #include "Arguments.h"
 #include "Settings.h"
+#include "SweepCheck.h"
 #include "Verb.h"
 #include "Version.h"
 #include "core/AtomicFile.h"
@@ -61,7 +62,6 @@ int listRuns(const Sweep& sweep, int jobs)
     const auto path = sweep.folder.of(drive);
     if (drive.simulated() && !remaining({drive}, sweep.finished).empty())
     {
-      Configuration::fromFiles({drive.simulation}).refuseUnknown(knownToAnyVerb());
       fmt::print("{}\n", toText(simulateCommand(drive, path)));
       ++simulations;
     }
@@ -122,7 +122,7 @@ int run(const ExperimentArguments& arguments)
 {
   const auto loaded = load<ExperimentSettings>(arguments.configuration);
   const ExperimentPlan plan = planOf(loaded.settings, loaded.configuration);
-  refuseUnknownSettings(plan, knownToAnyVerb());
+  if (arguments.only == 0) refuseMistakes(plan, loaded.configuration);
   const ExperimentOptions& options = loaded.settings.experiment;
   Sweep sweep{plannedRecords(plan, programVersion()),
               FinishedRuns(plan.runs.size()),

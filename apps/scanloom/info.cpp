@@ -4,6 +4,7 @@
 #include "Options.h"
 #include "Recording.h"
 #include "Verb.h"
+#include "bags/BagContents.h"
 #include "core/ConfigError.h"
 #include "edit/RawlogReport.h"
 #include "packets/CaptureReport.h"
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -45,15 +47,32 @@ std::vector<std::string> metadataOf(const RecordingFiles& files, const Recording
   return metadata;
 }
 
+int printBagInfo(const std::filesystem::path& bag, const InfoArguments& arguments)
+{
+  if (arguments.digests) throw UsageError("--digests is for captures");
+  const BagContents contents = contentsOf({bag});
+  for (const std::string& warning : contents.warnings) fmt::print(stderr, "damaged: {}\n", warning);
+  std::cout << (arguments.json ? toJson(contents) : bag.string() + "\n" + toText(contents)) << std::flush;
+  return contents.warnings.empty() ? kDone : kQualityGate;
+}
+
 int printCaptureInfo(const RecordingFiles& files, const InfoArguments& arguments)
 {
-  const std::vector<std::string> metadata = metadataOf(files, arguments.recording);
+  const bool all_bags =
+      std::all_of(files.captures.begin(), files.captures.end(), [](const auto& p) { return isBag(p); });
+  const std::vector<std::string> metadata =
+      all_bags ? std::vector<std::string>() : metadataOf(files, arguments.recording);
   if (arguments.digests && metadata.empty())
     throw UsageError("--digests needs the sensor's metadata: --metadata FILE.json");
   if (arguments.json && files.captures.size() > 1) throw UsageError("--json is for one capture: name one");
   int status = kDone;
   for (const auto& capture : files.captures)
   {
+    if (isBag(capture))
+    {
+      status = std::max(status, printBagInfo(capture, arguments));
+      continue;
+    }
     const CaptureInfo info = captureInfo(capture, metadata, arguments.digests ? Digests::Yes : Digests::No);
     if (files.captures.size() > 1 && !arguments.json) fmt::print("{}\n", capture.string());
     std::cout << (arguments.json ? toJson(info) : toText(info)) << std::flush;

@@ -35,7 +35,7 @@ struct RecordOptions
   {
     visit(o.compression_level,
           Field{"compression_level", "",
-                "gzip level: 0 is fastest, 1 gives a quarter of the size, 9 is too slow; -1: 0 live, 1 from captures",
+                "gzip level: 0 is fastest, 1 gives half of the size or less; -1: 0 live, 1 from captures",
                 between(-1, 9)});
   }
 };
@@ -70,18 +70,31 @@ std::unique_ptr<InputDisplay> displayOf(const Source& source, SensorInput& input
   return std::make_unique<InputDisplay>("record", static_cast<std::uint64_t>(duration), "s");
 }
 
+void writeMarks(Web& web, RawlogWriter& writer)
+{
+  web.update();
+  for (const EventMark& mark : web.feed().takeMarks()) writer.write(*markObservation(mark.stamp, mark.text));
+}
+
 Recorded record(SensorInput& input, const Source& source, const RecordArguments& arguments, RawlogWriter& writer)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  const std::unique_ptr<InputDisplay> display = arguments.quiet ? nullptr : displayOf(source, input);
-  return recordRig(input, source.driver, writer,
-                   [&](const Recorded& recorded)
-                   {
-                     if (display) display->update(input.progress(), recorded.scans);
-                     const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
-                     return !interrupted() && !over;
-                   });
+  const std::unique_ptr<Web> web =
+      openWeb(arguments.web, {"record", source.isLive(), false}, input, arguments.output.parent_path());
+  SensorInput& watched = web ? web->input() : input;
+  const std::unique_ptr<InputDisplay> display = arguments.quiet ? nullptr : displayOf(source, watched);
+  const Recorded recorded =
+      recordRig(watched, source.driver, writer,
+                [&](const Recorded& so_far)
+                {
+                  if (display) display->update(watched.progress(), so_far.scans);
+                  if (web) writeMarks(*web, writer);
+                  const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
+                  return !interrupted() && !over;
+                });
+  if (web) web->feed().end();
+  return recorded;
 }
 
 void warn(const std::string& warning) { fmt::print(stderr, "warning: {}\n", warning); }
@@ -125,7 +138,7 @@ void report(const RecordArguments& arguments, const Recorded& recorded, const Ri
     return;
   }
   fmt::print("{} scans and {} IMU samples in {}\n", recorded.scans, recorded.imu_samples, rawlog.string());
-  for (const auto& [name, lidar, of_other_senders] : account.lidars)
+  for (const auto& [name, lidar, of_other_senders, clock_offset] : account.lidars)
   {
     fmt::print("  {}: {} blocks sent, {} emitted, {} before the start, {} invalid, {} lost, {} late, {} duplicate\n",
                name, lidar.sent(), lidar.emitted, lidar.before_start, lidar.invalid, lidar.lost, lidar.late,
@@ -208,6 +221,7 @@ std::function<int()> addRecordOptions(CLI::App& app)
   addOverwrite(app, arguments->overwrite);
   addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas (default: all)")
       .commaSeparated();
+  addWindow(app, addWeb(app, arguments->web), arguments->web);
   addJson(app, arguments->json);
   return [arguments] { return record(*arguments); };
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include "Arguments.h"
 #include "Recording.h"
+#include "Web.h"
 
 #include <filesystem>
 #include <string>
@@ -13,6 +14,7 @@ struct RecordArguments
   ConfigurationArguments configuration;
   SceneArguments scene;
   RecordingArguments recording;
+  WebArguments web;
   std::filesystem::path output;  // empty: beside the recording
   std::vector<std::string> lidars;
   double seconds = 0;  // live: 0 until it is interrupted

@@ -1,26 +1,22 @@
 /** `scanloom slam`: trajectory and maps from a recording, a simulated drive or live lidars. */
 #include "Arguments.h"
 #include "Settings.h"
+#include "SlamInput.h"
 #include "Verb.h"
 #include "Version.h"
+#include "Web.h"
 #include "core/AtomicFile.h"
 #include "core/ConfigError.h"
 #include "core/Interruption.h"
 #include "core/ResultFolder.h"
-#include "mrpt_bridge/ImuDriverInput.h"
-#include "mrpt_bridge/RawlogInput.h"
-#include "mrpt_bridge/configuredImu.h"
 #include "rig/InputDisplay.h"
-#include "rig/ReadAhead.h"
 #include "rig/RigOptions.h"
-#include "rig/openRig.h"
+#include "run/SlamFiles.h"
 #include "run/SlamRun.h"
-#include "simulation/SimulatedRig.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -34,64 +30,13 @@ struct SlamArguments
   OutputFolderArguments output;
   SceneArguments scene;
   RecordingArguments recording;
+  WebArguments web;
   std::vector<std::string> lidars;
   int every_nth = 0;
   double seconds = 0;  // live lidars; 0: until it is interrupted
 };
 
-struct SlamVerbSettings : SlamSettings
-{
-  OutputOptions output;
-  OctoMapOptions octomap;
-
-  template <typename Self, typename Visitor>
-  static void sections(Self& s, Visitor&& visit)
-  {
-    SlamSettings::sections(s, visit);
-    visit(s.output, Section{"output", "the files that 'slam' writes"});
-    visit(s.octomap, Section{"octomap", "the occupancy map (OctoMap)"});
-  }
-};
-
 constexpr const char* kConfigurationFile = "configuration.ini";
-
-struct Input
-{
-  std::unique_ptr<SensorInput> sensors;
-  std::uint64_t size = 0;  // 0: not known
-  const char* unit = "MB";
-  bool live = false;
-};
-
-Input openLive(const Rig& rig, const Configuration& configuration, const std::string& section)
-{
-  std::unique_ptr<SensorInput> sensors = openRig(rig);
-  if (auto imu = openConfiguredImu(configuration, section))
-    sensors = std::make_unique<ImuDriverInput>(std::move(sensors), std::move(imu));
-  return {std::move(sensors), 0, "", true};
-}
-
-std::unique_ptr<SensorInput> readAhead(std::unique_ptr<SensorInput> input)
-{
-  return std::make_unique<ReadAhead>(std::move(input));
-}
-
-Input openInput(const SlamArguments& arguments, const RecordingFiles& files, const Configuration& configuration)
-{
-  if (!files.rawlogs.empty())
-    return {readAhead(std::make_unique<RawlogInput>(files.rawlogs.front(), arguments.lidars))};
-  if (arguments.scene.given())
-  {
-    const SimulatedRig simulated = simulatedRig(configuration, arguments.scene.seed, arguments.lidars);
-    return {readAhead(makeSceneInput(simulated.scene, simulated.rig)),
-            static_cast<std::uint64_t>(std::ceil(simulated.scene->span.duration)), "s"};
-  }
-  const std::string section = rigSection(configuration);
-  const Rig rig = makeRig(readRigSettings(configuration, section), arguments.lidars);
-  if (rig.captures.empty()) return openLive(rig, configuration, section);
-  const std::uint64_t megabytes = megabytesOf(rig.captures);
-  return {readAhead(openRig(rig)), megabytes};
-}
 
 /** The command that repeats the run. --every-nth is among the assignments. */
 std::string commandOf(const SlamArguments& arguments)
@@ -109,9 +54,9 @@ std::string commandOf(const SlamArguments& arguments)
   return command + fmt::format(" --out-dir {}", arguments.output.folder.string());
 }
 
-InputDisplay displayOf(const Input& input)
+InputDisplay displayOf(const SlamInput& input, SensorInput& sensors)
 {
-  if (input.live) return {"slam", *input.sensors};
+  if (input.live) return {"slam", sensors};
   return {"slam", input.size, input.unit};
 }
 
@@ -149,25 +94,43 @@ void report(const SlamRunResult& result, const std::filesystem::path& folder)
   fmt::print("{}\n", (folder / "trajectory.tum").string());
 }
 
-SlamRunResult runShowingProgress(const Input& input, const SlamVerbSettings& settings, SlamFiles& files, double longest)
+SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings& settings, SlamFiles& files,
+                                 const SlamArguments& arguments)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  InputDisplay display = displayOf(input);
-  return runSlam(
-      *input.sensors, settings, files,
+  const std::unique_ptr<Web> web =
+      openWeb(arguments.web, {"slam", input.live, true}, *input.sensors, arguments.output.folder.parent_path());
+  SensorInput& sensors = web ? web->input() : *input.sensors;
+  InputDisplay display = displayOf(input, sensors);
+  SlamRunResult result = runSlam(
+      sensors, settings,
+      [&](const StateEstimate& estimate)
+      {
+        files.add(estimate);
+        if (web) web->feed().add(estimate);
+      },
       [&](const RunProgress& progress)
       {
         display.update(progress.share, progress.scans, {progress.recorded, progress.busy});
-        const bool over = longest > 0 && Clock::now() - start >= fromSeconds(longest);
+        if (web) web->update({progress.recorded, progress.busy});
+        if (web)
+          for (const EventMark& mark : web->feed().takeMarks()) files.mark(mark.text);
+        const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
         if (input.live && (over || interrupted())) input.sensors->stop();
         return input.live || !interrupted();
       },
-      [](const std::string& warning) { fmt::print(stderr, "warning: {}\n", warning); });
+      [&](const std::string& warning)
+      {
+        fmt::print(stderr, "warning: {}\n", warning);
+        if (web) web->feed().warn(warning);
+      });
+  if (web) web->feed().end();
+  return result;
 }
 
 /** Who interrupts lidars has all that there was; recordings and simulated drives go on behind. */
-Completeness completenessOf(const SlamRunResult& result, const Input& input)
+Completeness completenessOf(const SlamRunResult& result, const SlamInput& input)
 {
   const bool stopped = interrupted() && !input.live;
   return stopped || !result.summary.error.empty() ? Completeness::Partial : Completeness::Whole;
@@ -182,15 +145,14 @@ int statusOf(const SlamRunResult& result)
   return result.passed && read_whole ? kDone : kQualityGate;
 }
 
-int process(const Input& input, const SlamArguments& arguments, const Loaded<SlamVerbSettings>& loaded,
+int process(const SlamInput& input, const SlamArguments& arguments, const Loaded<SlamVerbSettings>& loaded,
             const std::vector<std::string>& names)
 {
   const SlamVerbSettings& settings = loaded.settings;
   ResultFolder folder(arguments.output.folder);
   writeAtomically(folder.running() / kConfigurationFile, [&](std::ostream& file) { file << toIni(loaded); });
-  SlamFiles files(folder.running(), input.sensors->setup().header.lidars,
-                  settings.output.maps ? std::optional(settings.octomap) : std::nullopt);
-  SlamRunResult result = runShowingProgress(input, settings, files, arguments.seconds);
+  SlamFiles files(folder.running(), input.sensors->setup().header.lidars, settings.output, settings.octomap);
+  SlamRunResult result = runShowingProgress(input, settings, files, arguments);
   result.summary.command = commandOf(arguments);
   if (input.live) result.summary.waited = 1e-3 * result.summary.stages.at("input").total_ms;
   result.summary.versions = {{"scanloom", programVersion()}};
@@ -225,20 +187,23 @@ int run(SlamArguments arguments)
 {
   if (arguments.every_nth > 0)
     arguments.configuration.assignments.push_back(fmt::format("slam.every_nth={}", arguments.every_nth));
-  const RecordingFiles recording = arguments.recording.given() ? filesOf(arguments.recording) : RecordingFiles{};
+  const RecordingFiles recording =
+      arguments.recording.given() ? filesOf(arguments.recording, Clouds::Taken) : RecordingFiles{};
   if (arguments.output.folder.empty()) arguments.output.folder = defaultFolder(arguments.recording);
   const Loaded<SlamVerbSettings> loaded =
       load<SlamVerbSettings>(withScene(arguments.configuration, arguments.scene), recording);
   std::vector<std::string> names{kConfigurationFile};
-  for (std::string& name : SlamFiles::names()) names.push_back(std::move(name));
+  for (std::string& name : SlamFiles::names(loaded.settings.output)) names.push_back(std::move(name));
   refuseExisting(arguments.output, names);
-  const Input input = openInput(arguments, recording, loaded.configuration);
+  const SlamInput input = openInput(recording, arguments.scene, arguments.lidars, loaded.configuration);
   if (!input.live) refuseSeconds(arguments.seconds);
   if (arguments.configuration.dry_run)
   {
+    refuseUnknownImu(input, loaded.settings.slam);
     std::cout << toIni(loaded);
     return kDone;
   }
+  if (!arguments.web.address.empty()) webAddress(arguments.web);
   catchInterruption();
   return process(input, arguments, loaded, names);
 }
@@ -252,6 +217,7 @@ std::function<int()> addSlamOptions(CLI::App& app)
   addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas; default: all")
       .commaSeparated();
   addSeconds(app, arguments->seconds);
+  addWindow(app, addWeb(app, arguments->web), arguments->web);
   addOption(app, "--every-nth", arguments->every_nth, "use every N-th scan only; the IMU is used in full").positive();
   return [arguments] { return run(*arguments); };
 }

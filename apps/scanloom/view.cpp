@@ -1,7 +1,8 @@
-/** `scanloom view`: shows a file in a window, or draws it into a picture. */
+/** `scanloom view`: plays a recording, or shows another file, in a window or on a page, or draws it. */
 #include "Arguments.h"
 #include "Recording.h"
 #include "Verb.h"
+#include "Web.h"
 #include "core/AtomicFile.h"
 #include "core/ConfigError.h"
 #include "core/Interruption.h"
@@ -9,10 +10,12 @@
 #include "formats/CloudFile.h"
 #include "formats/TrajectoryReader.h"
 #include "formats/TrajectoryWriter.h"
+#include "live_view/Player.h"
 #include "maps/OctoMapFile.h"
 #include "maps/SceneFile.h"
 #include "maps/SimpleMapReader.h"
 #include "mrpt_bridge/ObservationReader.h"
+#include "mrpt_bridge/RawlogInput.h"
 #include "packets/describeFile.h"
 #include "rig/Rig.h"
 #include "rig/RigOptions.h"
@@ -35,8 +38,9 @@ using Path = std::filesystem::path;
 
 struct ViewArguments
 {
-  Path file, png;
-  std::uint64_t scan = 0;
+  Path file, png, trajectory;
+  WebArguments web;
+  std::optional<std::uint64_t> scan;
   int width = 1280, height = 960;
   bool overwrite = false;
 };
@@ -67,12 +71,16 @@ RecordingFiles capturesOf(const Path& path)
   return files;
 }
 
-void addCapturedScan(SceneBuilder& scene, const RecordingFiles& files, std::uint64_t wanted)
+Rig rigOf(const RecordingFiles& files)
 {
   Configuration configuration;
   addCaptures(files, configuration);
-  const std::unique_ptr<SensorInput> input =
-      openRig(makeRig(readRigSettings(configuration, rigSection(configuration))));
+  return makeRig(readRigSettings(configuration, rigSection(configuration)));
+}
+
+void addCapturedScan(SceneBuilder& scene, const RecordingFiles& files, std::uint64_t wanted)
+{
+  const std::unique_ptr<SensorInput> input = openRig(rigOf(files));
   std::uint64_t scans = 0;
   while (const std::optional<SensorEvent> event = input->next())
     if (const auto* scan = std::get_if<Scan>(&*event); scan && scans++ == wanted)
@@ -96,12 +104,10 @@ void addKeyframes(SceneBuilder& scene, const Path& path)
 
 SceneBuilder sceneOf(const ViewArguments& arguments)
 {
-  if (!std::filesystem::exists(arguments.file))
-    throw UsageError(fmt::format("{}: no such file", arguments.file.string()));
   SceneBuilder scene;
   const std::string ending = arguments.file.extension().string();
   if (ending == ".rawlog")
-    addScan(scene, arguments.file, arguments.scan);
+    addScan(scene, arguments.file, arguments.scan.value_or(0));
   else if (ending == ".simplemap")
     addKeyframes(scene, arguments.file);
   else if (ending == ".bt" || ending == ".ot")
@@ -111,7 +117,7 @@ SceneBuilder sceneOf(const ViewArguments& arguments)
   else if (ending == ".ply" || ending == ".pcd" || ending == ".bin" || ending == ".gz")
     scene.addPoints(readCloud(arguments.file).points);
   else if (std::filesystem::is_directory(arguments.file) || isCapture(arguments.file))
-    addCapturedScan(scene, capturesOf(arguments.file), arguments.scan);
+    addCapturedScan(scene, capturesOf(arguments.file), arguments.scan.value_or(0));
   else
     throw UsageError(
         fmt::format("{}: must be a capture, .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin or a trajectory",
@@ -138,20 +144,58 @@ int show(const mrpt::opengl::COpenGLScene::Ptr& scene, const ViewArguments& argu
   return interrupted() ? kInterrupted : kDone;
 }
 
-int run(const ViewArguments& arguments)
+Player::Open openerOf(const Path& file)
 {
-  if (!arguments.png.empty())
+  if (file.extension() == ".rawlog") return [file] { return std::make_unique<RawlogInput>(file); };
+  if (std::filesystem::is_directory(file) || isCapture(file))
+    return [rig = rigOf(capturesOf(file))] { return openRig(rig); };
+  throw UsageError(
+      fmt::format("{}: --web plays a capture, its folder or a .rawlog; others are shown without it", file.string()));
+}
+
+bool isRecording(const Path& file)
+{
+  return file.extension() == ".rawlog" || std::filesystem::is_directory(file) || isCapture(file);
+}
+
+int play(const ViewArguments& arguments)
+{
+  Trajectory poses;
+  if (!arguments.trajectory.empty()) poses = readTrajectory(arguments.trajectory);
+  LiveExchange exchange;
+  Player player(openerOf(arguments.file), std::move(poses), exchange);
+  if (!arguments.web.given())
   {
-    if (arguments.png.extension() != ".png")
-      throw UsageError(fmt::format("--png {}: the name must end in .png", arguments.png.string()));
-    refuseExisting({arguments.png}, arguments.overwrite);
+    const LiveWindow window("scanloom view " + arguments.file.filename().string(), exchange);
+    player.run([&] { return window.isOpen() && !interrupted(); });
+    return kDone;
   }
-  catchInterruption();
-  const auto scene = sceneOf(arguments).finished();
-  if (arguments.png.empty()) return show(scene, arguments);
-  writePicture(arguments.png, *scene, arguments.width, arguments.height);
+  const SensorAddress address = webAddress(arguments.web);
+  const LiveServer server(address, exchange);
+  announcePage(server, address);
+  fmt::print(stderr, "Ctrl-C ends it\n");
+  player.run([] { return !interrupted(); });
+  return kDone;
+}
+
+int draw(const ViewArguments& arguments)
+{
+  if (arguments.png.extension() != ".png")
+    throw UsageError(fmt::format("--png {}: the name must end in .png", arguments.png.string()));
+  refuseExisting({arguments.png}, arguments.overwrite);
+  writePicture(arguments.png, *sceneOf(arguments).finished(), arguments.width, arguments.height);
   fmt::print("{}\n", arguments.png.string());
   return kDone;
+}
+
+int run(const ViewArguments& arguments)
+{
+  if (!std::filesystem::exists(arguments.file))
+    throw UsageError(fmt::format("{}: no such file", arguments.file.string()));
+  catchInterruption();
+  if (!arguments.png.empty()) return draw(arguments);
+  if (arguments.web.given() || (isRecording(arguments.file) && !arguments.scan)) return play(arguments);
+  return show(sceneOf(arguments).finished(), arguments);
 }
 
 std::function<int()> addViewOptions(CLI::App& app)
@@ -162,8 +206,13 @@ std::function<int()> addViewOptions(CLI::App& app)
       .required();
   addOption(app, "--png", arguments->png, "draw into this picture instead of a window; needs no display")
       .typeName("FILE");
+  addWeb(app, arguments->web);
+  addOption(app, "--trajectory", arguments->trajectory, "capture, rawlog: the body's poses, to draw scans and map by")
+      .existingFile();
   addOverwrite(app, arguments->overwrite);
-  addOption(app, "--scan", arguments->scan, "capture, rawlog: number of the scan, from 0").showDefault().typeName("N");
+  addOption(app, "--scan", arguments->scan,
+            "capture, rawlog: show this scan alone, from 0, instead of playing all [of a picture: 0]")
+      .typeName("N");
   addOption(app, "--width", arguments->width, "width in pixels").between(64, 8192).showDefault();
   addOption(app, "--height", arguments->height, "height in pixels").between(64, 8192).showDefault();
   return [arguments] { return run(*arguments); };
@@ -172,6 +221,9 @@ std::function<int()> addViewOptions(CLI::App& app)
 
 Verb viewVerb()
 {
-  return {"view", "a recording, map, point cloud or trajectory in a window or as a picture", {}, &addViewOptions};
+  return {"view",
+          "plays a recording; shows a map, point cloud or trajectory; in a window, on a page, or as a picture",
+          {},
+          &addViewOptions};
 }
 }  // namespace scanloom

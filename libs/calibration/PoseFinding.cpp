@@ -13,7 +13,7 @@ namespace
 constexpr double kFarthest = 1, kLargestTurn = 15;  // m, deg: what registration with cells of 2 m can correct
 constexpr const char* kMeasureAgain =
     "measure both poses again: x y z in m, yaw pitch roll in deg, of the sensor frame in the body; see that each lidar "
-    "has its own metadata file";
+    "has its own metadata file, or let 'scanloom calibrate' find the pose from a drive";
 }  // namespace
 
 Finding poseFinding(const std::string& lidar, const std::string& other, const std::optional<CloudAgreement>& agreement,
@@ -47,7 +47,7 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
   else
     finding.mend = fmt::format(
         "if '{}' is right, move the sensor by ({:.2f} {:.2f} {:.2f}) m and turn it by ({:.1f} {:.1f} {:.1f}) deg about "
-        "the body's x y z: then {:.0f} % agree",
+        "the body's x y z: then {:.0f} % agree; 'scanloom calibrate' finds it to millimetres from a drive",
         other, c.offset.x(), c.offset.y(), c.offset.z(), degrees.x(), degrees.y(), degrees.z(), 100 * c.near_share);
   return finding;
 }

@@ -103,6 +103,15 @@ void Configuration::set(const std::string& assignment)
   existing = entry;
 }
 
+void Configuration::makePathsAbsolute(const SectionDescription& described)
+{
+  const auto found = sections_.find(described.section.name);
+  if (found == sections_.end()) return;
+  for (auto& [key, entry] : found->second.entries)
+    if (const Field* field = described.fieldOf(key); field && field->paths && !entry.value.empty())
+      entry.value = field->paths(entry.value, std::filesystem::current_path() / entry.folder);
+}
+
 std::vector<std::string> Configuration::sections() const
 {
   std::vector<std::string> names;

@@ -64,6 +64,9 @@ class Configuration
   template <typename Options>
   void readInto(std::vector<Options>& options, const Section& section) const;
 
+  /** Relative paths of the section's keys start where they were written: at the folder of their file. */
+  void makePathsAbsolute(const SectionDescription&);
+
   bool has(std::string_view section, std::string_view key) const { return find(section, key) != nullptr; }
   std::vector<std::string> sections() const;
   std::vector<std::string> keys(std::string_view section) const;

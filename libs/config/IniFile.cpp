@@ -124,7 +124,10 @@ class IniParser
       throw std::invalid_argument(fmt::format("'{}' must be 'key = value', '[section]' or a comment", text));
     if (!section_) throw std::invalid_argument(fmt::format("{} stands before any [section]", key));
 
-    entries_.push_back({*section_, key, valueOf(key, text.substr(equals + 1)), place});
+    const std::string_view value = text.substr(equals + 1);
+    const bool from_environment = startsWith(trimmed(value), "$env{");
+    entries_.push_back({*section_, key, valueOf(key, value), place,
+                        from_environment ? "" : std::filesystem::path(file_).parent_path()});
   }
 
   std::string valueOf(const std::string& key, std::string_view text) const

@@ -1,5 +1,6 @@
 /** MRPT's INI dialect, with the file and line of every value. */
 #pragma once
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ struct IniEntry
   std::string key;
   std::string value;  // expanded, trimmed, without its comment
   Place place;        // of the first line, if `\` continues it
+
+  /** Where a relative path in the value starts: at the file's folder, but at the current one (empty) behind $env{}. */
+  std::filesystem::path folder = {};
 };
 
 /**

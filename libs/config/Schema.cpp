@@ -75,6 +75,14 @@ std::vector<std::string> SectionDescription::keysLike(const std::string& key) co
   return keys;
 }
 
+const Field* SectionDescription::fieldOf(const std::string& key) const
+{
+  const std::string first = elementOf(list, key) ? numbered(list, 0) + key.substr(key.find('_', list.size()) + 1) : key;
+  const auto found = std::find_if(fields.begin(), fields.end(),
+                                  [&](const auto& described) { return sameName(described.field.name, first); });
+  return found == fields.end() ? nullptr : &found->field;
+}
+
 void merge(Schema& into, const SectionDescription& added)
 {
   const auto existing = std::find_if(

@@ -54,6 +54,9 @@ struct SectionDescription
   /** All keys; those of a list once, with the number that `key` has: lidar7_metadata, lidar7_pose, ... for lidar7_poze.
    */
   std::vector<std::string> keysLike(const std::string& key) const;
+
+  /** The field that describes the key, that of lidar1_pose also for lidar7_pose; nullptr: none. */
+  const Field* fieldOf(const std::string& key) const;
 };
 using Schema = std::vector<SectionDescription>;
 

@@ -92,6 +92,11 @@ std::optional<std::string> assign(std::string& member, std::string_view text, co
   return std::nullopt;
 }
 
+std::string pathFrom(const std::string& text, const std::filesystem::path& folder)
+{
+  return (folder / text).lexically_normal().string();
+}
+
 std::string toText(bool value) { return value ? "true" : "false"; }
 std::string toText(int value) { return fmt::format("{}", value); }
 std::string toText(double value) { return fmt::format("{}", value); }

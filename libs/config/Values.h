@@ -2,6 +2,7 @@
 #pragma once
 #include "core/Field.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,9 @@ std::optional<std::string> assign(bool&, std::string_view text, const Field&);
 std::optional<std::string> assign(int&, std::string_view text, const Field&);
 std::optional<std::string> assign(double&, std::string_view text, const Field&);
 std::optional<std::string> assign(std::string&, std::string_view text, const Field&);
+
+/** PathsFrom of a text that is one path. */
+std::string pathFrom(const std::string& text, const std::filesystem::path& folder);
 
 /** The text that assign() turns into the same value again. */
 std::string toText(bool);

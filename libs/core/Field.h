@@ -1,5 +1,6 @@
 /** The description of an option: used for loading, checking, the default file and the manual (config/). */
 #pragma once
+#include <filesystem>
 #include <limits>
 #include <string>
 
@@ -17,6 +18,9 @@ constexpr Bounds unbounded() { return {}; }
 constexpr Bounds above(double limit) { return {limit, std::numeric_limits<double>::infinity(), true}; }
 constexpr Bounds atLeast(double limit) { return {limit, std::numeric_limits<double>::infinity(), false}; }
 constexpr Bounds between(double lowest, double highest) { return {lowest, highest, false}; }
+
+/** A text that names files: the same with absolute paths, where relative ones start at `folder`. */
+using PathsFrom = std::string (*)(const std::string& text, const std::filesystem::path& folder);
 
 /**
  * An options struct lists its fields once, with the default at the member:
@@ -39,5 +43,6 @@ struct Field
   std::string unit;     // "m", "s", "deg", "" for a pure number
   std::string meaning;  // one phrase
   Bounds bounds = unbounded();
+  PathsFrom paths = nullptr;  // none: its text names no files
 };
 }  // namespace scanloom

@@ -1,5 +1,7 @@
 #include "core/Interruption.h"
 
+#include <unistd.h>
+
 #include <csignal>
 #include <initializer_list>
 
@@ -9,10 +11,20 @@ namespace
 {
 volatile std::sig_atomic_t g_interrupted = 0;  // all that a signal handler may touch
 
-void catchSignal(int signal)
+void noteSignal(int) { g_interrupted = 1; }
+
+void noteSignalAndSaySo(int)
+{
+  g_interrupted = 1;
+  // A closing run may take seconds in which a person would press again, and that ends it at once.
+  constexpr char kSaid[] = "\nending; once more ends it at once\n";
+  if (::write(STDERR_FILENO, kSaid, sizeof kSaid - 1) < 0) return;  // there is nobody to tell
+}
+
+void catchSignal(int signal, void (*note)(int))
 {
   struct sigaction action = {};
-  action.sa_handler = [](int) { g_interrupted = 1; };
+  action.sa_handler = note;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(signal, &action, nullptr);
 }
@@ -20,7 +32,7 @@ void catchSignal(int signal)
 
 void catchInterruption()
 {
-  for (const int signal : {SIGINT, SIGTERM}) catchSignal(signal);
+  for (const int signal : {SIGINT, SIGTERM}) catchSignal(signal, &noteSignalAndSaySo);
 }
 
 void catchUnhandledInterruption()
@@ -30,7 +42,7 @@ void catchUnhandledInterruption()
   {
     struct sigaction current = {};
     sigaction(signal, nullptr, &current);
-    if (current.sa_handler == SIG_DFL) catchSignal(signal);
+    if (current.sa_handler == SIG_DFL) catchSignal(signal, &noteSignal);
   }
 }
 

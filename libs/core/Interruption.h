@@ -3,7 +3,8 @@
 
 namespace scanloom
 {
-/** From now on the first SIGINT or SIGTERM only sets interrupted(); a second one ends the program. */
+/** From now on the first SIGINT or SIGTERM only sets interrupted(), and says so at once on stderr; a second one ends
+ * the program. */
 void catchInterruption();
 
 /** The same in a program of others: a signal that it handles or ignores is left to it. Clears interrupted(). */

@@ -79,7 +79,17 @@ std::string Progress::line() const
 std::uint64_t megabytesOf(const std::vector<std::filesystem::path>& files)
 {
   std::uintmax_t bytes = 0;
-  for (const auto& file : files) bytes += std::filesystem::file_size(file);
+  const auto add = [&](const std::filesystem::path& file)
+  {
+    std::error_code missing;
+    const std::uintmax_t size = std::filesystem::file_size(file, missing);
+    if (!missing) bytes += size;
+  };
+  for (const auto& file : files)
+    if (std::filesystem::is_directory(file))
+      for (const auto& part : std::filesystem::directory_iterator(file)) add(part);
+    else
+      add(file);
   return std::max<std::uint64_t>(1, bytes / 1000000);
 }
 

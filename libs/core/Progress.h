@@ -45,7 +45,10 @@ class Progress
   Clock::time_point shown_at_ = start_;
 };
 
-/** The size of all files together, at least 1: the total for a progress in MB. */
+/**
+ * The size of all files together, and of those in folders, at least 1: the total for a progress in MB. A missing file
+ * counts 0: who opens it says so.
+ */
 std::uint64_t megabytesOf(const std::vector<std::filesystem::path>& files);
 
 /** `59 s`, `4:07 min`, `2:05 h` */

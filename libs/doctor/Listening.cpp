@@ -1,5 +1,6 @@
 #include "doctor/Listening.h"
 
+#include "bags/BagPackets.h"
 #include "packets/MergedCaptures.h"
 #include "rig/RigLive.h"
 
@@ -53,7 +54,7 @@ void listenLive(const Rig& rig, Duration longest, RigListener& listener, const s
 std::vector<std::string> listenToCaptures(const Rig& rig, Duration longest, RigListener& listener,
                                           const std::function<bool(double)>& goOn)
 {
-  MergedCaptures captures(rig.captures);
+  MergedCaptures captures(datagramsOf(rig.captures));
   std::optional<Timestamp> start;
   for (Datagram datagram; captures.next(datagram);)
   {

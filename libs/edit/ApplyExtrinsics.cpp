@@ -29,7 +29,8 @@ SensorPoses fromExtrinsics(const std::filesystem::path& path)
 
 SensorPoses fromConfiguration(const std::filesystem::path& path)
 {
-  const Configuration configuration = Configuration::fromFiles({path});
+  Configuration configuration = Configuration::fromFiles({path});
+  makeRigPathsAbsolute(configuration);
   const RigSettings settings = readRigSettings(configuration, rigSection(configuration));
   SensorPoses poses;
   if (!settings.rig.extrinsics.empty()) poses = fromExtrinsics(settings.rig.extrinsics);

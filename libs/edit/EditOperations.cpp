@@ -21,6 +21,7 @@
 #include "edit/SplitLidars.h"
 #include "edit/ThinClouds.h"
 #include "edit/TimeOffset.h"
+#include "edit/ToMcap.h"
 #include "formats/SecondsText.h"
 #include "formats/TrajectoryReader.h"
 #include "mrpt_bridge/Observations.h"
@@ -202,6 +203,13 @@ void chooseExports(const EditOptions& o, Chosen& chosen)
     chosen.push_back({"--export-tum", {{o.export_tum}, {}}, {}, [](const Header&, const EditOutputs& outputs) {
                         return exportTum(outputs.files.front());
                       }});
+  if (!o.to_mcap.empty())
+    chosen.push_back({"--to-mcap",
+                      {{o.to_mcap}, {}},
+                      o.trajectory.empty() ? std::vector<Path>() : std::vector<Path>{o.trajectory},
+                      [poses = o.trajectory.empty() ? Trajectory() : readTrajectory(o.trajectory)](
+                          const Header& header, const EditOutputs& outputs)
+                      { return toMcap(outputs.files.front(), poses, header); }});
 }
 
 void chooseMaps(const EditOptions& o, Chosen& chosen)

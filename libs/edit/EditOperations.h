@@ -24,7 +24,7 @@ struct EditOptions
   std::optional<double> min_range, max_range, voxel, rebatch;
   std::filesystem::path apply_extrinsics;
   std::string convert_clouds;
-  std::filesystem::path export_ply, export_pcd, export_kitti, export_csv, export_tum;
+  std::filesystem::path export_ply, export_pcd, export_kitti, export_csv, export_tum, to_mcap;
   std::string deskew, imu;
   std::filesystem::path to_simplemap, to_octomap, trajectory;
   double keyframe_distance = 4;

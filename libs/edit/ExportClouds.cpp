@@ -3,9 +3,8 @@
 #include "core/OutputFile.h"
 #include "core/fileNameOf.h"
 #include "edit/CloudObservation.h"
+#include "formats/CloudWriter.h"
 #include "formats/KittiWriter.h"
-#include "formats/PcdWriter.h"
-#include "formats/PlyWriter.h"
 #include "formats/SecondsText.h"
 #include "mrpt_bridge/Observations.h"
 
@@ -31,28 +30,23 @@ class CloudFolder
   void add(const Scan& scan)
   {
     const std::string name = fmt::format("{:06}", count_++);
-    switch (format_)
-    {
-      case CloudFormat::Ply:
-      {
-        PlyWriter ply(clouds_ / (name + ".ply"));
-        ply.add(scan.points, scan.start, Rigid::identity());
-        ply.close();
-        break;
-      }
-      case CloudFormat::Pcd:
-        writePcd(clouds_ / (name + ".pcd"), scan.points);
-        break;
-      case CloudFormat::Kitti:
-        writeKittiScan(clouds_ / (name + ".bin"), scan.points);
-        break;
-    }
+    if (format_ == CloudFormat::Kitti)
+      writeKittiScan(clouds_ / (name + ".bin"), scan.points);
+    else
+      writeCloud(clouds_ / (name + (format_ == CloudFormat::Ply ? ".ply" : ".pcd")), scan);
     times_.stream() << secondsText(scan.start) << '\n';
   }
 
   void close() { times_.commit(); }
 
  private:
+  static void writeCloud(const std::filesystem::path& path, const Scan& scan)
+  {
+    CloudWriter writer(path);
+    writer.add(scan.points, scan.start, Rigid::identity());
+    writer.close();
+  }
+
   CloudFormat format_;
   std::filesystem::path clouds_;
   OutputFile times_;

@@ -9,8 +9,8 @@ namespace scanloom
 {
 enum class CloudFormat
 {
-  Ply,    // PlyWriter
-  Pcd,    // writePcd
+  Ply,    // CloudWriter
+  Pcd,    // CloudWriter
   Kitti,  // writeKittiScan
 };
 

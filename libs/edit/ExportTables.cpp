@@ -74,15 +74,6 @@ class CsvExport
   std::map<std::string, ImuTable> imus_;
 };
 
-std::optional<Rigid> robotPoseIn(const mrpt::obs::CObservation& observation)
-{
-  if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation))
-    return fromMrpt(pose->pose.mean);
-  if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation))
-    return fromMrpt(mrpt::poses::CPose3D(odometry->odometry));
-  return std::nullopt;
-}
-
 class TumExport
 {
  public:
@@ -118,6 +109,15 @@ class TumExport
   Timestamp latest_;
 };
 }  // namespace
+
+std::optional<Rigid> robotPoseIn(const mrpt::obs::CObservation& observation)
+{
+  if (const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation))
+    return fromMrpt(pose->pose.mean);
+  if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation))
+    return fromMrpt(mrpt::poses::CPose3D(odometry->odometry));
+  return std::nullopt;
+}
 
 RawlogOperation exportCsv(const std::filesystem::path& folder)
 {

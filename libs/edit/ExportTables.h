@@ -1,8 +1,10 @@
 /** Writes IMU samples, stamps of clouds and poses of a rawlog as text. */
 #pragma once
+#include "core/Rigid.h"
 #include "edit/RawlogEdit.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace scanloom
 {
@@ -17,4 +19,7 @@ RawlogOperation exportCsv(const std::filesystem::path& folder);
  * do not rise, and at the end of input if there were no poses or poses of more than one label.
  */
 RawlogOperation exportTum(const std::filesystem::path& file);
+
+/** Of CObservationRobotPose and CObservationOdometry. */
+std::optional<Rigid> robotPoseIn(const mrpt::obs::CObservation&);
 }  // namespace scanloom

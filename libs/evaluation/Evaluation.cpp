@@ -63,9 +63,9 @@ Evaluation evaluate(const EvaluationInput& input, const EvaluationOptions& optio
 
   const std::size_t samples = reference.size();
   const Comparison comparison(options, std::move(reference));
-  const std::vector<PositionPair> pairs = comparison.pairs(input.scans);
-  evaluation.left_out = samples - pairs.size();
-  evaluation.drift = driftOf(pairs, options.alignment);
+  evaluation.pairs = comparison.pairs(input.scans);
+  evaluation.left_out = samples - evaluation.pairs.size();
+  evaluation.drift = driftOf(evaluation.pairs, options.alignment);
   if (input.imu_rate) evaluation.imu_rate_drift = comparison.drift(*input.imu_rate);
   if (const auto& truth = input.truth ? input.truth : true_poses)
     evaluation.floor = comparison.drift(atStampsOf(input.scans, *truth));
@@ -78,8 +78,8 @@ Evaluation evaluate(const EvaluationInput& input, const EvaluationOptions& optio
   }
   else
   {
-    evaluation.absolute = absoluteErrors(pairs, options.alignment);
-    evaluation.relative = relativeErrors(pairs, options.delta);
+    evaluation.absolute = absoluteErrors(evaluation.pairs, options.alignment);
+    evaluation.relative = relativeErrors(evaluation.pairs, options.delta);
   }
   return evaluation;
 }

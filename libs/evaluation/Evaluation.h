@@ -35,6 +35,7 @@ struct Evaluation
   /** Of the true poses at the scans' stamps: the error that the interpolation between scans causes by itself. */
   std::optional<Drift> floor;
   PoseErrors absolute, relative;         // of the scans' poses
+  std::vector<PositionPair> pairs;       // of the scans' poses, at the stamps of the reference
   std::size_t left_out = 0;              // samples of the reference at whose time there is no estimate
   std::optional<Duration> clock_offset;  // how much the reference's stamps are late
   bool clock_offset_applied = false;

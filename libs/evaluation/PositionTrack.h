@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 
-#include <filesystem>
 #include <stdexcept>
 #include <vector>
 
@@ -18,12 +17,6 @@ struct StampedPosition
 
 /** With strictly increasing stamps. */
 using PositionTrack = std::vector<StampedPosition>;
-
-/**
- * Lines of `t,x,y,z` in seconds and metres; further columns, comments (#), a header and empty lines are skipped. Throws
- * std::invalid_argument with file and line for any other line, and for a stamp that is not after the one before.
- */
-PositionTrack readTotalStation(const std::filesystem::path&);
 
 /** Positions of a point that is fixed to the body. */
 PositionTrack positionsOf(const Trajectory&, const Eigen::Vector3d& body_p_point = Eigen::Vector3d::Zero());

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -82,26 +83,36 @@ std::string endingOf(const std::filesystem::path& path)
   return ending;
 }
 
-std::vector<Eigen::Vector3f> positionsIn(const std::filesystem::path& path)
+CloudPoints pointsIn(const std::filesystem::path& path)
 {
   const bool packed = endingOf(path) == ".gz";
   const std::string ending = endingOf(packed ? path.stem() : path);
-  const auto positionsOf = ending == ".ply"   ? &plyPositions
-                           : ending == ".pcd" ? &pcdPositions
-                           : ending == ".bin" ? &kittiPositions
-                                              : nullptr;
-  if (!positionsOf)
+  const auto pointsOf = ending == ".ply"   ? &plyPoints
+                        : ending == ".pcd" ? &pcdPoints
+                        : ending == ".bin" ? &kittiPoints
+                                           : nullptr;
+  if (!pointsOf)
     throw std::invalid_argument("is no cloud by its name: .ply, .pcd or .bin (KITTI) can be read, each also with .gz");
   if (!std::filesystem::is_regular_file(path)) throw std::invalid_argument("is no file");
-  return positionsOf(packed ? unpackedContent(path) : plainContent(path));
+  return pointsOf(packed ? unpackedContent(path) : plainContent(path));
 }
 
-CloudFile finiteOf(std::vector<Eigen::Vector3f> points)
+CloudFile finiteOf(CloudPoints read)
 {
-  const auto end = std::remove_if(points.begin(), points.end(), [](const auto& point) { return !point.allFinite(); });
-  const auto dropped = static_cast<std::size_t>(points.end() - end);
-  points.erase(end, points.end());
-  return {std::move(points), dropped};
+  CloudFile cloud{std::move(read.positions), std::move(read.times)};
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+  {
+    const bool timed = cloud.times.empty() || std::isfinite(cloud.times[i]);
+    if (!cloud.points[i].allFinite() || !timed) continue;
+    cloud.points[kept] = cloud.points[i];
+    if (!cloud.times.empty()) cloud.times[kept] = cloud.times[i];
+    ++kept;
+  }
+  cloud.dropped = cloud.points.size() - kept;
+  cloud.points.resize(kept);
+  if (!cloud.times.empty()) cloud.times.resize(kept);
+  return cloud;
 }
 }  // namespace
 
@@ -109,7 +120,7 @@ CloudFile readCloud(const std::filesystem::path& path)
 {
   try
   {
-    return finiteOf(positionsIn(path));
+    return finiteOf(pointsIn(path));
   }
   catch (const std::logic_error& error)  // of the formats, which do not know the file's name
   {

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 namespace scanloom
 {
-std::vector<Eigen::Vector3f> kittiPositions(Bytes file)
+CloudPoints kittiPoints(Bytes file)
 {
   constexpr std::size_t kPoint = 4 * sizeof(float);
   if (file.size() % kPoint != 0)
@@ -16,6 +17,6 @@ std::vector<Eigen::Vector3f> kittiPositions(Bytes file)
   for (std::size_t i = 0; i < positions.size(); ++i)
     for (std::size_t axis = 0; axis < 3; ++axis)
       positions[i][static_cast<Eigen::Index>(axis)] = load<float>(file, i * kPoint + axis * sizeof(float));
-  return positions;
+  return {std::move(positions), {}};
 }
 }  // namespace scanloom

@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -113,11 +114,15 @@ void requireRoom(const PcdHeader& header, std::size_t bytes, std::size_t least_b
   if (bytes / least_bytes_of_point < header.points) throw std::invalid_argument("it ends before its last point");
 }
 
-using PositionFields = std::array<std::size_t, 3>;  // indices of x, y and z
-
-PositionFields positionFields(const PcdHeader& header)
+struct FieldsInUse
 {
-  PositionFields xyz{};
+  std::array<std::size_t, 3> xyz{};  // their places among the fields
+  std::optional<std::size_t> time;
+};
+
+FieldsInUse fieldsInUse(const PcdHeader& header)
+{
+  FieldsInUse used;
   const std::array names{"x", "y", "z"};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
@@ -126,9 +131,11 @@ PositionFields positionFields(const PcdHeader& header)
     if (found == header.fields.end()) throw std::invalid_argument("its points lack x, y or z");
     if (found->type != "F" || (found->size != 4 && found->size != 8) || found->count != 1)
       throw std::invalid_argument(fmt::format("its {} is neither float nor double", names[axis]));
-    xyz[axis] = static_cast<std::size_t>(found - header.fields.begin());
+    used.xyz[axis] = static_cast<std::size_t>(found - header.fields.begin());
   }
-  return xyz;
+  for (std::size_t i = 0; i < header.fields.size(); ++i)
+    if (isTimeField(header.fields[i].name) && header.fields[i].count == 1) used.time = i;
+  return used;
 }
 
 /** Elements or bytes of one point before a field. */
@@ -140,42 +147,57 @@ std::size_t sumBefore(const PcdHeader& header, std::size_t field, SizeOf&& sizeO
   return sum;
 }
 
-std::vector<Eigen::Vector3f> asciiPositions(const PcdHeader& header, const PositionFields& fields, CloudText& file)
+CloudPoints asciiPoints(const PcdHeader& header, const FieldsInUse& fields, CloudText& file)
 {
   const std::size_t elements = header.elements();
   requireRoom(header, file.rest().size() + 1, 2 * elements);  // a digit and a blank each
-  std::array<std::size_t, 3> column{};
-  std::transform(fields.begin(), fields.end(), column.begin(),
-                 [&](std::size_t field)
-                 { return sumBefore(header, field, [](const PcdField& before) { return before.count; }); });
+  const auto columnOf = [&](std::size_t field)
+  { return sumBefore(header, field, [](const PcdField& before) { return before.count; }); };
+  const std::array column{columnOf(fields.xyz[0]), columnOf(fields.xyz[1]), columnOf(fields.xyz[2])};
 
-  std::vector<Eigen::Vector3f> positions(header.points);
+  CloudPoints points;
+  points.positions.resize(header.points);
   std::vector<double> row(elements);
-  for (Eigen::Vector3f& position : positions)
+  for (Eigen::Vector3f& position : points.positions)
   {
     for (double& value : row) value = file.number();
     position = Eigen::Vector3d(row[column[0]], row[column[1]], row[column[2]]).cast<float>();
+    if (fields.time) points.times.push_back(row[columnOf(*fields.time)]);
   }
-  return positions;
+  return points;
+}
+
+double numberAt(Bytes data, std::size_t at, const PcdField& field)
+{
+  const std::string type = field.type + std::to_string(field.size);
+  if (type == "F4") return load<float>(data, at);
+  if (type == "F8") return load<double>(data, at);
+  if (type == "U4") return load<std::uint32_t>(data, at);
+  if (type == "I4") return load<std::int32_t>(data, at);
+  if (type == "U8") return static_cast<double>(load<std::uint64_t>(data, at));
+  if (type == "I8") return static_cast<double>(load<std::int64_t>(data, at));
+  throw std::invalid_argument(fmt::format("its {} is of type {}", field.name, type));
 }
 
 /** `offsetOf(point, field)` says where in `data` a value lies: point by point, or field by field when compressed. */
 template <typename OffsetOf>
-std::vector<Eigen::Vector3f> binaryPositions(const PcdHeader& header, const PositionFields& fields, Bytes data,
-                                             OffsetOf&& offsetOf)
+CloudPoints binaryPoints(const PcdHeader& header, const FieldsInUse& fields, Bytes data, OffsetOf&& offsetOf)
 {
-  std::vector<Eigen::Vector3f> positions(header.points);
+  CloudPoints points;
+  points.positions.resize(header.points);
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const bool is_double = header.fields[fields[axis]].size == 8;
+    const bool is_double = header.fields[fields.xyz[axis]].size == 8;
     for (std::size_t i = 0; i < header.points; ++i)
     {
-      const std::size_t at = offsetOf(i, fields[axis]);
-      positions[i][static_cast<Eigen::Index>(axis)] =
+      const std::size_t at = offsetOf(i, fields.xyz[axis]);
+      points.positions[i][static_cast<Eigen::Index>(axis)] =
           is_double ? static_cast<float>(load<double>(data, at)) : load<float>(data, at);
     }
   }
-  return positions;
+  for (std::size_t i = 0; fields.time && i < header.points; ++i)
+    points.times.push_back(numberAt(data, offsetOf(i, *fields.time), header.fields[*fields.time]));
+  return points;
 }
 
 std::size_t bytesBefore(const PcdHeader& header, std::size_t field)
@@ -183,13 +205,13 @@ std::size_t bytesBefore(const PcdHeader& header, std::size_t field)
   return sumBefore(header, field, [](const PcdField& before) { return before.bytes(); });
 }
 
-std::vector<Eigen::Vector3f> plainPositions(const PcdHeader& header, const PositionFields& fields, Bytes data)
+CloudPoints plainPoints(const PcdHeader& header, const FieldsInUse& fields, Bytes data)
 {
   const std::size_t bytes_of_point = header.bytesOfPoint();
   requireRoom(header, data.size(), bytes_of_point);
-  return binaryPositions(header, fields, data,
-                         [&](std::size_t point, std::size_t field)
-                         { return point * bytes_of_point + bytesBefore(header, field); });
+  return binaryPoints(header, fields, data,
+                      [&](std::size_t point, std::size_t field)
+                      { return point * bytes_of_point + bytesBefore(header, field); });
 }
 
 std::vector<std::uint8_t> unpackLzf(Bytes packed, std::size_t size)
@@ -208,35 +230,35 @@ std::vector<std::uint8_t> unpackLzf(Bytes packed, std::size_t size)
   return unpacked;
 }
 
-std::vector<Eigen::Vector3f> compressedPositions(const PcdHeader& header, const PositionFields& fields, Bytes data)
+CloudPoints compressedPoints(const PcdHeader& header, const FieldsInUse& fields, Bytes data)
 {
   if (data.size() < 8) throw std::invalid_argument("it ends before its last point");
   const std::size_t packed_size = load<std::uint32_t>(data, 0), size = load<std::uint32_t>(data, 4);
   if (data.size() - 8 < packed_size) throw std::invalid_argument("it ends before its last point");
   requireRoom(header, size, header.bytesOfPoint());
   const std::vector<std::uint8_t> unpacked = unpackLzf(data.slice(8, packed_size), size);
-  return binaryPositions(header, fields, unpacked,
-                         [&](std::size_t point, std::size_t field)
-                         { return header.points * bytesBefore(header, field) + point * header.fields[field].bytes(); });
+  return binaryPoints(header, fields, unpacked,
+                      [&](std::size_t point, std::size_t field)
+                      { return header.points * bytesBefore(header, field) + point * header.fields[field].bytes(); });
 }
 
-std::vector<Eigen::Vector3f> positionsAfter(const PcdHeader& header, CloudText& file)
+CloudPoints pointsAfter(const PcdHeader& header, CloudText& file)
 {
-  const auto fields = positionFields(header);
-  if (header.data == "ascii") return asciiPositions(header, fields, file);
-  if (header.data == "binary") return plainPositions(header, fields, file.rest());
-  if (header.data == "binary_compressed") return compressedPositions(header, fields, file.rest());
+  const auto fields = fieldsInUse(header);
+  if (header.data == "ascii") return asciiPoints(header, fields, file);
+  if (header.data == "binary") return plainPoints(header, fields, file.rest());
+  if (header.data == "binary_compressed") return compressedPoints(header, fields, file.rest());
   throw std::invalid_argument(fmt::format("DATA '{}'", header.data));
 }
 }  // namespace
 
-std::vector<Eigen::Vector3f> pcdPositions(Bytes file)
+CloudPoints pcdPoints(Bytes file)
 {
   try
   {
     CloudText text(file);
     const PcdHeader header = readPcdHeader(text);
-    return positionsAfter(header, text);
+    return pointsAfter(header, text);
   }
   catch (const std::logic_error& error)
   {

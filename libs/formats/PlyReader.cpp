@@ -155,29 +155,34 @@ void readVertex(CloudText& file, const PlyHeader& header, std::size_t offset, st
   }
 }
 
-std::vector<Eigen::Vector3f> positionsAfter(const PlyHeader& header, CloudText& file)
+CloudPoints pointsAfter(const PlyHeader& header, CloudText& file)
 {
   requireRoomFor(header, file.rest().size());
   const auto [x, y, z] = positionColumns(header);
   const std::size_t size_of_vertex = header.vertexSize();
   std::vector<double> values(header.properties.size());
-  std::vector<Eigen::Vector3f> positions(header.vertices);
-  for (std::size_t i = 0; i < positions.size(); ++i)
+  const auto& properties = header.properties;
+  const auto time =
+      std::find_if(properties.begin(), properties.end(), [](const auto& p) { return isTimeField(p.name); });
+  CloudPoints points;
+  points.positions.resize(header.vertices);
+  for (std::size_t i = 0; i < header.vertices; ++i)
   {
     readVertex(file, header, i * size_of_vertex, values);
-    positions[i] = Eigen::Vector3d(values[x], values[y], values[z]).cast<float>();
+    points.positions[i] = Eigen::Vector3d(values[x], values[y], values[z]).cast<float>();
+    if (time != properties.end()) points.times.push_back(values[static_cast<std::size_t>(time - properties.begin())]);
   }
-  return positions;
+  return points;
 }
 }  // namespace
 
-std::vector<Eigen::Vector3f> plyPositions(Bytes file)
+CloudPoints plyPoints(Bytes file)
 {
   try
   {
     CloudText text(file);
     const PlyHeader header = readPlyHeader(text);
-    return positionsAfter(header, text);
+    return pointsAfter(header, text);
   }
   catch (const std::logic_error& error)  // ours and those of stoull
   {

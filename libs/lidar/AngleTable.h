@@ -1,5 +1,7 @@
 /** The csv files in which makers supply the angles of a sensor's beams. */
 #pragma once
+#include "lidar/MetadataKeys.h"
+
 #include <string>
 #include <vector>
 
@@ -12,8 +14,15 @@ struct AngleTable
 };
 
 /**
- * Rows "channel, vertical, azimuth" in any order, channels counted from 1; a first row of titles is skipped. Throws
- * std::invalid_argument with `name`, line and what is expected unless each channel has one row.
+ * Rows "channel, vertical, azimuth" in any order, channels counted from 1, or rows "vertical, azimuth" in the order of
+ * the channels; a first row of titles above three columns is skipped. Throws std::invalid_argument with `name`, line
+ * and what is expected unless each channel has one row.
  */
 AngleTable parseAngleTable(const std::string& text, const std::string& name, int channels);
+
+/**
+ * Of the csv file that the key "angles" of the metadata file `name` gives, relative to its folder; else of the lists
+ * "vertical_angles_deg" and "azimuth_offsets_deg". Throws std::invalid_argument as parseAngleTable and MetadataKeys do.
+ */
+AngleTable readAngles(const MetadataKeys& keys, const std::string& name, int channels);
 }  // namespace scanloom

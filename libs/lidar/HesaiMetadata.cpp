@@ -5,15 +5,10 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <stdexcept>
-
 namespace scanloom
 {
 namespace
 {
-const std::string kTopLevel;  // the file has no sections
-
 const HesaiModel& modelOf(const MetadataKeys& keys)
 {
   std::string known;
@@ -24,45 +19,9 @@ const HesaiModel& modelOf(const MetadataKeys& keys)
   if (!model) keys.fail("model", fmt::format("'{}' is unknown; known are {}", *name, known));
   return *model;
 }
-
-std::vector<double> perChannel(const MetadataKeys& keys, const std::string& key, const HesaiModel& model, double limit)
-{
-  auto list = keys.numbers(kTopLevel, key, -limit, limit);
-  if (!list)
-    keys.fail(key, fmt::format("is missing; expected {} numbers, or \"angles\": \"FILE.csv\"", model.channels));
-  if (list->size() != static_cast<std::size_t>(model.channels))
-    keys.fail(key, fmt::format("must have {} numbers, one per channel, not {}", model.channels, list->size()));
-  return *std::move(list);
-}
-
-void readAngles(const MetadataKeys& keys, const std::string& name, HesaiMetadata& m)
-{
-  const auto file = keys.text(kTopLevel, "angles");
-  if (!file)
-  {
-    m.vertical_deg = perChannel(keys, "vertical_angles_deg", *m.model, 90);
-    m.azimuth_offset_deg = perChannel(keys, "azimuth_offsets_deg", *m.model, 30);
-    return;
-  }
-  const std::string path = (std::filesystem::path(name).parent_path() / *file).string();
-  AngleTable angles = parseAngleTable(readMetadataText(path), path, m.model->channels);
-  m.vertical_deg = std::move(angles.vertical);
-  m.azimuth_offset_deg = std::move(angles.azimuth);
-}
 }  // namespace
 
-bool looksLikeHesai(const std::string& text)
-{
-  if (text.find("hesai") == std::string::npos) return false;  // spares parsing long files of other makers
-  try
-  {
-    return MetadataKeys(text, "").text(kTopLevel, "lidar") == "hesai";
-  }
-  catch (const std::invalid_argument&)
-  {
-    return false;
-  }
-}
+bool looksLikeHesai(const std::string& text) { return namesLidar(text, "hesai"); }
 
 HesaiMetadata parseHesaiMetadata(const std::string& text, const std::string& name)
 {
@@ -80,7 +39,9 @@ HesaiMetadata parseHesaiMetadata(const std::string& text, const std::string& nam
   m.first_azimuth_deg = view[0];
   m.last_azimuth_deg = view[1];
 
-  readAngles(keys, name, m);
+  AngleTable angles = readAngles(keys, name, m.model->channels);
+  m.vertical_deg = std::move(angles.vertical);
+  m.azimuth_offset_deg = std::move(angles.azimuth);
   return m;
 }
 }  // namespace scanloom

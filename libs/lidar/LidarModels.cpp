@@ -1,8 +1,10 @@
 #include "lidar/LidarModels.h"
 
 #include "lidar/BuiltInModels.h"
+#include "lidar/CloudDecoder.h"
 #include "lidar/HesaiDecoder.h"
 #include "lidar/OusterDecoder.h"
+#include "lidar/RobosenseDecoder.h"
 #include "lidar/VelodyneDecoder.h"
 
 #include <fmt/format.h>
@@ -39,9 +41,22 @@ std::unique_ptr<PacketDecoder> makeHesai(const std::string& text, const std::str
   return std::make_unique<HesaiDecoder>(parseHesaiMetadata(text, name), body_T_sensor);
 }
 
-const std::array<LidarFamily, 3> kFamilies{{
+std::unique_ptr<PacketDecoder> makeRobosense(const std::string& text, const std::string& name,
+                                             const Rigid& body_T_sensor)
+{
+  return std::make_unique<RobosenseDecoder>(parseRobosenseMetadata(text, name), body_T_sensor);
+}
+
+std::unique_ptr<PacketDecoder> makeCloud(const std::string& text, const std::string& name, const Rigid& body_T_sensor)
+{
+  return std::make_unique<CloudDecoder>(parseCloudMetadata(text, name), body_T_sensor);
+}
+
+const std::array<LidarFamily, 5> kFamilies{{
     {"a JSON file that begins with \"lidar\": \"velodyne\" (params/lidars/)", &looksLikeVelodyne, &makeVelodyne},
     {"a JSON file that begins with \"lidar\": \"hesai\" (params/lidars/)", &looksLikeHesai, &makeHesai},
+    {"a JSON file that begins with \"lidar\": \"robosense\" (params/lidars/)", &looksLikeRobosense, &makeRobosense},
+    {R"(the text {"lidar": "cloud"} for clouds of a bag)", &looksLikeCloud, &makeCloud},
     {"the JSON text of an Ouster sensor's metadata", &looksLikeOuster, &makeOuster},
 }};
 }  // namespace

@@ -118,4 +118,17 @@ std::optional<std::vector<double>> MetadataKeys::numbers(const std::string& sect
   }
   return result;
 }
+
+bool namesLidar(const std::string& text, const std::string& maker)
+{
+  if (text.find(maker) == std::string::npos) return false;  // spares parsing long files of other makers
+  try
+  {
+    return MetadataKeys(text, "").text(kTopLevel, "lidar") == maker;
+  }
+  catch (const std::invalid_argument&)
+  {
+    return false;
+  }
+}
 }  // namespace scanloom

@@ -12,6 +12,12 @@ namespace scanloom
 /** The whole file. Throws std::invalid_argument with its path if it cannot be read. */
 std::string readMetadataText(const std::string& path);
 
+/** The section of keys in files that have none. */
+inline const std::string kTopLevel;
+
+/** Whether this is a JSON object with "lidar": "`maker`". */
+bool namesLidar(const std::string& text, const std::string& maker);
+
 /** Its functions throw std::invalid_argument "NAME: KEY: EXPECTED, not VALUE" for a value of another type or range. */
 class MetadataKeys
 {

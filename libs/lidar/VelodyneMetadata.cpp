@@ -10,8 +10,6 @@ namespace scanloom
 {
 namespace
 {
-const std::string kTopLevel;  // the file has no sections
-
 const VelodyneModel& modelOf(const MetadataKeys& keys)
 {
   std::string known;
@@ -34,18 +32,7 @@ std::vector<double> perLaser(const MetadataKeys& keys, const std::string& key, c
 }
 }  // namespace
 
-bool looksLikeVelodyne(const std::string& text)
-{
-  if (text.find("velodyne") == std::string::npos) return false;  // spares parsing long files of other makers
-  try
-  {
-    return MetadataKeys(text, "").text(kTopLevel, "lidar") == "velodyne";
-  }
-  catch (const std::invalid_argument&)
-  {
-    return false;
-  }
-}
+bool looksLikeVelodyne(const std::string& text) { return namesLidar(text, "velodyne"); }
 
 VelodyneMetadata parseVelodyneMetadata(const std::string& text, const std::string& name)
 {

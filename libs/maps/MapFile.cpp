@@ -2,7 +2,7 @@
 
 #include "config/Names.h"
 #include "core/ConfigError.h"
-#include "formats/PlyWriter.h"
+#include "formats/CloudWriter.h"
 #include "maps/SceneFile.h"
 
 #include <fmt/format.h>
@@ -16,17 +16,17 @@ namespace
 {
 using Paths = std::vector<std::filesystem::path>;
 
-const std::vector<std::string> kEndings{".bt", ".ot", ".ply", ".simplemap", ".3Dscene"};
+const std::vector<std::string> kEndings{".bt", ".ot", ".ply", ".pcd", ".las", ".simplemap", ".3Dscene"};
 
-class PlyMap : public MapFile
+class CloudMap : public MapFile
 {
  public:
-  explicit PlyMap(const std::filesystem::path& path) : writer_(path) {}
+  explicit CloudMap(const std::filesystem::path& path) : writer_(path) {}
   void add(const Keyframe& keyframe) override { writer_.add(keyframe.points, keyframe.stamp, keyframe.map_T_body); }
   void close() override { writer_.close(); }
 
  private:
-  PlyWriter writer_;
+  CloudWriter writer_;
 };
 
 class SimpleMap : public MapFile
@@ -105,7 +105,9 @@ std::vector<std::unique_ptr<MapFile>> makeMapFiles(const Paths& paths, const std
                                                    const OctoMapOptions& options)
 {
   std::vector<std::unique_ptr<MapFile>> files;
-  if (const auto ply = withEnding(paths, ".ply"); !ply.empty()) files.push_back(std::make_unique<PlyMap>(ply));
+  for (const std::string& ending : CloudWriter::endings())
+    if (const auto cloud = withEnding(paths, ending); !cloud.empty())
+      files.push_back(std::make_unique<CloudMap>(cloud));
   if (const auto keyframes = withEnding(paths, ".simplemap"); !keyframes.empty())
     files.push_back(std::make_unique<SimpleMap>(keyframes, lidars));
   if (const auto scene = withEnding(paths, ".3Dscene"); !scene.empty())

@@ -126,7 +126,7 @@ void CMultiLidarSensor::logAccount() const
   const RigAccount account = observations_->account();
   for (const auto& [what, count] : account.input)
     if (count > 0 && what.find("dropped") != std::string::npos) MRPT_LOG_WARN_STREAM(what << ": " << count);
-  for (const auto& [name, c, of_other_senders] : account.lidars)
+  for (const auto& [name, c, of_other_senders, clock_offset] : account.lidars)
   {
     MRPT_LOG_INFO_STREAM(name << ": " << c.packets << " packets, " << c.emitted << " columns, " << c.points
                               << " points");

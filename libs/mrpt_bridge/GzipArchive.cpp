@@ -2,74 +2,112 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <libdeflate.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
-#include <utility>
+#include <thread>
 
 namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kLargestCall = 1 << 30;  // zlib counts in int
+// Larger ones would not be smaller together: deflate looks back 32 kB. The file does not depend on the threads.
+constexpr std::size_t kMemberBytes = 1 << 20;
+
+std::size_t mostMembers() { return std::max(2U, std::thread::hardware_concurrency()); }
+
+std::vector<std::uint8_t> compressed(const std::vector<std::uint8_t>& bytes, int level)
+{
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+      libdeflate_alloc_compressor(level), &libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+  std::vector<std::uint8_t> member(libdeflate_gzip_compress_bound(compressor.get(), bytes.size()));
+  member.resize(libdeflate_gzip_compress(compressor.get(), bytes.data(), bytes.size(), member.data(), member.size()));
+  return member;
+}
+}  // namespace
+
+GzipArchive::GzipArchive(const std::filesystem::path& path, int level)
+  : GzipArchive(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666), path, level)
+{
 }
 
-GzipArchive GzipArchive::writing(const std::filesystem::path& path, int level)
+GzipArchive::GzipArchive(int descriptor, const std::filesystem::path& path, int level)
+  : path_(path), level_(level), file_(descriptor)
 {
-  return {path, gzopen(path.c_str(), fmt::format("wb{}", level).c_str())};
-}
-
-GzipArchive GzipArchive::writing(int descriptor, const std::filesystem::path& path, int level)
-{
-  return {path, gzdopen(descriptor, fmt::format("wb{}", level).c_str())};
-}
-
-GzipArchive::GzipArchive(const std::filesystem::path& path, gzFile opened) : path_(path), file_(opened)
-{
-  if (!file_) throw std::runtime_error(fmt::format("{}: {}", path.string(), std::strerror(errno)));
-  gzbuffer(file_, 1 << 18);
-}
-
-GzipArchive::GzipArchive(GzipArchive&& other) noexcept : path_(std::move(other.path_)), file_(other.file_)
-{
-  other.file_ = nullptr;
+  if (!file_.isOpen()) fail();
 }
 
 GzipArchive::~GzipArchive()
 {
-  if (file_) gzclose(file_);
+  if (!file_.isOpen()) return;
+  try
+  {
+    endMember();
+  }
+  catch (const std::exception&)  // who wants to know calls close()
+  {
+  }
 }
 
 void GzipArchive::endMember()
 {
-  if (gzflush(file_, Z_FINISH) != Z_OK) fail(std::strerror(errno));
+  compressMember();
+  while (!members_.empty()) writeOldest();
 }
 
 void GzipArchive::close()
 {
-  if (!file_) return;
-  const int result = gzclose(std::exchange(file_, nullptr));
-  if (result != Z_OK) fail(result == Z_ERRNO ? std::strerror(errno) : "closing failed");
+  if (!file_.isOpen()) return;
+  endMember();
+  if (::close(file_.release()) != 0) fail();
 }
 
 std::size_t GzipArchive::write(const void* bytes, std::size_t count)
 {
-  const auto* next = static_cast<const char*>(bytes);
+  const auto* next = static_cast<const std::uint8_t*>(bytes);
   for (std::size_t left = count; left > 0;)
   {
-    const auto chunk = std::min(left, kLargestCall);
-    if (gzwrite(file_, next, static_cast<unsigned>(chunk)) <= 0) fail(std::strerror(errno));
-    next += chunk;
-    left -= chunk;
+    const std::size_t part = std::min(left, kMemberBytes - member_.size());
+    member_.insert(member_.end(), next, next + part);
+    next += part;
+    left -= part;
+    if (member_.size() == kMemberBytes) compressMember();
   }
   return count;
 }
 
 std::size_t GzipArchive::read(void*, std::size_t) { throw std::logic_error("a GzipArchive is for writing"); }
 
-void GzipArchive::fail(const std::string& what) const
+void GzipArchive::compressMember()
 {
-  throw std::runtime_error(fmt::format("{}: {}", path_.string(), what));
+  if (member_.empty()) return;
+  if (members_.size() >= mostMembers()) writeOldest();
+  members_.push_back(std::async(std::launch::async, &compressed, std::move(member_), level_));
+  member_ = {};
+  member_.reserve(kMemberBytes);
+}
+
+void GzipArchive::writeOldest()
+{
+  const Bytes member = members_.front().get();
+  members_.pop_front();
+  for (std::size_t done = 0; done < member.size();)
+  {
+    const ssize_t written = ::write(file_.number(), member.data() + done, member.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail();
+    done += static_cast<std::size_t>(written);
+  }
+}
+
+void GzipArchive::fail() const
+{
+  throw std::runtime_error(fmt::format("{}: {}", path_.string(), std::strerror(errno)));
 }
 }  // namespace scanloom

@@ -1,29 +1,33 @@
 /**
- * Writes objects of MRPT to a gzip file. MRPT's own CFileGZOutputStream does not report a full disk: gzclose's result
- * is ignored.
+ * Writes objects of MRPT to a gzip file, of members that are compressed side by side. Readers take the members of a
+ * file as one stream (RFC 1952, 2.2).
  */
 #pragma once
-#include <mrpt/serialization/CArchive.h>
-#include <zlib.h>
+#include "packets/FileDescriptor.h"
 
+#include <mrpt/serialization/CArchive.h>
+
+#include <cstdint>
+#include <deque>
 #include <filesystem>
+#include <future>
+#include <vector>
 
 namespace scanloom
 {
 class GzipArchive : public mrpt::serialization::CArchive
 {
  public:
-  /** Level 0 (stored) to 9. Throws std::runtime_error with the file's name if it can't be opened. */
-  static GzipArchive writing(const std::filesystem::path&, int level);
+  /** Level 0 (stored) to 12. Throws std::runtime_error with the file's name if it can't be opened. */
+  GzipArchive(const std::filesystem::path&, int level);
   /** To an open file, whose descriptor the archive closes. @param path for messages. */
-  static GzipArchive writing(int descriptor, const std::filesystem::path& path, int level);
-  GzipArchive(GzipArchive&&) noexcept;
-  GzipArchive& operator=(GzipArchive&&) = delete;
+  GzipArchive(int descriptor, const std::filesystem::path& path, int level);
+  /** Without close() all objects so far are in the file, if they can be written. */
   ~GzipArchive() override;
 
   /**
-   * Ends the gzip member and passes it to the operating system: what was written so far is readable even if the program
-   * is killed. Readers take the members of a file as one stream. Throws std::runtime_error if it cannot be written.
+   * Passes all objects so far to the operating system: they are readable even if the program is killed. Throws
+   * std::runtime_error if they cannot be written.
    */
   void endMember();
 
@@ -35,10 +39,16 @@ class GzipArchive : public mrpt::serialization::CArchive
   [[noreturn]] std::size_t read(void* bytes, std::size_t count) override;
 
  private:
-  GzipArchive(const std::filesystem::path&, gzFile opened);
-  [[noreturn]] void fail(const std::string& what) const;
+  using Bytes = std::vector<std::uint8_t>;
+
+  void compressMember();
+  void writeOldest();
+  [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
-  gzFile file_;
+  int level_;
+  FileDescriptor file_;
+  Bytes member_;                            // not yet compressed
+  std::deque<std::future<Bytes>> members_;  // that threads compress, in the file's order
 };
 }  // namespace scanloom

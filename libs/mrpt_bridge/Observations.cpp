@@ -280,6 +280,15 @@ std::optional<RecordedImu> fromObservation(const mrpt::obs::CObservationIMU& obs
   return imu;
 }
 
+mrpt::obs::CObservationComment::Ptr markObservation(Timestamp stamp, const std::string& text)
+{
+  auto comment = std::make_shared<CommentReadByAll>();
+  comment->sensorLabel = kMarkLabel;
+  comment->timestamp = toMrpt(stamp);
+  comment->text = text;
+  return comment;
+}
+
 mrpt::obs::CObservationComment::Ptr toObservation(const RecordingHeader& header, Timestamp stamp)
 {
   auto comment = std::make_shared<CommentReadByAll>();

@@ -22,6 +22,7 @@ inline constexpr const char* kSliceSuffix = "_slice";  // of the label of slices
 bool isSlice(const mrpt::obs::CObservation&);
 inline constexpr const char* kImuLabel = "imu";
 inline constexpr const char* kHeaderLabel = "scanloom";
+inline constexpr const char* kMarkLabel = "mark";
 
 enum class CloudClass
 {
@@ -70,6 +71,9 @@ mrpt::obs::CObservationIMU::Ptr toObservation(const ImuSample&, const Rigid& bod
 
 /** Nothing if an axis of the accelerometer or the gyroscope is missing or not finite. */
 std::optional<RecordedImu> fromObservation(const mrpt::obs::CObservationIMU&);
+
+/** What a person has marked, at any place of a rawlog. */
+mrpt::obs::CObservationComment::Ptr markObservation(Timestamp, const std::string& text);
 
 /** The first object of a rawlog. */
 mrpt::obs::CObservationComment::Ptr toObservation(const RecordingHeader&, Timestamp);

@@ -55,6 +55,7 @@ RawlogInput::RawlogInput(const std::filesystem::path& path, const std::vector<st
         fmt::format("{}: its first object is not scanloom's header, so nothing is known of its lidars: record it with "
                     "scanloom",
                     path.string()));
+  bytes_ = std::filesystem::file_size(path);
   chooseLidars(only);
   while (scans_ < kFirstScans)
   {
@@ -141,6 +142,11 @@ std::optional<int> RawlogInput::sensorOf(const std::string& label) const
   for (std::size_t i = 0; i < lidars.size(); ++i)
     if (label == std::string(kImuLabel) + "_" + lidars[i].name) return static_cast<int>(i);
   return std::nullopt;
+}
+
+double RawlogInput::progress() const
+{
+  return bytes_ > 0 ? std::min(1.0, static_cast<double>(reader_->bytesRead()) / static_cast<double>(bytes_)) : 0;
 }
 
 RigAccount RawlogInput::account() const

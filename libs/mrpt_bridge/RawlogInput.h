@@ -29,6 +29,7 @@ class RawlogInput : public SensorInput
   bool ended() const override { return ended_; }
   void stop() override { stop_ = true; }
   SensorSetup setup() const override { return setup_; }
+  double progress() const override;
   RigAccount account() const override;
   std::vector<std::string> takeWarnings() override;
 
@@ -39,6 +40,7 @@ class RawlogInput : public SensorInput
   std::optional<int> sensorOf(const std::string& label) const;
 
   std::unique_ptr<RawlogReader> reader_;
+  std::uintmax_t bytes_ = 0;  // of the file
   SensorSetup setup_;
   std::vector<std::optional<std::uint8_t>> new_id_;  // by the rawlog's sensor id; none: the lidar is not wanted
   bool all_wanted_ = true;

@@ -37,6 +37,9 @@ class RawlogReader
 
   std::optional<RecordedEvent> next();
 
+  /** Compressed bytes. */
+  std::uint64_t bytesRead() const { return observations_.bytesRead(); }
+
   /** Empty if there is none so far. */
   const std::string& damage() const { return observations_.damage(); }
 

@@ -13,8 +13,7 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& path, RecordingHeader he
   : file_(path),
     options_(options),
     header_(std::move(header)),
-    archive_(std::make_unique<GzipArchive>(
-        GzipArchive::writing(file_.descriptor(), file_.part(), options.compression_level)))
+    archive_(std::make_unique<GzipArchive>(file_.descriptor(), file_.part(), options.compression_level))
 {
 }
 

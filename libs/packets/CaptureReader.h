@@ -1,5 +1,5 @@
 #pragma once
-#include "packets/Datagram.h"
+#include "packets/DatagramReader.h"
 #include "packets/FragmentJoiner.h"
 
 #include <filesystem>
@@ -15,45 +15,28 @@ namespace scanloom
 {
 struct PackedCapture;
 
-/** Counts of the records of a capture. */
-struct CaptureCounters
-{
-  std::uint64_t records = 0;
-  std::uint64_t datagrams = 0;          // delivered
-  std::uint64_t fragments_joined = 0;   // datagrams that were assembled from fragments
-  std::uint64_t fragments_expired = 0;  // datagrams with a missing fragment
-  std::uint64_t not_udp = 0;            // records: ARP, TCP, ICMP, ...
-  std::uint64_t cut_short = 0;          // records that were captured incompletely (snap length)
-  std::uint64_t malformed = 0;          // records with contradicting lengths or an impossible stamp
-  bool truncated = false;               // the file ends inside a record; all before it was delivered
-  std::vector<std::string> damages;     // where a file is damaged, and how to mend it; all before it was delivered
-};
-
-CaptureCounters operator+(const CaptureCounters&, const CaptureCounters&);
-
 /**
  * The UDP datagrams of a pcap or pcapng file, plain or in gzip or zstd, in the file's order, with stamps in
  * nanoseconds. Link types: Ethernet with or without VLAN tags, Linux cooked, raw IP, loopback. IPv4 and IPv6; fragments
  * are joined.
  */
-class CaptureReader
+class CaptureReader : public DatagramReader
 {
  public:
   /** Throws std::runtime_error if the file cannot be read or is no capture; the error tells what it is. */
   explicit CaptureReader(const std::filesystem::path&);
   CaptureReader(CaptureReader&&) noexcept;
-  ~CaptureReader();
+  ~CaptureReader() override;
 
   /**
    * Replaces `datagram` by the next one, reusing its memory; false at the end of the file. A joined datagram gets the
    * stamp of the fragment that completed it. A damaged file ends before the damage, which the counters tell.
    */
-  bool next(Datagram& datagram);
+  bool next(Datagram& datagram) override;
 
-  CaptureCounters counters() const;
+  CaptureCounters counters() const override;
 
-  /** Share of the file's bytes that were read, 0 to 1. */
-  double progress() const;
+  double progress() const override;
 
  private:
   struct Close

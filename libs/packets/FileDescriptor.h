@@ -24,6 +24,9 @@ class FileDescriptor
   bool isOpen() const { return number_ >= 0; }
   int number() const { return number_; }
 
+  /** The caller closes it. */
+  int release() { return std::exchange(number_, -1); }
+
  private:
   int number_;
 };

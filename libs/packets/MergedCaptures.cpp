@@ -1,5 +1,7 @@
 #include "packets/MergedCaptures.h"
 
+#include "packets/CaptureReader.h"
+
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
@@ -7,14 +9,26 @@
 
 namespace scanloom
 {
-MergedCaptures::MergedCaptures(const std::vector<std::filesystem::path>& paths)
+namespace
 {
-  if (paths.empty()) throw std::invalid_argument("no capture file given");
-  for (const auto& path : paths) inputs_.push_back({CaptureReader(path), {}, false});
+std::vector<std::unique_ptr<DatagramReader>> capturesAt(const std::vector<std::filesystem::path>& paths)
+{
+  std::vector<std::unique_ptr<DatagramReader>> captures;
+  for (const auto& path : paths) captures.push_back(std::make_unique<CaptureReader>(path));
+  return captures;
+}
+}  // namespace
+
+MergedCaptures::MergedCaptures(const std::vector<std::filesystem::path>& paths) : MergedCaptures(capturesAt(paths)) {}
+
+MergedCaptures::MergedCaptures(std::vector<std::unique_ptr<DatagramReader>> readers)
+{
+  if (readers.empty()) throw std::invalid_argument("no capture file given");
+  for (auto& reader : readers) inputs_.push_back({std::move(reader), {}, false});
   for (Input& input : inputs_) readOn(input);
 }
 
-void MergedCaptures::readOn(Input& input) { input.has_front = input.reader.next(input.front); }
+void MergedCaptures::readOn(Input& input) { input.has_front = input.reader->next(input.front); }
 
 bool MergedCaptures::next(Datagram& datagram)
 {
@@ -34,13 +48,13 @@ bool MergedCaptures::next(Datagram& datagram)
 CaptureCounters MergedCaptures::counters() const
 {
   return std::accumulate(inputs_.begin(), inputs_.end(), CaptureCounters{},
-                         [](const CaptureCounters& sum, const Input& input) { return sum + input.reader.counters(); });
+                         [](const CaptureCounters& sum, const Input& input) { return sum + input.reader->counters(); });
 }
 
 double MergedCaptures::progress() const
 {
   const double sum = std::accumulate(inputs_.begin(), inputs_.end(), 0.0,
-                                     [](double s, const Input& input) { return s + input.reader.progress(); });
+                                     [](double s, const Input& input) { return s + input.reader->progress(); });
   return sum / static_cast<double>(inputs_.size());
 }
 }  // namespace scanloom

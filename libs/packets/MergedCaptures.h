@@ -1,14 +1,21 @@
 #pragma once
-#include "packets/CaptureReader.h"
+#include "packets/DatagramReader.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
 
 namespace scanloom
 {
-/** Several captures as one stream, ordered by record time; at equal times by the order of the files. */
+/** Several recordings as one stream, ordered by record time; at equal times by the order of the files. */
 class MergedCaptures
 {
  public:
   /** Throws as CaptureReader does, and std::invalid_argument if there is no file. */
   explicit MergedCaptures(const std::vector<std::filesystem::path>&);
+
+  /** Throws std::invalid_argument if there is none. */
+  explicit MergedCaptures(std::vector<std::unique_ptr<DatagramReader>>);
 
   /** Replaces `datagram` by the next one; false at the end of all files. A damaged file ends, the others go on. */
   bool next(Datagram& datagram);
@@ -21,7 +28,7 @@ class MergedCaptures
  private:
   struct Input
   {
-    CaptureReader reader;
+    std::unique_ptr<DatagramReader> reader;
     Datagram front;
     bool has_front = false;
   };

@@ -1,5 +1,6 @@
 #include "recordings/FileKind.h"
 
+#include "bags/BagReader.h"
 #include "formats/CompressedFile.h"
 #include "lidar/LidarModels.h"
 #include "lidar/MetadataKeys.h"
@@ -40,6 +41,14 @@ bool isSerialisedObject(std::string_view bytes)
   return name.size() == length && length > 1 && std::all_of(name.begin(), name.end(), inName);
 }
 
+/** KITTI's scans have nothing but points in them: they are told by their ending. */
+bool isCloud(std::filesystem::path path, std::string_view bytes)
+{
+  if (path.extension() == ".gz") path = path.stem();
+  return beginsWith(bytes, "ply\n") || beginsWith(bytes, "ply\r") || beginsWith(bytes, "# .PCD") ||
+         path.extension() == ".pcd" || path.extension() == ".bin";
+}
+
 bool isText(std::string_view bytes)
 {
   return std::all_of(bytes.begin(), bytes.end(),
@@ -78,8 +87,9 @@ FileKind kindOfText(const std::filesystem::path& path, const std::string& text)
 FileKind kindOf(const std::filesystem::path& path)
 {
   const std::string bytes = firstBytesOf(path);
-  if (beginsLikeCapture(bytes)) return FileKind::Capture;
+  if (beginsLikeCapture(bytes) || isBag(path)) return FileKind::Capture;
   if (isSerialisedObject(bytes)) return FileKind::Rawlog;
+  if (isCloud(path, bytes)) return FileKind::Cloud;
   if (!bytes.empty() && isText(bytes)) return kindOfText(path, bytes);
   return FileKind::Other;
 }

@@ -6,8 +6,9 @@ namespace scanloom
 /** What a file of a recording is good for. */
 enum class FileKind
 {
-  Capture,        // pcap, pcapng
+  Capture,        // pcap, pcapng, or a bag of ROS
   Rawlog,         // of MRPT
+  Cloud,          // PLY, PCD, KITTI
   LidarMetadata,  // of any known brand
   BodyImu,        // EuRoC csv
   Extrinsics,     // lines "T_body_<name> x y z yaw pitch roll"

@@ -2,6 +2,7 @@
 
 #include "core/ConfigError.h"
 #include "lidar/LidarModels.h"
+#include "rig/RigOptions.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -64,6 +65,19 @@ Fits fitsOf(const SampledStream& stream, const std::vector<MetadataCandidate>& c
   return fits;
 }
 
+std::string whence(const SampledStream& stream)
+{
+  return stream.topic.empty() ? fmt::format("from {} to port {}", stream.source.text(), stream.port)
+                              : "on topic " + stream.topic;
+}
+
+/** A bag's metadata stand beside the packets that they describe. */
+bool isOfSameNameSpace(const std::filesystem::path& metadata, const SampledStream& stream)
+{
+  const std::optional<std::string> topic = topicNamedBy(metadata.string());
+  return topic && !stream.topic.empty() && nameSpaceOf(*topic) == nameSpaceOf(stream.topic);
+}
+
 /** Those that the test keeps, or all if it keeps none. */
 Candidates preferred(const Candidates& candidates, const std::function<bool(std::size_t)>& isBetter)
 {
@@ -83,8 +97,8 @@ bool isNamedLike(const std::filesystem::path& metadata, const Paths& captures)
 {
   std::vector<std::string> files;
   for (const std::size_t i : fitting) files.push_back(candidates[i].file.string());
-  throw UsageError(fmt::format("the packets from {} to port {} fit each of {}: name the right one, --metadata FILE",
-                               stream.source.text(), stream.port, fmt::join(files, ", ")));
+  throw UsageError(fmt::format("the packets {} fit each of {}: name the right one, --metadata FILE", whence(stream),
+                               fmt::join(files, ", ")));
 }
 
 /** Why a candidate is no lidar of these streams. */
@@ -116,8 +130,7 @@ std::string describe(const SampledStream& stream)
   for (const SampledStream::Packet& packet : stream.samples) sizes.insert(packet.size());
   const std::string bytes =
       sizes.size() == 1 ? fmt::format("{}", *sizes.begin()) : fmt::format("{} to {}", *sizes.begin(), *sizes.rbegin());
-  return fmt::format("{} datagrams of {} bytes from {} to port {}", stream.datagrams, bytes, stream.source.text(),
-                     stream.port);
+  return fmt::format("{} datagrams of {} bytes {}", stream.datagrams, bytes, whence(stream));
 }
 
 [[noreturn]] void refuseNone(const std::vector<SampledStream>& streams,
@@ -145,7 +158,7 @@ class Search
   LidarsFound result()
   {
     for (std::size_t s = 0; s < streams_.size(); ++s) chooseFor(s);
-    for (FoundLidar& lidar : found_.lidars) lidar.imu_port = imuPortOf(lidar);
+    for (const SampledStream& stream : streams_) addImu(stream);
     for (FoundLidar& one : found_.lidars)
       for (const FoundLidar& other : found_.lidars)
         one.source_matters |= sharesPort(one, other) && one.source != other.source;
@@ -170,6 +183,8 @@ class Search
     Candidates left = preferred(fitting, [&](std::size_t i) { return isNamedLike(candidates_[i].file, captures_); });
     left =
         preferred(left, [&](std::size_t i) { return candidates_[i].decoder->description().lidar_port == stream.port; });
+    left = preferred(left, [&](std::size_t i) { return topicNamedBy(candidates_[i].file.string()) == stream.topic; });
+    left = preferred(left, [&](std::size_t i) { return isOfSameNameSpace(candidates_[i].file, stream); });
     left = preferred(left, [&](std::size_t i) { return !fitsElsewhere(i, s); });
     if (left.size() > 1) refuseSeveral(stream, left, candidates_);
     return left.front();
@@ -190,26 +205,41 @@ class Search
     lidar.description = candidates_[candidate].decoder->description();
     lidar.source = stream.source;
     lidar.port = stream.port;
+    lidar.topic = stream.topic;
     return lidar;
   }
 
-  /** The port that its IMU packets go to: of its own address, rather the one that its metadata name. */
-  std::uint16_t imuPortOf(const FoundLidar& lidar) const
+  /** IMU packets tell no serial number: they are of the lidar of their address to which the port belongs best. */
+  void addImu(const SampledStream& stream)
   {
-    const auto candidate = std::find_if(candidates_.begin(), candidates_.end(),
-                                        [&](const MetadataCandidate& c) { return c.file == lidar.metadata; });
-    std::uint16_t port = 0;
-    for (const SampledStream& stream : streams_)
-      if (stream.source == lidar.source && holdsImu(stream, *candidate->decoder) &&
-          (port == 0 || stream.port == lidar.description.imu_port))
-        port = stream.port;
-    return port;
+    FoundLidar* owner = nullptr;
+    for (FoundLidar& lidar : found_.lidars)
+      if (maySendImu(lidar, stream) && (!owner || isNearer(stream.port, lidar, *owner))) owner = &lidar;
+    if (!owner || (owner->imu_port != 0 && distanceOf(owner->imu_port, *owner) <= distanceOf(stream.port, *owner)))
+      return;
+    owner->imu_port = stream.port;
+    owner->imu_topic = stream.topic;
   }
 
-  static bool holdsImu(const SampledStream& stream, const PacketDecoder& decoder)
+  bool maySendImu(const FoundLidar& lidar, const SampledStream& stream) const
   {
+    if (stream.source != lidar.source || nameSpaceOf(stream.topic) != nameSpaceOf(lidar.topic)) return false;
+    const auto candidate = std::find_if(candidates_.begin(), candidates_.end(),
+                                        [&](const MetadataCandidate& c) { return c.file == lidar.metadata; });
     return std::any_of(stream.samples.begin(), stream.samples.end(),
-                       [&](const SampledStream::Packet& packet) { return decoder.kind(packet) == PacketKind::Imu; });
+                       [&](const SampledStream::Packet& packet)
+                       { return candidate->decoder->kind(packet) == PacketKind::Imu; });
+  }
+
+  /** Less than 0 if its metadata name the port; a sensor's two ports usually follow each other. */
+  static int distanceOf(std::uint16_t port, const FoundLidar& lidar)
+  {
+    return port == lidar.description.imu_port ? -1 : std::abs(int{port} - int{lidar.port});
+  }
+
+  static bool isNearer(std::uint16_t port, const FoundLidar& lidar, const FoundLidar& than)
+  {
+    return distanceOf(port, lidar) < distanceOf(port, than);
   }
 
   static bool sharesPort(const FoundLidar& a, const FoundLidar& b)
@@ -259,6 +289,27 @@ std::vector<MetadataCandidate> candidatesFrom(const Paths& metadata_files)
     }
   return candidates;
 }
+
+std::vector<MetadataCandidate> candidatesFrom(const std::map<std::string, std::string>& metadata_by_topic)
+{
+  std::vector<MetadataCandidate> candidates;
+  for (const auto& [topic, text] : metadata_by_topic)
+  {
+    MetadataCandidate candidate{std::string(kTopicPrefix) + topic, nullptr, ""};
+    try
+    {
+      candidate.decoder = makeDecoder(text, candidate.file.string(), Rigid::identity());
+    }
+    catch (const std::invalid_argument& fault)
+    {
+      candidate.fault = fault.what();
+    }
+    candidates.push_back(std::move(candidate));
+  }
+  return candidates;
+}
+
+std::string nameSpaceOf(const std::string& topic) { return topic.substr(0, topic.rfind('/') + 1); }
 
 LidarsFound findLidars(const std::vector<SampledStream>& streams, std::vector<MetadataCandidate> candidates,
                        const Paths& captures)

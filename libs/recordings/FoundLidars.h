@@ -21,14 +21,21 @@ struct MetadataCandidate
 /** Of files or names of built-in models; a faulty one is a candidate that fits nothing. */
 std::vector<MetadataCandidate> candidatesFrom(const std::vector<std::filesystem::path>& metadata_files);
 
+/** Of texts by the topics of a bag that hold them: their file is "topic:NAME". */
+std::vector<MetadataCandidate> candidatesFrom(const std::map<std::string, std::string>& metadata_by_topic);
+
+/** "/left/" of "/left/lidar_packets". */
+std::string nameSpaceOf(const std::string& topic);
+
 struct FoundLidar
 {
   std::filesystem::path metadata;
   LidarDescription description;
   IpAddress source;
   std::uint16_t port = 0;
-  std::uint16_t imu_port = 0;   // 0: no IMU packet came
-  bool source_matters = false;  // another lidar sends to the same port
+  std::uint16_t imu_port = 0;    // 0: no IMU packet came
+  std::string topic, imu_topic;  // of a bag, which the ports stand for; empty in a capture
+  bool source_matters = false;   // another lidar sends to the same port
 };
 
 struct LidarsFound

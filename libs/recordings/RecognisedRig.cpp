@@ -1,7 +1,8 @@
 #include "recordings/RecognisedRig.h"
 
 #include "core/ConfigError.h"
-#include "recordings/FoundLidars.h"
+#include "core/printable.h"
+#include "recordings/BagPoses.h"
 #include "rig/Extrinsics.h"
 
 #include <fmt/format.h>
@@ -19,17 +20,32 @@ using Poses = std::map<std::string, Rigid>;
 
 constexpr const char* kUnknownPose = "[0 0 0 0 0 0]";
 
-/** The file's name, unless two lidars would share it, or it is a model's. */
+constexpr Duration kBagLookedAt = 10s;  // of a bag: its static transforms and metadata come first
+
+/** "left" of "/left/ouster/lidar_packets"; empty for a topic that stands alone. */
+std::string firstOf(const std::string& topic)
+{
+  const std::size_t begin = topic.find_first_not_of('/');
+  const std::size_t end = begin == std::string::npos ? begin : topic.find('/', begin);
+  return end == std::string::npos ? "" : topic.substr(begin, end - begin);
+}
+
+std::string nameOf(const FoundLidar& lidar)
+{
+  if (!lidar.topic.empty()) return firstOf(lidar.topic);
+  return lidar.metadata.has_extension() ? lidar.metadata.stem().string() : "";
+}
+
+/** The metadata file's name, of a bag the topic's first name, unless two lidars would share it. */
 std::vector<std::string> namesOf(const std::vector<FoundLidar>& lidars)
 {
   std::map<std::string, int> uses;
-  for (const FoundLidar& lidar : lidars) ++uses[lidar.metadata.stem().string()];
+  for (const FoundLidar& lidar : lidars) ++uses[nameOf(lidar)];
   std::vector<std::string> names;
   for (const FoundLidar& lidar : lidars)
   {
-    const std::string name = lidar.metadata.stem().string();
-    const bool is_file = lidar.metadata.has_extension();
-    names.push_back(is_file && uses[name] == 1 ? name : fmt::format("lidar{}", names.size() + 1));
+    const std::string name = nameOf(lidar);
+    names.push_back(!name.empty() && uses[name] == 1 ? name : fmt::format("lidar{}", names.size() + 1));
   }
   return names;
 }
@@ -51,8 +67,8 @@ std::string listOf(const Paths& paths)
 
 std::string describe(const LidarDescription& lidar)
 {
-  return fmt::format("{} {}, {} columns at {:g} Hz", lidar.model, lidar.serial, lidar.columns_per_frame,
-                     lidar.frame_rate);
+  return fmt::format("{}{}{}, {} columns at {:g} Hz", lidar.model, lidar.serial.empty() ? "" : " ", lidar.serial,
+                     lidar.columns_per_frame, lidar.frame_rate);
 }
 
 class Ini
@@ -75,6 +91,12 @@ void addLidar(const FoundLidar& lidar, const std::string& key, const std::string
   ini.comment(describe(lidar.description));
   ini.set(key + "_name", name);
   ini.set(key + "_metadata", lidar.metadata.string());
+  if (!lidar.topic.empty())
+  {
+    ini.set(key + "_topic", lidar.topic);
+    if (!lidar.imu_topic.empty()) ini.set(key + "_imu_topic", lidar.imu_topic);
+    return;
+  }
   ini.set(key + "_port", std::to_string(lidar.port));
   if (lidar.imu_port != 0) ini.set(key + "_imu_port", std::to_string(lidar.imu_port));
   if (lidar.source_matters) ini.set(key + "_address", lidar.source.text());
@@ -84,7 +106,11 @@ void addLidar(const FoundLidar& lidar, const std::string& key, const std::string
 void addPose(const std::string& key, const std::string& name, const Poses& poses, std::size_t lidars,
              RecognisedRig& rig, Ini& ini)
 {
-  if (poses.count("T_body_" + name) > 0) return;
+  if (const auto known = poses.find("T_body_" + name); known != poses.end())
+  {
+    if (rig.poses_from_bag) ini.set(key + "_pose", fmt::format("[{}]", poseText(known->second)));
+    return;
+  }
   if (lidars == 1 && poses.empty()) return ini.comment("a lidar alone needs no pose: its frame is the body's");
   ini.leave(key + "_pose", kUnknownPose, "the lidar's pose in the body frame, x y z (m) yaw pitch roll (deg)");
   rig.unknown_poses.push_back(key + "_pose");
@@ -94,16 +120,31 @@ void addPose(const std::string& key, const std::string& name, const Poses& poses
                   name, key, name));
 }
 
-void addImu(const std::string& imu, const Poses& poses, RecognisedRig& rig, Ini& ini)
+/** Of poses that are not known: which names there are, and who finds the poses. */
+void addWaysOut(const std::string& extrinsics, const Poses& poses, std::size_t lidars, RecognisedRig& rig)
+{
+  if (rig.unknown_poses.empty()) return;
+  std::vector<std::string> names;
+  for (const auto& [name, pose] : poses) names.push_back(name);
+  if (!extrinsics.empty())
+    rig.notes.push_back(fmt::format("{} has {}: name the lidars so (lidar1_name), or their metadata files", extrinsics,
+                                    fmt::join(names, ", ")));
+  if (lidars > 1)
+    rig.notes.push_back("'scanloom calibrate' with this recording finds how the lidars stand to each other");
+}
+
+/** `key` says where the samples are: imu_csv or imu_topic. */
+void addImu(const std::string& key, const std::string& imu, const Poses& poses, RecognisedRig& rig, Ini& ini)
 {
   if (imu.empty()) return;
-  if (poses.count("T_body_imu") > 0)
+  if (const auto pose = poses.find("T_body_imu"); pose != poses.end())
   {
-    ini.set("imu_csv", imu);
+    ini.set(key, imu);
+    if (rig.poses_from_bag) ini.set("imu_pose", fmt::format("[{}]", poseText(pose->second)));
     rig.found.push_back(fmt::format("IMU of the body: {}", imu));
     return;
   }
-  ini.leave("imu_csv", imu, "imu_pose, the IMU's pose in the body frame, x y z (m) yaw pitch roll (deg)");
+  ini.leave(key, imu, "imu_pose, the IMU's pose in the body frame, x y z (m) yaw pitch roll (deg)");
   rig.notes.push_back(
       fmt::format("{} is not used: its pose in the body frame is not known (imu_pose, or T_body_imu in an "
                   "extrinsics file)",
@@ -118,18 +159,39 @@ void addScanRate(const std::vector<FoundLidar>& lidars, Ini& ini)
                   [&](const FoundLidar& lidar) { return lidar.description.frame_rate == rate; }))
     ini.set("scan_rate", fmt::format("{:g}", rate));
 }
+
+/** A bag whose topics are of other kinds should at least tell them. */
+LidarsFound foundIn(const Paths& captures, std::vector<MetadataCandidate> candidates, const BagContents& bags)
+try
+{
+  return findLidars(streamsOf(captures), std::move(candidates), captures);
+}
+catch (const UsageError& none)
+{
+  if (bags.topics.empty()) throw;
+  std::string message = none.what();
+  for (const TopicContents& topic : bags.topics)
+    message += "\n  " + printable(fmt::format("topic {} ({}) {}", topic.name, topic.type, topic.note));
+  throw UsageError(message);
+}
 }  // namespace
 
 RecognisedRig recogniseRig(const RecordingFiles& files)
 {
   const std::string extrinsics = onlyOne(files.extrinsics, "of poses");
   const std::string imu = onlyOne(files.imus, "of IMU samples");
-  const Poses poses = extrinsics.empty() ? Poses{} : readExtrinsics(extrinsics);
-  const LidarsFound found = findLidars(streamsOf(files.captures), candidatesFrom(files.metadata), files.captures);
+  const BagContents bags = contentsOf(files.captures, kBagLookedAt);
+  std::vector<MetadataCandidate> candidates = candidatesFrom(files.metadata);
+  for (MetadataCandidate& candidate : candidatesFrom(bags.metadata)) candidates.push_back(std::move(candidate));
+  const LidarsFound found = foundIn(files.captures, std::move(candidates), bags);
   const std::vector<std::string> names = namesOf(found.lidars);
+  const std::string imu_topic = imu.empty() ? bodyImuTopic(bags, found.lidars) : "";
 
   RecognisedRig rig;
   rig.notes = found.notes;
+  rig.poses_from_bag = extrinsics.empty();
+  const Poses poses =
+      rig.poses_from_bag ? posesByFrames(bags, found.lidars, names, imu_topic) : readExtrinsics(extrinsics);
   Ini ini;
   ini.set("pcap_input", listOf(files.captures));
   if (!extrinsics.empty()) ini.set("extrinsics", extrinsics);
@@ -139,11 +201,15 @@ RecognisedRig recogniseRig(const RecordingFiles& files)
     const std::string key = fmt::format("lidar{}", i + 1);
     addLidar(lidar, key, names[i], ini);
     addPose(key, names[i], poses, found.lidars.size(), rig, ini);
-    rig.found.push_back(fmt::format("lidar '{}': {}, from {} to port {}, {}", names[i], describe(lidar.description),
-                                    lidar.source.text(), lidar.port, lidar.metadata.string()));
+    const std::string place = lidar.topic.empty() ? fmt::format("from {} to port {}", lidar.source.text(), lidar.port)
+                                                  : "on topic " + lidar.topic;
+    rig.found.push_back(
+        fmt::format("lidar '{}': {}, {}, {}", names[i], describe(lidar.description), place, lidar.metadata.string()));
   }
+  addWaysOut(extrinsics, poses, found.lidars.size(), rig);
   rig.poses_known = !poses.empty() && rig.unknown_poses.empty();
-  addImu(imu, poses, rig, ini);
+  addImu("imu_csv", imu, poses, rig, ini);
+  addImu("imu_topic", imu_topic, poses, rig, ini);
   addScanRate(found.lidars, ini);
   rig.ini = ini.text();
   return rig;

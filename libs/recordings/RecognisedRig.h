@@ -16,6 +16,7 @@ struct RecognisedRig
   std::vector<std::string> found;          // what was recognised, a line each
   std::vector<std::string> notes;          // what was left out, or must be filled in, and why
   std::vector<std::string> unknown_poses;  // keys of lidars whose pose must be filled in: "lidar2_pose"
+  bool poses_from_bag = false;             // by its static transforms, as there is no extrinsics file
   bool poses_known = false;                // of all lidars, in a body frame that is not just a lidar's own
 };
 

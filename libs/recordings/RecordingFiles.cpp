@@ -22,6 +22,8 @@ Paths* listFor(FileKind kind, RecordingFiles& files)
       return &files.captures;
     case FileKind::Rawlog:
       return &files.rawlogs;
+    case FileKind::Cloud:
+      return &files.clouds;
     case FileKind::LidarMetadata:
       return &files.metadata;
     case FileKind::BodyImu:
@@ -60,6 +62,7 @@ void append(RecordingFiles& to, const RecordingFiles& from)
 {
   append(to.captures, from.captures);
   append(to.rawlogs, from.rawlogs);
+  append(to.clouds, from.clouds);
   append(to.metadata, from.metadata);
   append(to.imus, from.imus);
   append(to.extrinsics, from.extrinsics);
@@ -71,8 +74,11 @@ void addGiven(const std::filesystem::path& path, RecordingFiles& files)
   if (!std::filesystem::exists(path)) throw UsageError(fmt::format("{}: no such file or folder", path.string()));
   Paths* list = listFor(kindOf(path), files);
   if (!list)
-    throw UsageError(fmt::format("{}: {}; expected a capture (pcap, pcapng), a rawlog, or a folder of them",
-                                 path.string(), describeFile(path)));
+    throw UsageError(
+        fmt::format("{}: {}; expected a capture (pcap, pcapng), a bag (.db3, .mcap, .bag), a rawlog, clouds (PLY, PCD, "
+                    "KITTI), or a "
+                    "folder of them",
+                    path.string(), describeFile(path)));
   list->push_back(path);
 }
 
@@ -97,10 +103,14 @@ RecordingFiles filesOf(const std::vector<std::filesystem::path>& given)
   RecordingFiles files;
   for (const auto& path : given) addGiven(path, files);
   if (files.empty())
-    throw UsageError(fmt::format("{}: holds no recording: expected captures (pcap, pcapng) or a rawlog",
-                                 given.empty() ? "" : given.front().string()));
+    throw UsageError(
+        fmt::format("{}: holds no recording: expected captures (pcap, pcapng), bags (.db3, .mcap, .bag), a rawlog or "
+                    "clouds (PLY, PCD, KITTI)",
+                    given.empty() ? "" : given.front().string()));
   if (!std::filesystem::is_directory(given.front())) addWhatLiesBeside(given.front(), files);
-  for (Paths* list : {&files.captures, &files.rawlogs, &files.metadata, &files.imus, &files.extrinsics}) sort(*list);
+  if (!files.captures.empty() || !files.rawlogs.empty()) files.clouds.clear();
+  for (Paths* list : {&files.captures, &files.rawlogs, &files.clouds, &files.metadata, &files.imus, &files.extrinsics})
+    sort(*list);
   return files;
 }
 }  // namespace scanloom

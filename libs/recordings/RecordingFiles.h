@@ -10,10 +10,11 @@ struct RecordingFiles
   using Paths = std::vector<std::filesystem::path>;
 
   Paths captures, rawlogs;
+  Paths clouds;            // only where there are neither: else they are results beside a recording
   Paths metadata;          // of lidars
   Paths imus, extrinsics;  // of the body
 
-  bool empty() const { return captures.empty() && rawlogs.empty(); }
+  bool empty() const { return captures.empty() && rawlogs.empty() && clouds.empty(); }
 };
 
 /**

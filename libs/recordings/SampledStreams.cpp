@@ -1,5 +1,6 @@
 #include "recordings/SampledStreams.h"
 
+#include "bags/BagPackets.h"
 #include "packets/MergedCaptures.h"
 
 #include <map>
@@ -20,7 +21,7 @@ bool isKept(std::uint64_t number) { return number < kFirst || (number < 1024 && 
 
 std::vector<SampledStream> streamsOf(const std::vector<std::filesystem::path>& captures)
 {
-  MergedCaptures datagrams(captures);
+  MergedCaptures datagrams(datagramsOf(captures));
   std::map<std::pair<IpAddress, std::uint16_t>, SampledStream> streams;
   std::optional<Timestamp> first;
   for (Datagram datagram; datagrams.next(datagram);)
@@ -30,9 +31,11 @@ std::vector<SampledStream> streamsOf(const std::vector<std::filesystem::path>& c
     const std::pair origin{datagram.source, datagram.destination_port};
     if (streams.size() >= kMostStreams && streams.count(origin) == 0) continue;
     SampledStream& stream =
-        streams.try_emplace(origin, SampledStream{origin.first, origin.second, 0, {}}).first->second;
+        streams.try_emplace(origin, SampledStream{origin.first, origin.second, "", 0, {}}).first->second;
     if (isKept(stream.datagrams++)) stream.samples.push_back(datagram.payload);
   }
+  for (const auto& [topic, port] : portsOfTopics(captures))
+    if (const auto stream = streams.find({IpAddress{}, port}); stream != streams.end()) stream->second.topic = topic;
   std::vector<SampledStream> result;
   for (auto& [origin, stream] : streams) result.push_back(std::move(stream));
   return result;

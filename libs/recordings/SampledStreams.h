@@ -3,17 +3,19 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace scanloom
 {
-/** The datagrams of one sender to one port, by some of them. */
+/** The datagrams of one sender to one port, or of a topic of a bag, by some of them. */
 struct SampledStream
 {
   using Packet = std::vector<std::uint8_t>;
 
   IpAddress source;
   std::uint16_t port = 0;  // destination
+  std::string topic;       // of a bag, which the port stands for; empty in a capture
   std::uint64_t datagrams = 0;
   std::vector<Packet> samples;  // the first ones, and then ever fewer
 };

@@ -31,30 +31,63 @@ LiveStatus::LiveStatus(std::string what, std::ostream& out, bool terminal)
 
 LiveStatus::~LiveStatus()
 {
+  for (const std::string& warning : warnings_.unsaid()) say(warning);
   if (line_open_) out_ << std::endl;
+}
+
+void LiveStatus::say(const std::string& warning)
+{
+  if (line_open_) out_ << '\n';
+  line_open_ = false;
+  out_ << "warning: " << warning << std::endl;
 }
 
 void LiveStatus::update(SensorInput& input, const Work& work, Clock::time_point now)
 {
   for (const std::string& warning : input.takeWarnings())
-  {
-    if (line_open_) out_ << '\n';
-    line_open_ = false;
-    out_ << "warning: " << warning << std::endl;
-  }
+    if (const auto said = warnings_.toSay(warning, now)) say(*said);
   if (now - shown_at_ < (terminal_ ? kTerminalPeriod : kLogPeriod)) return;
 
   const RigAccount account = input.account();
-  const double since = std::chrono::duration<double>(now - shown_at_).count();
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
-  out_ << (terminal_ ? "\r\033[K" : "")
-       << fmt::format("{}: {}, {}{}", what_, timeText(elapsed), line(shown_, account, since), pace(shown_work_, work));
-  if (!terminal_) out_ << '\n';
-  out_ << std::flush;
+  out_ << (terminal_ ? "\r\033[K" : "") << lineOf(account, work, now) << (terminal_ ? "" : "\n") << std::flush;
   line_open_ = terminal_;
   shown_ = account;
   shown_work_ = work;
   shown_at_ = now;
+}
+
+std::string LiveStatus::lineOf(const RigAccount& account, const Work& work, Clock::time_point now) const
+{
+  const double since = std::chrono::duration<double>(now - shown_at_).count();
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const std::string begin = fmt::format("{}: {}, ", what_, timeText(elapsed)), end = pace(shown_work_, work);
+  if (!terminal_) return begin + line(shown_, account, since) + end;
+  constexpr std::size_t kWidth = 79;  // a line that is longer than the terminal would not be replaced by the next
+  const std::size_t rest = kWidth - std::min(kWidth, begin.size() + end.size());
+  return begin + shortLine(shown_, account, since, rest) + end;
+}
+
+std::string LiveStatus::shortLine(const RigAccount& before, const RigAccount& now, double seconds, std::size_t width)
+{
+  std::vector<std::string> rates;
+  std::uint64_t lost = 0, late = 0, dropped = countOf(now, "scans_dropped"), packets = 0;
+  for (std::size_t i = 0; i < now.lidars.size(); ++i)
+  {
+    const LidarCounters& c = now.lidars[i].counters;
+    const std::uint64_t since = c.packets - packetsBefore(before, i);
+    rates.push_back(fmt::format("{} {:.0f}/s", now.lidars[i].name, static_cast<double>(since) / seconds));
+    packets += since;
+    lost += c.lost;
+    late += c.late;
+    dropped += c.dropped;
+  }
+  std::string missing;
+  for (const auto& [count, name] : {std::pair(lost, "lost"), std::pair(late, "late"), std::pair(dropped, "dropped")})
+    if (count > 0) missing += fmt::format("{}{} {}", missing.empty() ? "; " : ", ", count, name);
+  std::string text = fmt::format("{}{}", fmt::join(rates, ", "), missing);
+  if (text.size() > width)
+    text = fmt::format("{} lidars {:.0f}/s{}", rates.size(), static_cast<double>(packets) / seconds, missing);
+  return text.substr(0, width);
 }
 
 std::string LiveStatus::line(const RigAccount& before, const RigAccount& now, double seconds)

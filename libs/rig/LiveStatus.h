@@ -1,6 +1,7 @@
 /** Shows what live lidars deliver: a line per second on a terminal, otherwise a line per 10 s. */
 #pragma once
 #include "core/Progress.h"
+#include "rig/RepeatedWarnings.h"
 #include "rig/SensorInput.h"
 
 namespace scanloom
@@ -22,7 +23,7 @@ class LiveStatus
   LiveStatus& operator=(const LiveStatus&) = delete;
   ~LiveStatus();
 
-  /** Prints a line if one is due, and the input's warnings at once. */
+  /** Prints a line if one is due, and the input's warnings at once; those that come again are counted. */
   void update(SensorInput&, const Work& = {}, Clock::time_point now = Clock::now());
 
   /**
@@ -31,10 +32,18 @@ class LiveStatus
    */
   static std::string line(const RigAccount& before, const RigAccount& now, double seconds);
 
+  /** The same in `width` characters at most, with what is missing only if there is any: `left 640/s, right 640/s; 16
+   * lost`
+   */
+  static std::string shortLine(const RigAccount& before, const RigAccount& now, double seconds, std::size_t width);
+
   /** `; 3.1 times real time`; empty if nothing was processed in between. */
   static std::string pace(const Work& before, const Work& now);
 
  private:
+  void say(const std::string& warning);
+  std::string lineOf(const RigAccount&, const Work&, Clock::time_point now) const;
+
   std::string what_;
   std::ostream& out_;
   bool terminal_;
@@ -42,6 +51,7 @@ class LiveStatus
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_at_ = start_;
   RigAccount shown_;
+  RepeatedWarnings warnings_;
   Work shown_work_;
 };
 }  // namespace scanloom

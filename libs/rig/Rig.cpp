@@ -1,5 +1,6 @@
 #include "rig/Rig.h"
 
+#include "rig/BagTopics.h"
 #include "rig/Extrinsics.h"
 
 #include <fmt/format.h>
@@ -58,24 +59,20 @@ void refuseUnknownLidars(const std::vector<std::string>& only, const std::vector
       throw ConfigError(fmt::format("no lidar is called '{}': {}", name, suggestion(name, names)));
 }
 
-std::vector<std::filesystem::path> splitByComma(const std::string& list)
-{
-  std::vector<std::filesystem::path> paths;
-  for (std::size_t at = 0; at < list.size();)
-  {
-    const std::size_t comma = std::min(list.find(',', at), list.size());
-    const std::string_view path = trimmed(std::string_view(list).substr(at, comma - at));
-    if (!path.empty()) paths.emplace_back(path);
-    at = comma + 1;
-  }
-  return paths;
-}
-
 /** One lidar without a pose, and nothing that would have a pose beside it: its frame is the body's. */
 bool isWholeBody(const RigSettings& settings)
 {
   return settings.lidars.size() == 1 && settings.lidars.front().pose.empty() && settings.rig.extrinsics.empty() &&
-         settings.rig.imu_csv.empty();
+         settings.rig.imu_csv.empty() && settings.rig.imu_topic.empty();
+}
+
+std::vector<ImuSample> bodyImuOf(const RigOptions& options, const std::vector<std::filesystem::path>& recordings)
+{
+  if (options.imu_topic.empty()) return readEurocImu(options.imu_csv);
+  if (!options.imu_csv.empty())
+    throw ConfigError(fmt::format("imu_csv = {} and imu_topic = {}: two IMUs of the body: give one", options.imu_csv,
+                                  options.imu_topic));
+  return imuOfTopic(recordings, options.imu_topic);
 }
 
 LiveOptions liveOptions(const RigOptions& options)
@@ -112,7 +109,7 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
 
   Rig rig;
   rig.batcher = settings.batcher;
-  rig.captures = splitByComma(settings.rig.pcap_input);
+  rig.captures = capturesOf(settings.rig.pcap_input);
   rig.live = liveOptions(settings.rig);
   for (std::size_t i = 0; i < settings.lidars.size(); ++i)
   {
@@ -126,6 +123,7 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
                                : poseOf(sensor.key + "_pose", options.pose, options.name, settings.rig, poses);
     rig.sensors.push_back(std::move(sensor));
   }
+  resolveTopics(rig.captures, rig.sensors);
   askForMetadata(rig.sensors, rig.captures.empty() ? MetadataNeed::OfSome : MetadataNeed::OfAll);
   for (const RigSensor& sensor : rig.sensors)
   {
@@ -134,10 +132,10 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
     rig.lidars.push_back({sensor.options.name, std::move(decoder), fromSeconds(sensor.options.time_offset)});
   }
   refuseOneSensorTwice(rig);
-  if (!settings.rig.imu_csv.empty())
+  if (!settings.rig.imu_csv.empty() || !settings.rig.imu_topic.empty())
   {
     rig.body_T_imu = poseOf("imu_pose", settings.rig.imu_pose, "imu", settings.rig, poses);
-    rig.body_imu = readEurocImu(settings.rig.imu_csv);
+    rig.body_imu = bodyImuOf(settings.rig, rig.captures);
   }
   return rig;
 }

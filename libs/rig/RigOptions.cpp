@@ -1,6 +1,9 @@
 #include "rig/RigOptions.h"
 
+#include "lidar/BuiltInModels.h"
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -18,6 +21,39 @@ std::vector<std::string> sectionsOfRigs(const Configuration& configuration)
 }
 }  // namespace
 
+std::vector<std::filesystem::path> capturesOf(const std::string& list)
+{
+  std::vector<std::filesystem::path> paths;
+  for (std::size_t at = 0; at < list.size();)
+  {
+    const std::size_t comma = std::min(list.find(',', at), list.size());
+    const std::string_view path = trimmed(std::string_view(list).substr(at, comma - at));
+    if (!path.empty()) paths.emplace_back(path);
+    at = comma + 1;
+  }
+  return paths;
+}
+
+std::string capturePathsFrom(const std::string& list, const std::filesystem::path& folder)
+{
+  std::vector<std::string> paths;
+  for (const auto& path : capturesOf(list)) paths.push_back(pathFrom(path.string(), folder));
+  return fmt::format("{}", fmt::join(paths, ", "));
+}
+
+std::optional<std::string> topicNamedBy(const std::string& metadata)
+{
+  if (metadata.compare(0, kTopicPrefix.size(), kTopicPrefix) != 0) return std::nullopt;
+  return metadata.substr(kTopicPrefix.size());
+}
+
+std::string metadataPathFrom(const std::string& file_or_model, const std::filesystem::path& folder)
+{
+  if (topicNamedBy(file_or_model)) return file_or_model;
+  std::string path = pathFrom(file_or_model, folder);
+  return builtInMetadata(file_or_model) && !std::filesystem::exists(path) ? file_or_model : path;
+}
+
 Schema rigSchema(const std::string& section)
 {
   Schema schema;
@@ -28,6 +64,12 @@ Schema rigSchema(const std::string& section)
 }
 
 bool hasRigSection(const Configuration& configuration) { return !sectionsOfRigs(configuration).empty(); }
+
+void makeRigPathsAbsolute(Configuration& configuration)
+{
+  for (const std::string& section : sectionsOfRigs(configuration))
+    configuration.makePathsAbsolute(rigSchema(section).front());
+}
 
 std::string rigSection(const Configuration& configuration)
 {

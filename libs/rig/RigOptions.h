@@ -4,11 +4,29 @@
 #include "config/Configuration.h"
 #include "core/Field.h"
 
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace scanloom
 {
+/** The captures of `pcap_input`. */
+std::vector<std::filesystem::path> capturesOf(const std::string& list);
+
+/** PathsFrom of `pcap_input`. */
+std::string capturePathsFrom(const std::string& list, const std::filesystem::path& folder);
+
+/** What `metadata` begins with if it names a topic of a bag: "topic:/left/metadata". */
+inline constexpr std::string_view kTopicPrefix = "topic:";
+
+/** The name behind the prefix; none if it has none. */
+std::optional<std::string> topicNamedBy(const std::string& metadata);
+
+/** PathsFrom of `metadata`: a topic is no path, nor is a built-in model's name, unless there is a file of that name. */
+std::string metadataPathFrom(const std::string& file_or_model, const std::filesystem::path& folder);
+
 /** One lidar. Its keys have the prefix lidar1_, lidar2_, ...; it exists if metadata or address is given. */
 struct LidarOptions
 {
@@ -16,6 +34,8 @@ struct LidarOptions
   std::string metadata;
   std::string pose;
   std::string address;
+  std::string topic;
+  std::string imu_topic;
   int port = 0;
   int imu_port = 0;
   double time_offset = 0;
@@ -27,8 +47,9 @@ struct LidarOptions
     visit(o.name, Field{"name", "", "the lidar's name in all outputs; empty: lidar1, lidar2, ..."});
     visit(o.metadata,
           Field{"metadata", "",
-                "the sensor's metadata, a JSON file or a model's name (VLP-16, XT32 dual); empty: the sensor at "
-                "'address' is asked for them"});
+                "the sensor's metadata, a JSON file, a model's name (VLP-16, XT32 dual) or 'topic:NAME' of a bag; "
+                "empty: the sensor at 'address' is asked for them",
+                unbounded(), metadataPathFrom});
     visit(o.pose,
           Field{"pose", "m, deg",
                 "pose of the sensor in the body frame, [x y z yaw pitch roll]; empty: from extrinsics; without those a "
@@ -36,6 +57,8 @@ struct LidarOptions
     visit(o.address, Field{"address", "",
                            "the sensor's IP address, or address:port of its web page: only packets from there are this "
                            "lidar's; it is asked for metadata if no file is given"});
+    visit(o.topic, Field{"topic", "", "bag: topic of its packets; empty: the only one that holds packets"});
+    visit(o.imu_topic, Field{"imu_topic", "", "bag: topic of its IMU packets; empty: none"});
     visit(o.port, Field{"port", "", "UDP port of its lidar packets; 0: from the metadata", between(0, 65535)});
     visit(o.imu_port, Field{"imu_port", "", "UDP port of its IMU packets; 0: from the metadata", between(0, 65535)});
     visit(o.time_offset, Field{"time_offset", "s", "added to the stamps of its packets", between(-1e6, 1e6)});
@@ -53,15 +76,18 @@ struct RigOptions
   int scans_waiting = 10;
   std::string extrinsics;
   std::string imu_csv;
+  std::string imu_topic;
   std::string imu_pose;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.pcap_input,
-          Field{"pcap_input", "", "captures to read, separated by commas, merged by record time; empty: live"});
+          Field{"pcap_input", "", "captures and bags to read, separated by commas, merged by record time; empty: live",
+                unbounded(), capturePathsFrom});
     visit(o.pcap_output,
-          Field{"pcap_output", "", "live: pcap file that all received packets are written to; empty: none"});
+          Field{"pcap_output", "", "live: pcap file that all received packets are written to; empty: none", unbounded(),
+                pathFrom});
     visit(o.bind_address, Field{"bind_address", "",
                                 "live: receive on this address of the computer, or join this multicast group; empty: "
                                 "receive on all"});
@@ -71,8 +97,10 @@ struct RigOptions
           Field{"scans_waiting", "",
                 "live: most scans that wait for a slow consumer; above it the oldest is dropped and counted",
                 atLeast(1)});
-    visit(o.extrinsics, Field{"extrinsics", "", "file of lines 'T_body_<name> x y z yaw pitch roll' (m, deg)"});
-    visit(o.imu_csv, Field{"imu_csv", "", "the body's own IMU, as EuRoC csv; empty: none"});
+    visit(o.extrinsics, Field{"extrinsics", "", "file of lines 'T_body_<name> x y z yaw pitch roll' (m, deg)",
+                              unbounded(), pathFrom});
+    visit(o.imu_csv, Field{"imu_csv", "", "the body's own IMU, as EuRoC csv; empty: none", unbounded(), pathFrom});
+    visit(o.imu_topic, Field{"imu_topic", "", "the body's own IMU, a topic of a bag; empty: none"});
     visit(o.imu_pose,
           Field{"imu_pose", "m, deg",
                 "pose of the IMU in the body frame, [x y z yaw pitch roll]; empty: T_body_imu of extrinsics"});
@@ -133,6 +161,9 @@ Schema rigSchema(const std::string& section);
 std::string rigSection(const Configuration&);
 
 bool hasRigSection(const Configuration&);
+
+/** Relative paths of every such section start at the folder of the file that they stand in. */
+void makeRigPathsAbsolute(Configuration&);
 
 /** Throws ConfigError with all problems, unknown keys among them. */
 RigSettings readRigSettings(const Configuration&, const std::string& section);

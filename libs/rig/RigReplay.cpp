@@ -1,11 +1,13 @@
 #include "rig/RigReplay.h"
 
+#include "bags/BagPackets.h"
+
 #include <utility>
 
 namespace scanloom
 {
 RigReplay::RigReplay(const Rig& rig)
-  : setup_(setupOf(rig)), captures_(rig.captures), stream_(rig, RigStream::ReceiveTimes::OfCapture)
+  : setup_(setupOf(rig)), captures_(datagramsOf(rig.captures)), stream_(rig, RigStream::ReceiveTimes::OfCapture)
 {
 }
 

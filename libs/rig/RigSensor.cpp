@@ -40,20 +40,27 @@ LidarAddress addressOf(const RigSensor& lidar, const PacketDecoder* decoder)
 
 void askForMetadata(std::vector<RigSensor>& lidars, MetadataNeed need)
 {
+  std::vector<RigSensor*> asked;
   std::vector<LidarOptions> options;
-  for (const RigSensor& lidar : lidars) options.push_back(lidar.options);
+  for (RigSensor& lidar : lidars)
+  {
+    if (lidar.metadata) continue;
+    asked.push_back(&lidar);
+    options.push_back(lidar.options);
+  }
   const std::vector<MetadataAnswer> answers = metadataOf(options);
 
   std::vector<std::string> failures;
-  bool any_is_coming = false;
-  for (std::size_t i = 0; i < lidars.size(); ++i)
+  bool any_is_coming = asked.size() < lidars.size();
+  for (std::size_t i = 0; i < asked.size(); ++i)
   {
-    lidars[i].sensor = answers[i].sensor;
-    lidars[i].metadata = answers[i].metadata;
+    RigSensor& lidar = *asked[i];
+    lidar.sensor = answers[i].sensor;
+    lidar.metadata = answers[i].metadata;
     any_is_coming |= answers[i].metadata || answers[i].failure->fault == SensorFault::NotRunning;
     if (!answers[i].failure) continue;
-    lidars[i].failure = answers[i].failure->what();
-    failures.push_back(fmt::format("lidar '{}': {}", lidars[i].options.name, lidars[i].failure));
+    lidar.failure = answers[i].failure->what();
+    failures.push_back(fmt::format("lidar '{}': {}", lidar.options.name, lidar.failure));
   }
   if (!failures.empty() && (need == MetadataNeed::OfAll || !any_is_coming)) throw ConfigError(failures);
 }

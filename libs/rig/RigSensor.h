@@ -34,9 +34,9 @@ enum class MetadataNeed
 };
 
 /**
- * Asks all sensors at the same time and adds their metadata, or why there are none. Throws ConfigError with every
- * failure if the need is not met (a sensor that is starting counts as one that will answer), and what metadataOf
- * throws.
+ * Asks all sensors without metadata at the same time and adds their metadata, or why there are none. Throws ConfigError
+ * with every failure if the need is not met (a sensor that is starting counts as one that will answer), and what
+ * metadataOf throws.
  */
 void askForMetadata(std::vector<RigSensor>&, MetadataNeed);
 }  // namespace scanloom

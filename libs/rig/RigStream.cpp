@@ -174,7 +174,8 @@ RigAccount RigStream::account() const
 {
   RigAccount account;
   for (LidarIndex i = 0; i < strange_.size(); ++i)
-    account.lidars.push_back({lidar(i).name, batcher_->counters(i), router_.ofOtherSenders(i)});
+    account.lidars.push_back(
+        {lidar(i).name, batcher_->counters(i), router_.ofOtherSenders(i), batcher_->timeOffset(i)});
   account.unmatched = router_.unmatched();
   account.late_imu_samples = imu_.late();
   for (const LidarImu& imu : lidar_imus_) account.implausible_imu_samples += imu.implausible;

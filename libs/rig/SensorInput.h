@@ -34,6 +34,7 @@ struct LidarAccount
   std::string name;
   LidarCounters counters;
   std::uint64_t of_other_senders = 0;  // packets like the lidar's, from another address
+  Duration clock_offset{0};            // what is added to the lidar's stamps at present
 };
 
 /** Among the counts of an input: its files that were read only up to a damage. */

@@ -129,4 +129,11 @@ std::map<std::string, RefusedReadings> ImuInUse::refused() const
       refused[nameOf(sensor)] = of_sensor;
   return refused;
 }
+
+std::optional<ImuInUse> chosenImu(const SensorInput& input, const std::string& wanted, Duration delay)
+{
+  const bool may_be_none = wanted == "none" || (wanted == "auto" && input.setup().body_T_imu.empty());
+  if (may_be_none) return std::nullopt;
+  return std::optional<ImuInUse>(std::in_place, input, wanted, delay);
+}
 }  // namespace scanloom

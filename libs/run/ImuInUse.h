@@ -81,4 +81,7 @@ class ImuInUse
   Duration delay_;              // of the first
   std::map<int, Heard> heard_;  // by sensor
 };
+
+/** As the constructor. None: `wanted` is none, or is auto and the input has no IMU. */
+std::optional<ImuInUse> chosenImu(const SensorInput&, const std::string& wanted, Duration delay);
 }  // namespace scanloom

@@ -19,27 +19,37 @@ double distance(const StampedPose& a, const StampedPose& b)
 {
   return (a.map_T_body.translation - b.map_T_body.translation).norm();
 }
+/** Without what would end the column or the line. */
+std::string csvText(const std::vector<std::string>& texts)
+{
+  std::string joined = fmt::format("{}", fmt::join(texts, "; "));
+  for (char& c : joined)
+    if (c == ',' || c == '"' || c == '\n' || c == '\r') c = ' ';
+  return joined;
+}
 }  // namespace
 
-std::vector<std::string> SlamFiles::names()
+std::vector<std::string> SlamFiles::names(const OutputOptions& output)
 {
   std::vector<std::string> names{"trajectory.tum", "trajectory_imu.tum", "trajectory.csv"};
   for (std::string& name : SlamMaps::names()) names.push_back(std::move(name));
+  if (!output.dense_map.empty()) names.push_back(DenseMap::nameOf(output));
   names.emplace_back("summary.json");
   return names;
 }
 
 SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>& lidars,
-                     const std::optional<OctoMapOptions>& octomap)
+                     const OutputOptions& output, const OctoMapOptions& octomap)
   : folder_(created(folder)),
     trajectory_(folder / "trajectory.tum"),
     trajectory_imu_(folder / "trajectory_imu.tum"),
     csv_(folder / "trajectory.csv")
 {
-  csv_.stream()
-      << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
-         "surprise,trusted,recovered,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,sigma_rz,correction_m,correction_deg\n";
-  if (octomap) maps_.emplace(folder, lidars, *octomap);
+  csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
+                   "surprise,trusted,recovered,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,sigma_rz,correction_m,"
+                   "correction_deg,mark\n";
+  if (output.maps) maps_.emplace(folder, lidars, octomap);
+  if (!output.dense_map.empty()) dense_map_.emplace(folder, output);
 }
 
 void SlamFiles::add(const StateEstimate& e)
@@ -51,14 +61,16 @@ void SlamFiles::add(const StateEstimate& e)
   const RegistrationResult none;
   const RegistrationResult& r = e.registration ? *e.registration : none;
   const Vector6d sigma = (e.covariance + e.drift).diagonal().cwiseSqrt();
-  fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d},{:.3e},{:.4f},{:.4f}\n",
+  fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d},{:.3e},{:.4f},{:.4f},{}\n",
              nanoseconds(e.stamp), toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap,
-             r.score, r.iterations, e.points, e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise,
+             r.score, r.iterations, e.cloud.size(), e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise,
              e.trusted, e.recovered, fmt::join(sigma.begin(), sigma.end(), ","), e.correction.head<3>().norm(),
-             180 / M_PI * e.correction.tail<3>().norm());
+             180 / M_PI * e.correction.tail<3>().norm(), csvText(marks_));
+  marks_.clear();
   for (TumWriter* writer : {&trajectory_, &trajectory_imu_}) writer->flush();
   csv_.flush();
   if (maps_ && e.keyframe) maps_->add(*e.keyframe);
+  if (dense_map_) dense_map_->add(e);
 }
 
 void SlamFiles::extendPath(const StampedPose& pose)
@@ -94,6 +106,7 @@ RunSummary SlamFiles::close(RunSummary summary)
   else
     closePosesAfterFailure();
   if (maps_) maps_->close(path_, summary);
+  if (dense_map_) dense_map_->close(summary);
   summary.path_length = path_length_;
   summary.peak_memory = peakMemory();
   writeSummary(folder_ / "summary.json", summary);

@@ -2,6 +2,8 @@
 #pragma once
 #include "core/OutputFile.h"
 #include "formats/Trajectory.h"
+#include "run/DenseMap.h"
+#include "run/OutputOptions.h"
 #include "run/RunSummary.h"
 #include "run/SlamMaps.h"
 #include "slam/StateEstimate.h"
@@ -13,18 +15,6 @@
 
 namespace scanloom
 {
-struct OutputOptions
-{
-  bool maps = true;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.maps,
-          Field{"maps", "", "false: write trajectories and summary only, no keyframes, clouds, occupancy or picture"});
-  }
-};
-
 /**
  * trajectory.tum (a pose per processed scan), trajectory_imu.tum (poses at the IMU's rate), trajectory.csv (health and
  * registration per pose), summary.json and the maps, all in the map frame.
@@ -33,14 +23,17 @@ class SlamFiles
 {
  public:
   /** All files that close() completes in the folder, the summary last. */
-  static std::vector<std::string> names();
+  static std::vector<std::string> names(const OutputOptions&);
 
-  /** Creates the folder. Without options of an OctoMap no map is written. Throws std::runtime_error on failure. */
-  SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&,
-            const std::optional<OctoMapOptions>&);
+  /** Creates the folder. Throws std::runtime_error on failure, and as DenseMap does. */
+  SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OutputOptions&,
+            const OctoMapOptions&);
 
   /** Writes the poses at once. Throws std::runtime_error if the disk does not take them. */
   void add(const StateEstimate&);
+
+  /** What a person has marked; it is written with the next estimate. */
+  void mark(const std::string& text) { marks_.push_back(text); }
 
   /**
    * Writes the maps, adds the path length, the memory and the maps that failed to the summary, and renames every file
@@ -58,6 +51,8 @@ class SlamFiles
   OutputFile csv_;
   Trajectory path_;  // the newest pose and earlier ones at least 0.05 m apart, so that a rest does not fill the memory
   double path_length_ = 0;
+  std::vector<std::string> marks_;  // not yet written
   std::optional<SlamMaps> maps_;
+  std::optional<DenseMap> dense_map_;
 };
 }  // namespace scanloom

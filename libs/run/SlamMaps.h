@@ -1,7 +1,7 @@
 /** The maps of a localisation run, drawn from its keyframes during the run. */
 #pragma once
 #include "core/BoundedQueue.h"
-#include "formats/PlyWriter.h"
+#include "formats/CloudWriter.h"
 #include "formats/Trajectory.h"
 #include "maps/MapPicture.h"
 #include "maps/OctoMapExport.h"
@@ -53,7 +53,7 @@ class SlamMaps
   void attempt(const std::string& files, const std::function<void()>& step);
 
   std::filesystem::path folder_;
-  PlyWriter ply_;
+  CloudWriter ply_;
   SimpleMapBuilder simple_map_;
   std::optional<OctoMapBuilder> octomap_;  // none once it is given up, for its memory
   MapPicture picture_;

@@ -24,12 +24,12 @@ double secondsSince(Clock::time_point start) { return std::chrono::duration<doub
 class SlamRun
 {
  public:
-  SlamRun(SensorInput& input, const SlamSettings& settings, SlamFiles& files, const Warn& warn)
+  SlamRun(SensorInput& input, const SlamSettings& settings, const SeeEstimate& see, const Warn& warn)
     : input_(input),
-      files_(files),
+      see_(see),
       warn_(warn),
       settings_(settings),
-      imu_(imuOf(input, settings.slam)),
+      imu_(chosenImu(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms))),
       slam_(settingsInUse(), imuPose(), mountedLidars(lidars())),
       check_(mountedLidars(lidars()), imuPose(), warn)
   {
@@ -103,13 +103,6 @@ class SlamRun
 
  private:
   std::vector<RecordedLidar> lidars() const { return input_.setup().header.lidars; }
-
-  static std::optional<ImuInUse> imuOf(const SensorInput& input, const SlamOptions& options)
-  {
-    const bool may_be_none = options.imu == "none" || (options.imu == "auto" && input.setup().body_T_imu.empty());
-    if (may_be_none) return std::nullopt;
-    return std::optional<ImuInUse>(std::in_place, input, options.imu, fromSeconds(1e-3 * options.imu_delay_ms));
-  }
 
   Rigid imuPose() const { return imu_ ? imu_->body_T_imu() : Rigid::identity(); }
 
@@ -207,13 +200,13 @@ class SlamRun
       counts_.add(estimate);
       if (motion_) motion_->update(estimate);
       times_.measure("rig_check", [&] { check_.add(estimate); });
-      files_.add(estimate);
+      see_(estimate);
     }
   }
 
   Clock::time_point start_ = Clock::now();
   SensorInput& input_;
-  SlamFiles& files_;
+  const SeeEstimate& see_;
   const Warn& warn_;
   SlamSettings settings_;
   std::optional<ImuInUse> imu_;  // none: there is no IMU
@@ -228,10 +221,10 @@ class SlamRun
 };
 }  // namespace
 
-SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, SlamFiles& files, const KeepGoing& keepGoing,
-                      const Warn& warn)
+SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, const SeeEstimate& see,
+                      const KeepGoing& keepGoing, const Warn& warn)
 {
-  SlamRun run(input, settings, files, warn);
+  SlamRun run(input, settings, see, warn);
   bool going = true;
   try
   {

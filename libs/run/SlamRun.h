@@ -1,8 +1,8 @@
-/** Sensor input through localisation into files. */
+/** Sensor input through localisation. */
 #pragma once
 #include "rig/SensorInput.h"
 #include "run/RigCheck.h"
-#include "run/SlamFiles.h"
+#include "run/RunSummary.h"
 #include "slam/LidarInertialSlam.h"
 
 #include <functional>
@@ -20,6 +20,9 @@ struct RunProgress
 /** Called after each event, and when none came for 0.1 s; false stops the run and keeps what was processed. */
 using KeepGoing = std::function<bool(const RunProgress&)>;
 
+/** Called with every estimate, in the order of time. */
+using SeeEstimate = std::function<void(const StateEstimate&)>;
+
 struct SlamRunResult
 {
   /**
@@ -36,8 +39,8 @@ struct SlamRunResult
 };
 
 /**
- * Runs to the end of the input and writes every estimate to `files`, which the caller closes with the summary. Throws
- * ConfigError if settings.slam.imu names an IMU that the input does not have, and what requireGravity() throws.
+ * Runs to the end of the input. Throws ConfigError if settings.slam.imu names an IMU that the input does not have, and
+ * what requireGravity() throws.
  *
  * Whatever else the input or the localisation throws ends the run: the outcome is FAILED, the summary tells the error,
  * and the estimates so far are kept. Before the first pose there is nothing to keep, and it is thrown on.
@@ -46,5 +49,5 @@ struct SlamRunResult
  * or when a scan arrives that ends ImuInUse::patience() later. By then, if the IMU is silent and another one is not,
  * that one has taken over, and the scan is processed with its samples.
  */
-SlamRunResult runSlam(SensorInput&, const SlamSettings&, SlamFiles& files, const KeepGoing&, const Warn&);
+SlamRunResult runSlam(SensorInput&, const SlamSettings&, const SeeEstimate&, const KeepGoing&, const Warn&);
 }  // namespace scanloom

@@ -1,5 +1,6 @@
 /** Options of each simulated lidar: the unit, its clock, its faults; and of the ranging of all. */
 #pragma once
+#include "config/Values.h"
 #include "core/Field.h"
 
 #include <string>
@@ -111,7 +112,8 @@ struct SimulatedLidarOptions
     visit(o.model,
           Field{"model", "",
                 "OS0, OS1 or OS2 with 8 to 128 beams, OS0-32 for example; beam angles are assumed; empty: as lidar1"});
-    visit(o.metadata, Field{"metadata", "", "metadata JSON file of a real sensor, instead of 'model'; empty: none"});
+    visit(o.metadata, Field{"metadata", "", "metadata JSON file of a real sensor, instead of 'model'; empty: none",
+                            unbounded(), pathFrom});
     visit(o.mode, Field{"mode", "",
                         "columns per turn and turns per second, 1024x10 for example; empty: the file's, or as lidar1"});
     visit(o.profile,

@@ -35,7 +35,7 @@ struct StateEstimate
   Health health = Health::Ok;
   bool scan_complete = true;
   bool imu_complete = true;  // false: the IMU did not cover the scan in time, its last reading was held
-  std::size_t points = 0;    // after the crop
+  PointCloud cloud;          // in the body frame at `stamp`, from which its t count: cropped and deskewed
   std::optional<RegistrationResult> registration;  // none for the first scan of a map, or one without points
   double surprise = 0;         // distance of the registration from the IMU's prediction, in standard deviations
   bool trusted = false;        // the registration, by its outcome and its surprise

@@ -86,6 +86,7 @@ TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSa
 
   const Prediction predicted = predict(samples, state, times);
   Seen seen = preprocess(std::move(scan), before, samples, state, times);
+  estimate.cloud = std::move(seen.cloud);
   locate(seen, predicted, state, estimate, times);
   smooth(before, samples, predicted, state, estimate, times);
   compareWithRegistration(estimate, state);
@@ -128,6 +129,7 @@ Tracker::Seen Tracker::preprocess(Scan scan, const NavState& before, const std::
                                   const TrackerState& state, StageTimes& times) const
 {
   Seen seen;
+  const auto period = static_cast<std::int32_t>(scan.period.count());
   seen.cloud = times.measure(
       "preprocessing",
       [&]
@@ -139,7 +141,9 @@ Tracker::Seen Tracker::preprocess(Scan scan, const NavState& before, const std::
           end_T_column.push_back(end_T_map * map_T_body);
         CroppedScan cropped = cropOut(std::move(scan), crop_);
         seen.cropped = std::move(cropped.counts);
-        return deskew(std::move(cropped.scan), end_T_column);
+        PointCloud cloud = deskew(std::move(cropped.scan), end_T_column);
+        for (std::int32_t& t : cloud.t) t -= period;  // it counts from the end now
+        return cloud;
       });
   seen.views = times.measure("preprocessing", [&] { return viewsOf(seen.cloud, viewpoints_); });
   return seen;
@@ -149,8 +153,7 @@ Tracker::Seen Tracker::preprocess(Scan scan, const NavState& before, const std::
 void Tracker::locate(const Seen& seen, const Prediction& predicted, TrackerState& state, StateEstimate& estimate,
                      StageTimes& times) const
 {
-  estimate.points = seen.cloud.size();
-  if (state.local_map.empty() || seen.cloud.empty() || !isPositiveDefinite(predicted.covariance)) return;
+  if (state.local_map.empty() || estimate.cloud.empty() || !isPositiveDefinite(predicted.covariance)) return;
   const NdtMap& map = state.local_map.ndt();
   const PoseGuess guess(state.map_T_local().inverse() * predicted.map_T_body, predicted.covariance);
   estimate.registration =
@@ -239,7 +242,7 @@ bool Tracker::judgeAndRecover(const Seen& seen, TrackerState& state, StateEstima
 /** Sets the estimate's health, and remembers what the next scans are judged by. */
 Assessment Tracker::judge(TrackerState& state, StateEstimate& estimate) const
 {
-  const bool opens_map = state.local_map.empty() && estimate.points > 0;
+  const bool opens_map = state.local_map.empty() && !estimate.cloud.empty();
   const Assessment assessed = assess(estimate, opens_map, state.trust, settings_.slam.trust);
   estimate.health = assessed.health;
   state.trust.lost = assessed.health == Health::Lost;
@@ -253,7 +256,7 @@ Assessment Tracker::judge(TrackerState& state, StateEstimate& estimate) const
 bool Tracker::recover(const std::vector<View>& views, TrackerState& state, StateEstimate& estimate,
                       StageTimes& times) const
 {
-  if (state.local_map.empty() || estimate.points == 0) return false;
+  if (state.local_map.empty() || estimate.cloud.empty()) return false;
   const LostBody lost{estimate.stamp, (state.map_T_local().inverse() * estimate.map_T_body).rotation,
                       estimate.stamp - state.trust.last_trusted};
   const std::optional<FoundBody> found =
@@ -334,10 +337,10 @@ bool Tracker::isLostForGood(const TrackerState& state, const StateEstimate& esti
          estimate.stamp - state.trust.last_trusted > fromSeconds(trust.lost_after + trust.restart_after);
 }
 
-void Tracker::updateMap(Seen& seen, bool contradicted, TrackerState& state, StateEstimate& estimate,
+void Tracker::updateMap(const Seen& seen, bool contradicted, TrackerState& state, StateEstimate& estimate,
                         StageTimes& times) const
 {
-  if (seen.cloud.empty()) return;
+  if (estimate.cloud.empty()) return;
   if (isLostForGood(state, estimate) && !state.local_map.empty())
   {
     estimate.map_restarted = true;
@@ -353,7 +356,7 @@ void Tracker::updateMap(Seen& seen, bool contradicted, TrackerState& state, Stat
 }
 
 /** Aligns the scan again with finer cells, within the covariance of the estimate, and adds it to the local map. */
-void Tracker::addKeyframe(Seen& seen, TrackerState& state, StateEstimate& estimate) const
+void Tracker::addKeyframe(const Seen& seen, TrackerState& state, StateEstimate& estimate) const
 {
   const Rigid map_T_local = state.map_T_local();
   const Rigid estimated = map_T_local.inverse() * estimate.map_T_body;
@@ -371,7 +374,7 @@ void Tracker::addKeyframe(Seen& seen, TrackerState& state, StateEstimate& estima
     }
   }
   state.local_map.add(seen.views, local_T_body, alignment);
-  estimate.keyframe = Keyframe{estimate.stamp, map_T_local * local_T_body, std::move(seen.cloud)};
+  estimate.keyframe = Keyframe{estimate.stamp, map_T_local * local_T_body, estimate.cloud};
   if (!state.smoother.hasAnchor()) anchorAt(estimated, state);
 }
 

@@ -85,8 +85,8 @@ class Tracker
   void anchorAt(const Rigid& local_T_body, TrackerState&) const;
   Matrix6d driftOf(const TrackerState&, const StateEstimate&) const;
   bool isLostForGood(const TrackerState&, const StateEstimate&) const;
-  void updateMap(Seen&, bool contradicted, TrackerState&, StateEstimate&, StageTimes&) const;
-  void addKeyframe(Seen&, TrackerState&, StateEstimate&) const;
+  void updateMap(const Seen&, bool contradicted, TrackerState&, StateEstimate&, StageTimes&) const;
+  void addKeyframe(const Seen&, TrackerState&, StateEstimate&) const;
 
   SlamSettings settings_;
   ScanRegistrationOptions limited_effort_;  // for a lost body

@@ -1,6 +1,7 @@
 #include "study/DriveRecording.h"
 
 #include <exception>
+#include <system_error>
 
 namespace scanloom
 {
@@ -28,6 +29,7 @@ catch (const std::exception& e)
 
 void removePackets(const std::filesystem::path& folder)
 {
-  for (const char* name : {"recording.pcap", "imu.csv"}) std::filesystem::remove(folder / name);
+  std::error_code ignored;
+  for (const char* name : {"recording.pcap", "imu.csv"}) std::filesystem::remove(folder / name, ignored);
 }
 }  // namespace scanloom

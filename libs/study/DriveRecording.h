@@ -14,6 +14,7 @@ Command simulateCommand(const PlannedDrive&, const std::filesystem::path& folder
 /** Replaces the folder. @return why the simulation failed; empty if it did not. */
 std::string simulateDrive(const PlannedDrive&, const std::filesystem::path& folder);
 
-/** Removes packets and IMU; ground truth, total station and extrinsics stay, since evaluation needs them. */
+/** Removes packets and IMU; ground truth, total station and extrinsics stay, since evaluation needs them. What cannot
+ * be removed stays, too. */
 void removePackets(const std::filesystem::path& folder);
 }  // namespace scanloom

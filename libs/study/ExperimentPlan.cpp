@@ -1,16 +1,15 @@
 #include "study/ExperimentPlan.h"
 
+#include "study/AxisValues.h"
 #include "study/ContentHash.h"
+#include "study/RunReference.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
-#include <iterator>
-#include <optional>
-#include <sstream>
+#include <map>
 
 namespace scanloom
 {
@@ -18,67 +17,18 @@ namespace
 {
 constexpr const char* kSection = "experiment";
 
-std::vector<std::string> wordsOf(const std::string& text)
-{
-  std::istringstream stream(text);
-  return {std::istream_iterator<std::string>(stream), {}};
-}
-
-std::vector<std::string> valuesOf(const std::string& text)
-{
-  std::vector<std::string> values;
-  std::istringstream stream(text);
-  for (std::string value; std::getline(stream, value, '|');) values.emplace_back(trimmed(value));
-  return values;
-}
-
-template <typename Number>
-std::optional<Number> positive(const std::string& text)
-{
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 1) return std::nullopt;
-  return value;
-}
-
-std::vector<std::uint64_t> seedsOf(const std::string& text, const Configuration& configuration)
-{
-  constexpr std::uint64_t kMost = 100000;
-  const auto refuse = [&]
-  { return configuration.complaint(kSection, "seeds", "must be whole numbers from 1 on, or first:last"); };
-  std::vector<std::uint64_t> seeds;
-  for (const std::string& word : wordsOf(text))
-  {
-    const std::size_t colon = std::min(word.find(':'), word.size());
-    const auto first = positive<std::uint64_t>(word.substr(0, colon));
-    const auto last = colon == word.size() ? first : positive<std::uint64_t>(word.substr(colon + 1));
-    if (!first || !last || *last < *first || *last - *first > kMost) throw refuse();
-    for (std::uint64_t seed = *first; seed <= *last; ++seed) seeds.push_back(seed);
-  }
-  if (seeds.empty()) throw refuse();
-  return seeds;
-}
-
-std::vector<int> countsOf(const std::string& text, const Configuration& configuration)
-{
-  std::vector<int> counts;
-  for (const std::string& word : wordsOf(text))
-  {
-    const auto count = positive<int>(word);
-    if (!count) throw configuration.complaint(kSection, "every_nth", "must be whole numbers from 1 on");
-    counts.push_back(*count);
-  }
-  if (counts.empty()) throw configuration.complaint(kSection, "every_nth", "must have at least one number");
-  return counts;
-}
-
 /** Relative paths start at the folder of the file that names them; those of --set at the current folder. */
 std::vector<std::filesystem::path> pathsOf(const std::string& key, const std::string& text,
-                                           const Configuration& configuration)
+                                           const Configuration& configuration, const std::string& no_path = "")
 {
   std::vector<std::filesystem::path> paths;
   for (const std::string& word : wordsOf(text))
   {
+    if (word == no_path)
+    {
+      paths.emplace_back(word);
+      continue;
+    }
     const Place place = configuration.place(kSection, key);
     const auto folder = place.line > 0 ? std::filesystem::path(place.file).parent_path() : std::filesystem::path();
     paths.push_back((folder / word).lexically_normal());
@@ -88,10 +38,18 @@ std::vector<std::filesystem::path> pathsOf(const std::string& key, const std::st
   return paths;
 }
 
-/** `sparse` for "recordings/sparse/" and for "stands/sparse.ini". */
+/** Without a slash at its end. */
+std::filesystem::path nameable(const std::filesystem::path& path)
+{
+  return path.has_filename() ? path : path.parent_path();
+}
+
+/** `sparse` for "recordings/sparse/", "stands/sparse.ini" and "sparse.pcap.gz". */
 std::string standOf(const std::filesystem::path& path)
 {
-  return path.has_stem() ? path.stem().string() : path.parent_path().filename().string();
+  const std::filesystem::path name = nameable(path);
+  const bool packed = name.extension() == ".gz" || name.extension() == ".zst";
+  return (packed ? name.stem() : name).stem().string();
 }
 
 PlannedRun onSimulation(const std::filesystem::path& file)
@@ -102,12 +60,52 @@ PlannedRun onSimulation(const std::filesystem::path& file)
   return run;
 }
 
-PlannedRun onRecording(const std::filesystem::path& folder)
+PlannedRun onRecording(const std::filesystem::path& recording)
 {
   PlannedRun run;
-  run.stand = standOf(folder);
-  run.recording = folder;
+  run.stand = standOf(recording);
+  run.recording = recording;
   return run;
+}
+
+/** Runs of monday/drive.pcap and tuesday/drive.pcap would be taken for repetitions of one: `monday drive`. */
+void tellApart(std::vector<PlannedRun>& runs)
+{
+  std::map<std::string, int> uses;
+  for (const PlannedRun& run : runs) ++uses[run.stand];
+  for (PlannedRun& run : runs)
+    if (uses[run.stand] > 1 && !run.recording.empty())
+      run.stand =
+          nameable(std::filesystem::absolute(run.recording)).parent_path().filename().string() + ' ' + run.stand;
+}
+
+/** Each a drive: a run that is still to be combined with lidars, N and parameters. */
+std::vector<PlannedRun> drivesIn(const ExperimentPlan& plan)
+{
+  std::vector<PlannedRun> runs;
+  for (const auto& file : plan.simulations) runs.push_back(onSimulation(file));
+  for (std::size_t i = 0; i < plan.recordings.size(); ++i)
+  {
+    runs.push_back(onRecording(plan.recordings[i]));
+    if (!plan.references.empty()) runs.back().reference = plan.references[i];
+  }
+  tellApart(runs);
+  return runs;
+}
+
+/** A plan without runs. */
+ExperimentPlan filesNamedIn(const ExperimentOptions& options, const Configuration& configuration)
+{
+  ExperimentPlan plan;
+  plan.simulations = pathsOf("simulations", options.simulations, configuration);
+  plan.recordings = pathsOf("recordings", options.recordings, configuration);
+  plan.references = pathsOf("references", options.references, configuration, kNoReference);
+  plan.configurations = pathsOf("configurations", options.configurations, configuration);
+  if (!plan.references.empty() && plan.references.size() != plan.recordings.size())
+    throw configuration.complaint(
+        kSection, "references",
+        fmt::format("must name a file or none for each of the {} recordings, in their order", plan.recordings.size()));
+  return plan;
 }
 
 /** Each run once per value, with that value assigned. */
@@ -151,25 +149,14 @@ std::vector<PlannedRun> timesSeeds(const std::vector<PlannedRun>& runs, const st
   }
   return product;
 }
+}  // namespace
 
-/** Without this variable every run would read the same packets, or wait for live lidars. */
-bool readsTheDrive(const std::vector<std::filesystem::path>& configurations)
+bool findTheDrive(const std::vector<std::filesystem::path>& configurations)
 {
   return std::any_of(configurations.begin(), configurations.end(),
                      [](const auto& file)
                      { return contentOf(file).find("$env{SCANLOOM_RECORDING}") != std::string::npos; });
 }
-
-std::string namesAndSizes(const std::filesystem::path& folder)
-{
-  std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_regular_file())
-      files.push_back(fmt::format("{} {}", entry.path().filename().string(), entry.file_size()));
-  std::sort(files.begin(), files.end());
-  return fmt::format("{}", fmt::join(files, "\n"));
-}
-}  // namespace
 
 std::vector<std::string> sectionsForRuns(const Configuration& configuration)
 {
@@ -192,17 +179,10 @@ ExperimentPlan planOf(const ExperimentSettings& settings, const Configuration& c
   const ExperimentOptions& options = settings.experiment;
   const auto complain = [&](const std::string& key, const std::string& constraint)
   { return configuration.complaint(kSection, key, constraint); };
-  const auto paths = [&](const std::string& key, const std::string& text) { return pathsOf(key, text, configuration); };
 
-  ExperimentPlan plan;
-  plan.configurations = paths("configurations", options.configurations);
-  if (!readsTheDrive(plan.configurations))
-    throw complain("configurations", "must find the drive by $env{SCANLOOM_RECORDING}, as dual_os0_recording.ini does");
-  plan.simulations = paths("simulations", options.simulations);
-  plan.recordings = paths("recordings", options.recordings);
+  ExperimentPlan plan = filesNamedIn(options, configuration);
   auto& runs = plan.runs;
-  for (const auto& file : plan.simulations) runs.push_back(onSimulation(file));
-  for (const auto& folder : plan.recordings) runs.push_back(onRecording(folder));
+  runs = drivesIn(plan);
   if (runs.empty()) throw complain("simulations", "simulations or recordings must name what runs");
 
   for (PlannedRun& run : runs) run.settings = heldFixed(configuration, settings.axes);
@@ -227,36 +207,19 @@ ExperimentPlan planOf(const ExperimentSettings& settings, const Configuration& c
   return plan;
 }
 
-void refuseUnknownSettings(const ExperimentPlan& plan, const Schema& known)
-{
-  for (const PlannedRun& run : plan.runs)
-  {
-    Configuration configuration;
-    for (const auto& [name, value] : run.settings) configuration.set(name + '=' + value);
-    configuration.refuseUnknown(known);
-  }
-}
-
 ExperimentOptions withAbsolutePaths(ExperimentOptions options, const ExperimentPlan& plan)
 {
   const auto absolute = [](const std::vector<std::filesystem::path>& paths)
   {
     std::vector<std::string> words;
-    for (const auto& path : paths) words.push_back(std::filesystem::absolute(path).string());
+    for (const auto& path : paths)
+      words.push_back(path == kNoReference ? path.string() : std::filesystem::absolute(path).string());
     return fmt::format("{}", fmt::join(words, " "));
   };
   options.simulations = absolute(plan.simulations);
   options.recordings = absolute(plan.recordings);
+  options.references = absolute(plan.references);
   options.configurations = absolute(plan.configurations);
   return options;
-}
-
-std::string configurationHash(const PlannedRun& run, const ExperimentPlan& plan, const std::string& version)
-{
-  std::string all = version + '\n' + run.label() + '\n';
-  for (const auto& [name, value] : run.settings) all += fmt::format("{}={}\n", name, value);
-  for (const auto& file : plan.configurations) all += contentOf(file) + '\n';
-  all += run.recording.empty() ? contentOf(run.simulation) : namesAndSizes(run.recording);
-  return hashOf(all);
 }
 }  // namespace scanloom

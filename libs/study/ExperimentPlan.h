@@ -11,12 +11,16 @@
 
 namespace scanloom
 {
+/** In place of names: all lidars that the recording has. */
+inline constexpr const char* kAllLidars = "all";
+
 struct PlannedRun
 {
-  std::string stand;                 // name of the simulation's file or of the recording's folder
+  std::string stand;                 // name of the simulation's file, or of the recording's file or folder
   std::filesystem::path simulation;  // empty: the drive is a recording
   std::filesystem::path recording;   // empty: the drive is simulated
-  std::string lidars;                // "left,right"
+  std::filesystem::path reference;   // as referenceOf() takes it; empty: what lies beside the drive
+  std::string lidars;                // "left,right", or kAllLidars
   int every_nth = 1;
   std::vector<std::pair<std::string, std::string>> settings;  // "section.key", value: fixed ones, then one per axis
   std::uint64_t seed = 0;                                     // 0: a recording has none
@@ -27,7 +31,7 @@ struct PlannedRun
 
 struct ExperimentPlan
 {
-  std::vector<std::filesystem::path> simulations, recordings, configurations;
+  std::vector<std::filesystem::path> simulations, recordings, references, configurations;
   std::vector<PlannedRun> runs;  // nested loops over stands, lidars, N, axes, seeds: the seed changes fastest
 };
 
@@ -37,15 +41,9 @@ std::vector<std::string> sectionsForRuns(const Configuration&);
 /** Throws ConfigError with the value that is wrong, or the file that does not exist. */
 ExperimentPlan planOf(const ExperimentSettings&, const Configuration&);
 
-/** The runs set only names that some verb knows. Throws ConfigError otherwise: every run would fail. */
-void refuseUnknownSettings(const ExperimentPlan&, const Schema& known);
+/** One of them has $env{SCANLOOM_RECORDING}; otherwise slam is given the drive as its argument RECORDING. */
+bool findTheDrive(const std::vector<std::filesystem::path>& configurations);
 
 /** With absolute paths, so that a copy of the configuration in another folder means the same files. */
 ExperimentOptions withAbsolutePaths(ExperimentOptions, const ExperimentPlan&);
-
-/**
- * 32 hexadecimal digits from everything that the result of a run depends on: version of the program, label, settings,
- * content of the configurations and of the simulation's file; of a recording the names and sizes of its files.
- */
-std::string configurationHash(const PlannedRun&, const ExperimentPlan&, const std::string& version);
 }  // namespace scanloom

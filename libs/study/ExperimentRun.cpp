@@ -4,7 +4,7 @@
 #include "core/Interruption.h"
 #include "evaluation/Evaluation.h"
 #include "formats/Trajectory.h"
-#include "rig/Extrinsics.h"
+#include "study/RunReference.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,6 +22,11 @@ namespace
 constexpr const char* kRecord = "record.json";
 constexpr std::size_t kHashDigits = 8;
 
+struct PoseErrorsOfRun
+{
+  PoseErrors absolute, relative;
+};
+
 /** With _ for characters that are awkward in a file name. */
 std::string fileName(std::string label)
 {
@@ -38,27 +43,30 @@ nlohmann::json readJson(const std::filesystem::path& path)
   return nlohmann::json::parse(file);
 }
 
-Eigen::Vector3d prismOf(const std::filesystem::path& truth)
+/** With positions and poses the drift is that of the prism, and APE and RPE are those of the body. */
+PoseErrorsOfRun poseErrorsOf(const Evaluation& evaluation, const EvaluationInput& input,
+                             const EvaluationOptions& options)
 {
-  const auto poses = readExtrinsics(truth / "extrinsics.txt");
-  const auto prism = poses.find("T_body_prism");
-  if (prism == poses.end())
-    throw std::runtime_error(fmt::format("{}/extrinsics.txt has no T_body_prism", truth.string()));
-  return prism->second.translation;
+  if (!input.truth) return {evaluation.absolute, evaluation.relative};
+  const std::vector<PosePair> poses = posePairs(input.scans, Eigen::Vector3d::Zero(), *input.truth);
+  return {absoluteErrors(poses, options.alignment), relativeErrors(poses, options.delta)};
 }
 
-RunFigures figuresOf(const std::filesystem::path& out, const std::filesystem::path& truth)
+RunFigures figuresOf(const std::filesystem::path& out, const RunReference& reference)
 {
   EvaluationInput input;
   input.scans = readTum(out / "trajectory.tum");
-  input.imu_rate = readTum(out / "trajectory_imu.tum");
-  input.reference = readTotalStation(truth / "total_station.csv");
-  input.truth = readTum(truth / "groundtruth.tum");
+  Trajectory imu_rate = readTum(out / "trajectory_imu.tum");
+  if (!imu_rate.empty()) input.imu_rate = std::move(imu_rate);
+  if (reference.station)
+    input.reference = *reference.station;
+  else
+    input.reference = *reference.poses;
+  input.truth = reference.poses;
   EvaluationOptions options;
-  options.body_p_point = prismOf(truth);
+  options.body_p_point = reference.body_p_point;
   const Evaluation e = evaluate(input, options);
-  const std::vector<PosePair> poses = posePairs(input.scans, Eigen::Vector3d::Zero(), *input.truth);
-  const PoseErrors ape = absoluteErrors(poses, options.alignment), rpe = relativeErrors(poses, options.delta);
+  const auto [ape, rpe] = poseErrorsOf(e, input, options);
 
   RunFigures figures;
   figures.drift = e.drift.largest;
@@ -66,16 +74,24 @@ RunFigures figuresOf(const std::filesystem::path& out, const std::filesystem::pa
   figures.final = e.drift.final;
   figures.samples = e.drift.samples;
   figures.drift_percent = e.drift.percent();
-  figures.imu_rate_drift = e.imu_rate_drift->largest;
-  figures.floor = e.floor->largest;
+  if (e.imu_rate_drift) figures.imu_rate_drift = e.imu_rate_drift->largest;
+  if (e.floor) figures.floor = e.floor->largest;
   figures.ape = ape.metres.rmse;
   if (rpe.compared > 0)
   {
     figures.rpe = rpe.metres.rmse;
-    figures.rpe_deg = rpe.degrees->rmse;
+    if (rpe.degrees) figures.rpe_deg = rpe.degrees->rmse;
   }
-  figures.over_distance = e.imu_rate_drift->over_distance;
+  figures.over_distance = (e.imu_rate_drift ? *e.imu_rate_drift : e.drift).over_distance;
   return figures;
+}
+
+std::optional<double> okPercent(const nlohmann::json& summary)
+{
+  const auto count = [&](const char* name) { return summary.at("counts").at(name).get<double>(); };
+  const double poses = count("poses");
+  if (poses == 0) return std::nullopt;
+  return 100 * (poses - count("poses_initialising") - count("poses_degenerate") - count("poses_lost")) / poses;
 }
 
 RunCosts costsOf(const nlohmann::json& summary)
@@ -101,7 +117,11 @@ void runAndEvaluate(RunRecord& record, const ExperimentFolder& folder, const Dri
   record.outcome = summary.at("outcome");
   record.costs = costsOf(summary);
   record.costs->elapsed = elapsed.count();
-  record.figures = figuresOf(out, drive.path);
+  record.ok_percent = okPercent(summary);
+  if (!record.ok_percent) throw std::runtime_error("slam gave no pose: see its log.txt");
+  const RunReference reference = referenceOf(drive.path, record.run.reference);
+  record.reference = reference.description;
+  if (reference.exists()) record.figures = figuresOf(out, reference);
 }
 }  // namespace
 
@@ -123,15 +143,16 @@ Command slamCommand(const PlannedRun& run, const ExperimentFolder& folder, const
   std::vector<std::string> words{ownExecutable(), "slam"};
   for (const auto& file : folder.configurations) words.insert(words.end(), {"-c", file});
   if (!run.simulation.empty()) words.insert(words.end(), {"-c", run.simulation});  // it may have sections of slam
-  words.insert(words.end(), {"--lidars", run.lidars, "--every-nth", std::to_string(run.every_nth)});
-  auto settings = run.settings;
-  settings.erase(std::remove_if(settings.begin(), settings.end(),
-                                [](const auto& setting) { return changesTheDrive(setting.first); }),
-                 settings.end());
-  addSettings(words, settings);
+  if (run.lidars != kAllLidars) words.insert(words.end(), {"--lidars", run.lidars});
+  words.insert(words.end(), {"--every-nth", std::to_string(run.every_nth)});
+  addSettings(words, settingsOfSlam(run));
   if (!folder.keep_maps) words.insert(words.end(), {"--set", "output.maps=false"});
   words.insert(words.end(), {"-w", "--out-dir", out});
-  return {words, {"SCANLOOM_RECORDING=" + drive.string()}};
+  // In an INI file a relative path starts at the file's folder, not at this program's.
+  const std::string recording = std::filesystem::absolute(drive).string();
+  if (findTheDrive(folder.configurations)) return {words, {"SCANLOOM_RECORDING=" + recording}};
+  words.push_back(recording);
+  return {words, {}};
 }
 
 RunRecord execute(RunRecord record, const ExperimentFolder& folder, const DriveFolder& drive)

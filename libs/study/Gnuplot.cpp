@@ -1,5 +1,6 @@
 #include "study/Gnuplot.h"
 
+#include "core/AtomicFile.h"
 #include "study/Command.h"
 #include "study/ContentHash.h"
 
@@ -36,16 +37,32 @@ Gnuplot::~Gnuplot()
   std::filesystem::remove_all(folder_, ignored);
 }
 
-std::string Gnuplot::draw(const std::string& script)
+void Gnuplot::run(const std::string& terminal, const std::filesystem::path& output, const std::string& script) const
 {
-  const auto file = folder_ / "figure.gp", log = folder_ / "log.txt", svg = folder_ / "figure.svg";
-  std::ofstream(file) << fmt::format(
-      "set terminal svg size 900,420 dynamic noenhanced font 'sans-serif,13'\nset output '{}'\n{}", svg.string(),
-      script);
+  const auto file = folder_ / "figure.gp", log = folder_ / "log.txt";
+  std::ofstream(file) << fmt::format("set terminal {} noenhanced font 'sans-serif,13'\nset output '{}'\n{}", terminal,
+                                     output.string(), script);
   if (runCommand({{"gnuplot", file}, {}}, log) != 0)
     throw std::runtime_error(fmt::format("gnuplot: {}", contentOf(log)));
+}
+
+std::string Gnuplot::draw(const std::string& script)
+{
+  const auto svg = folder_ / "figure.svg";
+  run("svg size 900,420 dynamic", svg, script);
   const std::string drawn = contentOf(svg);
   const std::string element = drawn.substr(std::min(drawn.find("<svg"), drawn.size()));  // no XML declaration
   return withPrefixedIds(element, fmt::format("figure{}_", ++figures_));
+}
+
+void Gnuplot::drawInto(const std::filesystem::path& path, const std::string& script)
+{
+  const std::string ending = path.extension().string();
+  if (ending != ".svg" && ending != ".png")
+    throw std::invalid_argument(fmt::format("{}: a figure is .svg or .png", path.string()));
+  AtomicFile file(path);
+  run(ending == ".svg" ? "svg size 900,900 dynamic" : "pngcairo size 1350,1350 fontscale 1.5 linewidth 1.5",
+      file.temporary(), script);
+  file.commit();
 }
 }  // namespace scanloom

@@ -1,4 +1,4 @@
-/** Draws gnuplot scripts. */
+/** Draws gnuplot scripts, which have no `set terminal`. */
 #pragma once
 #include <filesystem>
 #include <string>
@@ -21,7 +21,15 @@ class Gnuplot
    */
   std::string draw(const std::string& script);
 
+  /**
+   * Draws a square figure into a new file; its ending is the format, .svg or .png. Throws std::invalid_argument for
+   * another ending, and as draw() does.
+   */
+  void drawInto(const std::filesystem::path&, const std::string& script);
+
  private:
+  void run(const std::string& terminal, const std::filesystem::path& output, const std::string& script) const;
+
   std::filesystem::path folder_;
   int figures_ = 0;
 };

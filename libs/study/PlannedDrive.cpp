@@ -48,6 +48,15 @@ bool changesTheDrive(const std::string& setting)
   return sameName(std::string_view(setting).substr(0, kSimulation.size()), kSimulation);
 }
 
+std::vector<std::pair<std::string, std::string>> settingsOfSlam(const PlannedRun& run)
+{
+  auto settings = run.settings;
+  settings.erase(std::remove_if(settings.begin(), settings.end(),
+                                [](const auto& setting) { return changesTheDrive(setting.first); }),
+                 settings.end());
+  return settings;
+}
+
 std::vector<PlannedDrive> drivesOf(const std::vector<PlannedRun>& runs, const std::string& version)
 {
   std::vector<PlannedDrive> drives;

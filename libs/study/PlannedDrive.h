@@ -29,6 +29,9 @@ struct PlannedDrive
 /** It is a parameter of the simulation ([simulated_...]); all others are of slam. */
 bool changesTheDrive(const std::string& setting);
 
+/** Those that do not change the drive. */
+std::vector<std::pair<std::string, std::string>> settingsOfSlam(const PlannedRun&);
+
 /** In the order of their first runs. Each run on a recording has a drive of its own: there is nothing to simulate. */
 std::vector<PlannedDrive> drivesOf(const std::vector<PlannedRun>&, const std::string& version);
 }  // namespace scanloom

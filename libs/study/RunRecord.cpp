@@ -1,5 +1,7 @@
 #include "study/RunRecord.h"
 
+#include "study/RunHash.h"
+
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
@@ -111,6 +113,7 @@ std::vector<std::string> headerOf(const std::vector<RunRecord>& records, const s
   forEachFigure(RunFigures{}, add);
   forEachCost(RunCosts{}, add);
   for (const std::string& stage : stages) names.push_back("ms_" + stage);
+  for (const char* name : {"poses_ok_percent", "reference"}) names.emplace_back(name);
   names.emplace_back("error");
   return names;
 }
@@ -134,6 +137,8 @@ std::vector<std::string> rowOf(const RunRecord& record, const std::set<std::stri
     const auto found = costs.stage_ms.find(stage);
     row.push_back(found == costs.stage_ms.end() ? "" : cell(found->second, 3));
   }
+  row.push_back(cell(record.ok_percent, 1));
+  row.push_back(cell(record.reference));
   row.push_back(cell(record.error));
   return row;
 }
@@ -161,7 +166,9 @@ void to_json(Json& json, const RunRecord& record)
           {"configuration_hash", record.configuration_hash},
           {"outcome", record.outcome},
           {"error", record.error},
-          {"lost", record.lost()}};
+          {"lost", record.lost()},
+          {"reference", record.reference},
+          {"poses_ok_percent", jsonOf(record.ok_percent)}};
   json["figures"] = record.figures ? toJson(*record.figures) : Json();
   json["costs"] = record.costs ? toJson(*record.costs) : Json();
 }
@@ -180,6 +187,9 @@ void from_json(const Json& json, RunRecord& record)
   record.configuration_hash = json.at("configuration_hash");
   record.outcome = json.at("outcome");
   record.error = json.at("error");
+  record.reference = json.value("reference", "");  // results before 1.1 have none of these two
+  record.ok_percent.reset();
+  read(json.value("poses_ok_percent", Json()), record.ok_percent);
   record.figures.reset();
   record.costs.reset();
   if (!json.at("figures").is_null()) record.figures = figuresFrom(json.at("figures"));

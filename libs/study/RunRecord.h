@@ -16,11 +16,11 @@ namespace scanloom
 {
 struct RunFigures
 {
-  double drift = 0, path = 0, final = 0;        // m, against the total station
-  std::size_t samples = 0;                      // number of positions of the station that were compared
+  double drift = 0, path = 0, final = 0;        // m, against the reference
+  std::size_t samples = 0;                      // number of positions of the reference that were compared
   std::optional<double> drift_percent;          // of the path
   std::optional<double> imu_rate_drift, floor;  // m
-  double ape = 0;                               // m, root mean square against the true poses
+  double ape = 0;                               // m, root mean square against the poses, else the station's positions
   std::optional<double> rpe, rpe_deg;           // the same over 1 m; none on a shorter path
   std::vector<ErrorAtDistance> over_distance;   // of the trajectory at the IMU's rate
 };
@@ -39,15 +39,18 @@ struct RunRecord
   std::string version, configuration_hash;
   std::string outcome;                // of summary.json, or FAILED
   std::string error;                  // why it failed; empty: it did not
-  std::optional<RunFigures> figures;  // none: it failed
+  std::string reference;              // RunReference::description; empty: it was compared with nothing
+  std::optional<RunFigures> figures;  // none: it failed, or there is no reference
   std::optional<RunCosts> costs;      // none: it failed
+  std::optional<double> ok_percent;   // of the poses, those whose health is OK; none: it failed, or has no poses
 
   /** It did not fail; it may be lost. */
   bool finished() const { return error.empty(); }
 
   /**
-   * slam ended LOST, or the drift is more than 10 m or 5 % of the path. The drift is that of the trajectory at the
-   * IMU's rate if there is one: with every 15th scan the interpolation between scans alone may be wrong by more.
+   * slam ended LOST, or, with a reference, the drift is more than 10 m or 5 % of the path. The drift is that of the
+   * trajectory at the IMU's rate if there is one: with every 15th scan the interpolation between scans alone may be
+   * wrong by more.
    */
   bool lost() const;
 };

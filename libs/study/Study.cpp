@@ -121,8 +121,10 @@ CellSummary summaryOf(const StudyCell& cell, const Quantity& quantity)
   for (const RunRecord* record : cell.records)
   {
     const auto value = quantity.of(*record);
-    if (!value)
+    if (!record->finished())
       ++summary.failed;
+    else if (!value)
+      continue;
     else if (quantity.lost == LostRuns::CountedApart && record->lost())
       ++summary.lost;
     else

@@ -46,7 +46,7 @@ enum class LostRuns
   LikeOthers     // for costs: a lost run costs as much as any other
 };
 
-/** A number of each run; none if the run failed. */
+/** A number of each run; none if the run failed, or does not have it: an error without a reference. */
 struct Quantity
 {
   std::string name;  // "drift [m]"
@@ -58,6 +58,8 @@ struct CellSummary
 {
   std::vector<double> values;  // without the runs counted as lost
   std::size_t lost = 0, failed = 0;
+
+  bool empty() const { return values.empty() && lost == 0; }
 
   /** Lost runs count as larger than all others. None if the median itself is a lost run, or if there is no run. */
   std::optional<double> median() const;

@@ -1,6 +1,7 @@
 #include "study/StudyReport.h"
 
 #include "study/StudyFigures.h"
+#include "study/StudyQuantities.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,57 +29,14 @@ std::string escaped(const std::string& text)
   return html;
 }
 
-template <typename Value>
-Quantity figure(const std::string& name, Value RunFigures::*value)
-{
-  return {name,
-          [value](const RunRecord& record) -> std::optional<double>
-          {
-            if (!record.figures) return std::nullopt;
-            return (*record.figures).*value;
-          }};
-}
-
-Quantity cost(const std::string& name, double RunCosts::*value)
-{
-  return {name,
-          [value](const RunRecord& record) -> std::optional<double>
-          {
-            if (!record.costs) return std::nullopt;
-            return (*record.costs).*value;
-          },
-          LostRuns::LikeOthers};
-}
-
-Quantity millisecondsOf(const std::string& stage)
-{
-  return {stage,
-          [stage](const RunRecord& record) -> std::optional<double>
-          {
-            if (!record.costs || record.costs->stage_ms.count(stage) == 0) return std::nullopt;
-            return record.costs->stage_ms.at(stage);
-          },
-          LostRuns::LikeOthers};
-}
-
-const Quantity& drift()
-{
-  static const Quantity quantity = figure("drift [m]", &RunFigures::drift);
-  return quantity;
-}
-
-std::vector<Quantity> drawn()
-{
-  return {drift(), figure("drift at the IMU's rate [m]", &RunFigures::imu_rate_drift),
-          cost("real-time factor", &RunCosts::real_time_factor), cost("peak memory [MB]", &RunCosts::peak_memory_mb)};
-}
-
 std::string valueText(const CellSummary& summary)
 {
   if (summary.medianIsLost()) return "lost";
   const auto median = summary.median();
   return median ? fmt::format("{:.3g}", *median) : "-";
 }
+
+std::string cellText(const CellSummary& summary) { return summary.empty() ? "" : valueText(summary); }
 
 std::string alternativeOverDistance(const std::vector<StudyCell>& cells)
 {
@@ -97,14 +55,6 @@ std::string figureElement(const std::string& svg, const std::string& alternative
 {
   return fmt::format("<figure><div role=\"img\" aria-label=\"{}\">{}</div><figcaption>{}</figcaption></figure>\n",
                      escaped(alternative_text), svg, escaped(caption));
-}
-
-std::set<std::string> stagesOf(const std::vector<StudyCell>& cells)
-{
-  std::set<std::string> stages;
-  for (const StudyCell& cell : cells)
-    for (const RunRecord* record : cell.records) addStages(*record, stages);
-  return stages;
 }
 
 /** One group per stage of slam, for the N and settings of the first cell only. */
@@ -132,18 +82,37 @@ std::string barsFigure(const std::vector<Bar>& bars, const std::string& axis, co
   return figureElement(draw(barsScript(bars, axis)), alternative(bars, axis), caption);
 }
 
+bool noneHas(const Quantity& quantity, const std::vector<StudyCell>& cells)
+{
+  return std::all_of(cells.begin(), cells.end(),
+                     [&](const StudyCell& cell) { return summaryOf(cell, quantity).empty(); });
+}
+
+/** What the runs were compared with, a sentence. */
+std::string referencesOf(const std::vector<StudyCell>& cells)
+{
+  std::set<std::string> references;
+  for (const StudyCell& cell : cells)
+    for (const RunRecord* record : cell.records)
+      if (!record->reference.empty()) references.insert(record->reference);
+  if (!references.empty()) return fmt::format("Compared with {}.", fmt::join(references, "; "));
+  if (!noneHas(drift(), cells)) return "";  // results of a version that did not tell
+  return "There is no reference, so no drift: a run is judged by the health of its poses, and is lost if it ends LOST.";
+}
+
 std::string figuresOf(const std::string& stand, const std::vector<StudyCell>& cells, const Draw& draw)
 {
-  std::string html = fmt::format("<h2>{}</h2>\n", escaped(stand));
-  for (const Quantity& quantity : drawn())
+  std::string html = fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escaped(stand), escaped(referencesOf(cells)));
+  for (const Quantity& quantity : drawnQuantities())
   {
+    if (noneHas(quantity, cells)) continue;
     const std::string lost = "; crosses and hatched bars are lost runs and medians (beyond 10 m or 5 % of the path)";
     html += barsFigure(barsOf(cells, quantity), quantity.name,
                        fmt::format("{}, {}: medians as bars, a dot per run{}.", stand, quantity.name,
                                    quantity.lost == LostRuns::CountedApart ? lost : ""),
                        draw);
   }
-  for (const auto& lines : byLines(cells))
+  for (const auto& lines : noneHas(drift(), cells) ? std::vector<std::vector<StudyCell>>{} : byLines(cells))
     html += figureElement(
         draw(driftOverDistanceScript(lines)), alternativeOverDistance(lines),
         fmt::format("{}, drift over distance at the IMU's rate: medians of the runs that were not lost.", stand));
@@ -162,34 +131,14 @@ std::string table(const std::vector<StudyCell>& cells, const std::vector<Quantit
   {
     html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td>", escaped(cell.stand), escaped(cell.lidars),
                         escaped(cell.group));
-    for (const Quantity& column : columns) html += fmt::format("<td>{}</td>", valueText(summaryOf(cell, column)));
+    for (const Quantity& column : columns) html += fmt::format("<td>{}</td>", cellText(summaryOf(cell, column)));
     const auto failed = std::count_if(cell.records.begin(), cell.records.end(),
                                       [](const RunRecord* record) { return !record->finished(); });
-    html += fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>\n", cell.records.size(), summaryOf(cell, drift()).lost,
-                        failed);
+    const auto lost =
+        std::count_if(cell.records.begin(), cell.records.end(), [](const RunRecord* record) { return record->lost(); });
+    html += fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>\n", cell.records.size(), lost, failed);
   }
   return html + "</table></div>\n";
-}
-
-std::vector<Quantity> errors()
-{
-  return {drift(),
-          figure("drift [%]", &RunFigures::drift_percent),
-          figure("at the IMU's rate [m]", &RunFigures::imu_rate_drift),
-          figure("floor [m]", &RunFigures::floor),
-          figure("APE [m]", &RunFigures::ape),
-          figure("RPE [m]", &RunFigures::rpe),
-          figure("RPE [deg]", &RunFigures::rpe_deg),
-          figure("path [m]", &RunFigures::path)};
-}
-
-std::vector<Quantity> costsOf(const std::vector<StudyCell>& cells)
-{
-  std::vector<Quantity> quantities;
-  for (const std::string& stage : stagesOf(cells)) quantities.push_back(millisecondsOf(stage));
-  quantities.push_back(cost("real-time factor", &RunCosts::real_time_factor));
-  quantities.push_back(cost("memory [MB]", &RunCosts::peak_memory_mb));
-  return quantities;
 }
 
 std::string failures(const std::vector<RunRecord>& records)
@@ -229,8 +178,8 @@ std::string htmlReport(const Study& study, const std::string& configuration, con
       kStyle, study.records.size(), study.records.empty() ? "" : escaped(study.records.front().version),
       escaped(study.machine), escaped(study.command));
   for (const auto& stand : byStand(cells)) html += figuresOf(stand.front().stand, stand, draw);
-  html += "<h2>Errors, medians</h2>\n" + table(cells, errors());
-  html += "<h2>Milliseconds per stage, real-time factor, memory; medians</h2>\n" + table(cells, costsOf(cells));
+  html += "<h2>Errors and health, medians</h2>\n" + table(cells, errorQuantities());
+  html += "<h2>Milliseconds per stage, real-time factor, memory; medians</h2>\n" + table(cells, costQuantities(cells));
   html += failures(study.records);
   return html + fmt::format("<h2>Configuration</h2>\n<pre>{}</pre>\n</body></html>\n", escaped(configuration));
 }

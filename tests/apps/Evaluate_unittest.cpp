@@ -57,6 +57,19 @@ TEST_F(EvaluateVerb, tellsTheDriftAgainstAStationAndAgainstPoses)
   }
 }
 
+TEST_F(EvaluateVerb, drawsAPictureAndReplacesItOnlyWhenTold)
+{
+  for (const std::string name : {"error.svg", "error.png"})
+  {
+    const std::string arguments = "--reference station.csv --lever-arm '0 1 4' --plot " + name;
+    ASSERT_EQ(evaluate(arguments).status, 0);
+    EXPECT_THAT(contentOf(folder_ / name), HasSubstr(name == "error.svg" ? ">distance [m]<" : "PNG"));
+    EXPECT_EQ(evaluate(arguments).status, 2);
+    EXPECT_EQ(evaluate(arguments + " -w").status, 0);
+  }
+  EXPECT_THAT(evaluate("--reference station.csv --plot error.pdf").output, HasSubstr(".svg or .png"));
+}
+
 TEST_F(EvaluateVerb, readsReferencesOfEurocAndKitti)
 {
   std::ofstream estimate(folder_ / "estimate.tum"), euroc(folder_ / "euroc.csv"), kitti(folder_ / "kitti.txt"),

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -68,28 +69,48 @@ TEST(ExperimentVerb, keepsWhatIsDoneWhenItResumesAndWritesOverNothingUnasked)
   EXPECT_EQ(contentOf(folder / "sweep/results.json"), results);  // down to the milliseconds
 }
 
+/** A drive that ends before there is a pose, then one that does not. */
+constexpr const char* kTooShort =
+    "--set experiment.axis1_name=simulated_drive.duration --set 'experiment.axis1_values=0.05 | 20' "
+    "--set experiment.lidars=left";
+
 TEST(ExperimentVerb, aFailedRunIsARowAndStatusFour)
 {
   const TemporaryFolder folder;
 
-  const Ended ended = experiment(folder, "--set 'experiment.lidars=middle left'");
+  const Ended ended = experiment(folder, kTooShort);
 
-  EXPECT_EQ(ended.status, 4);
-  EXPECT_THAT(outcomesOf(folder), ElementsAre("middle FAILED ", found("left")));
-  EXPECT_THAT(contentOf(folder / "sweep/results.csv"), HasSubstr("no lidar is called 'middle'"));
+  EXPECT_EQ(ended.status, 4) << ended.output;
+  EXPECT_THAT(outcomesOf(folder), ElementsAre("left FAILED ", found("left")));
 }
 
 TEST(ExperimentVerb, aDriveThatCannotBeSimulatedIsARowForEachOfItsRuns)
 {
   const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "sweep");
+  std::ofstream(folder / "sweep/drives") << "a file in the place of the folder";
 
-  const Ended ended = experiment(folder,
-                                 "--set experiment.axis1_name=simulated_lidars.lidar1_model --set "
-                                 "'experiment.axis1_values=OS0-16 | OS9-16' --set experiment.lidars=left");
+  const Ended ended = experiment(folder, "");
 
-  EXPECT_EQ(ended.status, 4);
-  EXPECT_THAT(outcomesOf(folder), ElementsAre(found("left"), "left FAILED "));
-  EXPECT_THAT(contentOf(folder / "sweep/results.csv"), HasSubstr("simulate ended with status 2: "));
+  EXPECT_EQ(ended.status, 4) << ended.output;
+  EXPECT_THAT(outcomesOf(folder), ElementsAre("left FAILED ", "left,right FAILED "));
+}
+
+TEST(ExperimentVerb, refusesBeforeItStartsWhatItsRunsWouldEndWith)
+{
+  const TemporaryFolder folder;
+
+  const Ended unknown_lidar = experiment(folder, "--set 'experiment.lidars=middle left'");
+  EXPECT_EQ(unknown_lidar.status, 2);
+  EXPECT_THAT(unknown_lidar.output, HasSubstr("[experiment] lidars = middle, simulations = "));
+  EXPECT_THAT(unknown_lidar.output, HasSubstr("no lidar is called 'middle'"));
+
+  const Ended unknown_model = experiment(folder,
+                                         "--set experiment.axis1_name=simulated_lidars.lidar1_model --set "
+                                         "'experiment.axis1_values=OS0-16 | OS9-16'");
+  EXPECT_EQ(unknown_model.status, 2);
+  EXPECT_THAT(unknown_model.output, HasSubstr("OS9-16"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "sweep"));
 }
 
 /** What lies in the folders of drives. */
@@ -168,14 +189,15 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 TEST(ReportVerb, isOneFileWithFiguresAndTheCommand)
 {
   const TemporaryFolder folder;
-  ASSERT_EQ(experiment(folder, "--set 'experiment.lidars=middle left'").status, 4);
+  ASSERT_EQ(experiment(folder, kTooShort).status, 4);
 
   const Ended ended = scanloom("report " + (folder / "sweep").string());
   EXPECT_EQ(ended.status, 0) << ended.output;
 
   const std::string html = contentOf(folder / "sweep/report.html");
-  for (const char* part : {"<svg", "aria-label=\"Medians of drift [m]: middle, N = 1: -; left, N = 1: 0.",
-                           "scanloom experiment -c ", "<li>sparse middle n1 seed 1: slam ended with status 2"})
+  for (const char* part :
+       {"<svg", "aria-label=\"Medians of drift [m]: left, N = 1, duration = 0.05: -; left, N = 1, duration = 20: 0.",
+        "scanloom experiment -c ", "<li>sparse left n1 seed 1: "})
     EXPECT_TRUE(contains(html, part)) << part;
   for (const char* part : {"<script", "src=", "http-equiv"}) EXPECT_FALSE(contains(html, part)) << part;
   EXPECT_EQ(scanloom("report " + (folder / "sweep").string()).status, 2);  // it exists

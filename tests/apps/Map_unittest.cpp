@@ -91,7 +91,7 @@ TEST_F(Map, convertsOccupancyToPoints)
 
 TEST_F(Map, whatMakesNoSenseIsStatus2)
 {
-  EXPECT_EQ(map("-o " + name("m.las")).status, 2);
+  EXPECT_EQ(map("-o " + name("m.xyz")).status, 2);
   EXPECT_EQ(map("-o " + name("a.bt") + " -o " + name("b.bt")).status, 2);
   EXPECT_EQ(map("-o " + name("m.bt") + " --preset coarse").status, 2);
   EXPECT_EQ(map("-o " + name("m.ply") + " --cubes").status, 2);

@@ -1,5 +1,6 @@
 /** `scanloom record` on lidars of the loopback interface: how it ends, and what is on disk when it does. */
 #include "mrpt_bridge/RawlogReader.h"
+#include "packets/CaptureReader.h"
 #include "rig/RigReplay.h"
 #include "support/ChildProcess.h"
 #include "support/RecordedLidars.h"

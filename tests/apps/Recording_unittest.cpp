@@ -1,4 +1,5 @@
 /** A recording on the command line, without a configuration. */
+#include "formats/TrajectoryReader.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 #include "support/runProgram.h"
@@ -58,6 +59,40 @@ TEST(Recording, configForItRepeatsIt)
   ASSERT_EQ(scanloom(folder.path(), "record street.pcap").status, 0);
   ASSERT_EQ(scanloom(folder.path(), "record -c rig.ini -o again.rawlog").status, 0);
   EXPECT_EQ(contentOf(folder / "again.rawlog"), contentOf(folder / "street.rawlog"));
+}
+
+TEST(Recording, isReadFromAnotherFolderByItsOwnConfiguration)
+{
+  SCANLOOM_NEEDS_DATA(capture, kVelodynes);
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "data/results");
+  std::filesystem::copy(capture, folder / "data/street.pcap");
+  ASSERT_EQ(scanloom(folder / "data", "config --for street.pcap > rig.ini; test -s rig.ini").status, 0);
+  const Ended ended = scanloom(folder.path(), "slam -c data/rig.ini --out-dir data/results");
+  EXPECT_EQ(ended.status, 0) << ended.output;
+  const Ended again = scanloom(
+      "/", fmt::format("slam -c {0}/data/results/configuration.ini --out-dir {0}/again", folder.path().string()));
+  EXPECT_EQ(again.status, 0) << again.output;
+  EXPECT_EQ(contentOf(folder / "data/results/trajectory.tum"), contentOf(folder / "again/trajectory.tum"));
+}
+
+TEST(Recording, cloudsOfItGiveItsTrajectory)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
+  const TemporaryFolder folder;
+  ASSERT_EQ(scanloom(folder.path(), "record " + recording.string() + " -o drive.rawlog").status, 0);
+  ASSERT_EQ(scanloom(folder.path(), "edit -i drive.rawlog --export-ply clouds").status, 0);
+  const std::string options = " --every-nth 5 --set output.maps=false --out-dir ";
+  const Ended ended = scanloom(folder.path(), "slam clouds/lidar" + options + "of_clouds");
+  EXPECT_EQ(ended.status, 0) << ended.output;
+  ASSERT_EQ(scanloom(folder.path(), "slam drive.rawlog --set slam.imu=none" + options + "of_rawlog").status, 0);
+
+  const Trajectory of_clouds = readTrajectory(folder / "of_clouds/trajectory.tum");
+  const Trajectory of_rawlog = readTrajectory(folder / "of_rawlog/trajectory.tum");
+  ASSERT_EQ(of_clouds.size(), of_rawlog.size());
+  const auto place = [](const Trajectory& poses) { return poses.back().map_T_body.translation; };
+  EXPECT_LT((place(of_clouds) - place(of_rawlog)).norm(), 0.01);
+  EXPECT_THAT(scanloom(folder.path(), "doctor clouds/lidar").output, HasSubstr("'slam' localises with clouds"));
 }
 
 TEST(Recording, infoFindsTheMetadataBeside)

@@ -6,9 +6,12 @@
  *   scanloom_bench_live --sensors 8 --seconds 120             latency
  *   scanloom_bench_live --sensors 8 --seconds 600 --speed 3   a soak
  *   scanloom_bench_live --sensors 2 --seconds 600 --busy 4    with all cores under stress
+ *   scanloom_bench_live --sensors 2 --web --pages 4           shown on a page; one reader stalls, one reads slowly
  *   scanloom_bench_live --spoofed 10 --flood 1000             with strangers, without configured addresses
  */
 #include "LoopbackLidars.h"
+#include "PageReaders.h"
+#include "live_view/WatchedInput.h"
 #include "rig/RigLive.h"
 
 #include <fmt/format.h>
@@ -32,6 +35,8 @@ struct Arguments
   double scan_rate = 10;
   double deadline_ms = 5;
   int busy = 0;
+  bool web = false;
+  int pages = 0;
 };
 
 /** Processes that do nothing but use the processor. */
@@ -119,7 +124,19 @@ struct Observed
   double elapsed = 0;
 };
 
-Observed observe(RigLive& live, const LoopbackLidars& lidars)
+/** The page of a run, and its readers. */
+struct ShownOnPage
+{
+  ShownOnPage(SensorInput& live, int pages) : input(live, feed), readers(pages, server.address()) {}
+
+  LiveExchange exchange;
+  LiveFeed feed{exchange, {"record", true, false}};
+  WatchedInput input;
+  LiveServer server{{SensorAddress::parse("127.0.0.1").ip, 0}, exchange};
+  PageReaders readers;
+};
+
+Observed observe(RigLive& live, const LoopbackLidars& lidars, ShownOnPage* page)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -127,7 +144,9 @@ Observed observe(RigLive& live, const LoopbackLidars& lidars)
   Observed observed;
   while (!live.ended())
   {
-    if (const auto event = live.next(50ms))
+    const auto event = page ? page->input.next(50ms) : live.next(50ms);
+    if (page) page->feed.offer();
+    if (event)
     {
       if (std::holds_alternative<SensorImu>(*event)) continue;
       const Scan& scan = std::get<Scan>(*event);
@@ -234,7 +253,9 @@ int run(const Arguments& arguments)
   RigLive live(rig);
   for (const std::string& warning : live.takeWarnings()) fmt::print("  warning: {}\n", warning);
   lidars.go();
-  const Observed observed = observe(live, lidars);
+  const auto page = arguments.web ? std::make_unique<ShownOnPage>(live, arguments.pages) : nullptr;
+  const Observed observed = observe(live, lidars, page.get());
+  if (page) fmt::print("  {} pages, the first gets {:.2f} Mbit/s\n", arguments.pages, 1e-6 * page->readers.stop());
   lidars.wait();
   for (const std::string& warning : live.takeWarnings()) fmt::print("  warning: {}\n", warning);
   return report(arguments, lidars, live, observed) ? 0 : 1;
@@ -253,6 +274,8 @@ int main(int argc, char** argv)
   app.add_option("--deadline-ms", arguments.deadline_ms, "ms")->check(CLI::NonNegativeNumber);
   app.add_option("--busy", arguments.busy, "processes that keep the processor busy meanwhile")
       ->check(CLI::Range(0, 256));
+  app.add_flag("--web", arguments.web, "show the run on a page");
+  app.add_option("--pages", arguments.pages, "readers of the page")->check(CLI::Range(0, 8));
   app.add_option("--spoofed", arguments.loopback.spoofed, "copies of the first lidar's packets per second")
       ->check(CLI::Range(0, 1000));
   app.add_option("--flood", arguments.loopback.flood, "IMU packets with wrong stamps per second")

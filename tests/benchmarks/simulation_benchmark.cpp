@@ -11,6 +11,7 @@
 #include <fstream>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace scanloom
 {
@@ -67,7 +68,7 @@ struct Course
   std::vector<Ray> rays;
 };
 
-const Course& courseThrough(const std::string& stand)
+const Course& courseThrough(std::string_view stand)
 {
   static const Course sparse("sparse"), dense("dense");
   return stand == "sparse" ? sparse : dense;

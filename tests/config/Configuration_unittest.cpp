@@ -263,6 +263,35 @@ TEST_F(ConfigurationFiles, areAllNamedIfTheyAreMissing)
                           "nor/this.ini: cannot be read: No such file or directory"));
 }
 
+TEST_F(ConfigurationFiles, startRelativePathsAtTheirOwnFolder)
+{
+  std::filesystem::create_directory(folder / "rig");
+  const auto file = write("rig/paths.ini",
+                          "[ndt]\n"
+                          "lidar1_map = maps/a.ply\n"
+                          "lidar7_map = ../b.ply\n"
+                          "lidar1_label = maps/a.ply\n"
+                          "lidar2_map = $env{SCANLOOM_TEST_FOLDER}/c.ply\n"
+                          "lidar3_map = /d.ply\n"
+                          "lidar4_map = e.ply\n");
+  setenv("SCANLOOM_TEST_FOLDER", "here", 1);
+  Configuration configuration = Configuration::fromFiles({file});
+  unsetenv("SCANLOOM_TEST_FOLDER");
+  configuration.set("ndt.lidar4_map=f.ply");
+
+  const Field map{"lidar1_map", "", "", unbounded(), pathFrom}, label{"lidar1_label", "", ""};
+  configuration.makePathsAbsolute({{"ndt", ""}, {{map, "text", ""}, {label, "text", ""}}, "lidar"});
+
+  const auto here = std::filesystem::current_path();
+  const auto value = [&](const char* key) { return std::filesystem::path(configuration.text("ndt", key)); };
+  EXPECT_EQ(value("lidar1_map"), file.parent_path() / "maps/a.ply");
+  EXPECT_EQ(value("lidar7_map"), file.parent_path().parent_path() / "b.ply");
+  EXPECT_EQ(value("lidar1_label"), "maps/a.ply");
+  EXPECT_EQ(value("lidar2_map"), here / "here/c.ply");
+  EXPECT_EQ(value("lidar3_map"), "/d.ply");
+  EXPECT_EQ(value("lidar4_map"), here / "f.ply");
+}
+
 TEST(CommandLine, replacesTheValueOfAFile)
 {
   Configuration configuration = from("[ndt]\ncell_size = 2\n");

@@ -1,8 +1,10 @@
 #include "core/Progress.h"
+#include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <sstream>
 
 namespace scanloom
@@ -68,6 +70,15 @@ TEST(Progress, countsWithoutAnEnd)
     progress.update(7);
   }
   EXPECT_THAT(out.str(), MatchesRegex("record: 7 scans, .* scans/s\n"));
+}
+
+TEST(MegabytesOf, countsFilesOfFoldersAndNoMissingOnes)
+{
+  const TemporaryFolder folder;
+  for (const char* name : {"a", "b"}) std::ofstream(folder / name) << std::string(1'500'000, 'x');
+  EXPECT_EQ(megabytesOf({folder.path()}), 3U);
+  EXPECT_EQ(megabytesOf({folder / "a", folder / "b", folder / "missing"}), 3U);
+  EXPECT_EQ(megabytesOf({folder / "missing"}), 1U);
 }
 
 TEST(TimeText, isShort)

@@ -57,18 +57,18 @@ TEST_F(ExportClouds, pcdHoldsAllFields)
   exported(exportClouds(CloudFormat::Pcd, out, someHeader()));
 
   const std::filesystem::path file = out / "lidar" / "000000.pcd";
-  EXPECT_THAT(contentOf(file), HasSubstr("FIELDS x y z intensity t ring column sensor_id\nSIZE 4 4 4 4 4 2 2 1\n"));
+  EXPECT_THAT(contentOf(file), HasSubstr("FIELDS x y z intensity t ring column sensor_id\nSIZE 4 4 4 4 8 2 2 1\n"));
   const std::string data = dataOf(file, "DATA binary\n");
-  ASSERT_EQ(data.size(), 120u * 25);
-  constexpr std::size_t kFifth = 4 * 25;  // point 4: column 1, ring 1
+  ASSERT_EQ(data.size(), 120u * 29);
+  constexpr std::size_t kFifth = 4 * 29;  // point 4: column 1, ring 1
   EXPECT_FLOAT_EQ(at<float>(data, kFifth), 0.4f);
   EXPECT_FLOAT_EQ(at<float>(data, kFifth + 4), -0.2f);
   EXPECT_FLOAT_EQ(at<float>(data, kFifth + 8), 1.f);
   EXPECT_FLOAT_EQ(at<float>(data, kFifth + 12), 28.f);
-  EXPECT_FLOAT_EQ(at<float>(data, kFifth + 16), 0.002441403f);
-  EXPECT_EQ(at<std::uint16_t>(data, kFifth + 20), 1);
-  EXPECT_EQ(at<std::uint16_t>(data, kFifth + 22), 1);
-  EXPECT_EQ(data[kFifth + 24], 1);
+  EXPECT_DOUBLE_EQ(at<double>(data, kFifth + 16), 0.002441403);
+  EXPECT_EQ(at<std::uint16_t>(data, kFifth + 24), 1);
+  EXPECT_EQ(at<std::uint16_t>(data, kFifth + 26), 1);
+  EXPECT_EQ(data[kFifth + 28], 1);
   EXPECT_EQ(readCloud(out / "lidar" / "000001.pcd").points.size(), 0u) << "the last scan is empty";
 }
 

@@ -161,8 +161,8 @@ TEST_F(Interoperability, kissIcpFindsPositionsAndStampsInPcd)
   const Layout layout = pcdLayout(file);
   expectPoint(file, layout, "F4");
   EXPECT_EQ(layout.stamps().name, "t");
-  ASSERT_EQ(layout.stamps().type, "F4");
-  EXPECT_FLOAT_EQ(at<float>(file, layout.begin + layout.stamps().offset + kPoint * layout.point_size), kTimeOfColumn1);
+  ASSERT_EQ(layout.stamps().type, "F8");
+  EXPECT_FLOAT_EQ(at<double>(file, layout.begin + layout.stamps().offset + kPoint * layout.point_size), kTimeOfColumn1);
 }
 
 TEST_F(Interoperability, kissIcpReadsTheBinAsRowsOfFourFloats)

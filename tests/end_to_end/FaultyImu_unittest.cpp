@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/TrajectoryReader.h"
+#include "run/SlamFiles.h"
 #include "run/SlamRun.h"
 #include "simulation/SceneInput.h"
 #include "support/TemporaryFolder.h"
@@ -138,11 +139,11 @@ LeftBehind localise(const Fault& fault, const std::vector<int>& imus = {SensorIm
 {
   const TemporaryFolder folder;
   FaultyInput input(fault, imus);
-  SlamFiles files(folder.path(), input.setup().header.lidars, std::nullopt);
+  SlamFiles files(folder.path(), input.setup().header.lidars, OutputOptions{false, "", 0}, {});
   LeftBehind outcome;
   const SlamRunResult result = runSlam(
-      input, harvesterSettings(), files, [](const RunProgress&) { return true; },
-      [&](const std::string& warning) { outcome.warnings += warning + '\n'; });
+      input, harvesterSettings(), [&](const StateEstimate& estimate) { files.add(estimate); },
+      [](const RunProgress&) { return true; }, [&](const std::string& warning) { outcome.warnings += warning + '\n'; });
   files.close(result.summary);
 
   outcome.passed = result.passed;

@@ -6,6 +6,7 @@
 #include "mrpt_bridge/RawlogReader.h"
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/RigObservations.h"
+#include "packets/CaptureReader.h"
 #include "packets/CaptureWriter.h"
 #include "rig/RigReplay.h"
 #include "support/TemporaryFolder.h"

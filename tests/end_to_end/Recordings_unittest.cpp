@@ -7,6 +7,7 @@
 #include "mrpt_bridge/RigObservations.h"
 #include "rig/RigReplay.h"
 #include "rig/openRig.h"
+#include "run/SlamFiles.h"
 #include "run/SlamRun.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
@@ -33,10 +34,10 @@ RunSummary localise(SensorInput& input, const std::filesystem::path& folder,
   OctoMapOptions coarse;  // not what is looked at here
   coarse.resolution = 1;
   coarse.max_range = 5;
-  SlamFiles files(folder, input.setup().header.lidars, coarse);
+  SlamFiles files(folder, input.setup().header.lidars, {}, coarse);
   SlamRunResult result = runSlam(
-      input, settings, files, [](const RunProgress&) { return true; },
-      [](const std::string& warning) { ADD_FAILURE() << warning; });
+      input, settings, [&](const StateEstimate& estimate) { files.add(estimate); },
+      [](const RunProgress&) { return true; }, [](const std::string& warning) { ADD_FAILURE() << warning; });
   EXPECT_TRUE(result.passed);
   files.close(result.summary);
   return result.summary;

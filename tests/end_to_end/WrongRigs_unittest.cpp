@@ -2,6 +2,7 @@
 // by how much, does not blame the IMU, and does not end with success.
 #include "rig/RigReplay.h"
 #include "rig/openRig.h"
+#include "run/SlamFiles.h"
 #include "run/SlamRun.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
@@ -62,10 +63,10 @@ struct Told
 Told localise(SensorInput& input, const std::filesystem::path& folder)
 {
   Told told;
-  SlamFiles files(folder, input.setup().header.lidars, std::nullopt);
+  SlamFiles files(folder, input.setup().header.lidars, OutputOptions{false, "", 0}, {});
   const SlamRunResult result = runSlam(
-      input, harvesterSettings(), files, [](const RunProgress&) { return true; },
-      [&](const std::string& warning) { told.warnings.push_back(warning); });
+      input, harvesterSettings(), [&](const StateEstimate& estimate) { files.add(estimate); },
+      [](const RunProgress&) { return true; }, [&](const std::string& warning) { told.warnings.push_back(warning); });
   files.close(result.summary);
   told.passed = result.passed;
   return told;

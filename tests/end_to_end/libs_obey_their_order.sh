@@ -44,7 +44,7 @@ failed=0
     only("ndt", "core")
     only("config", "core")
     only("lidar", "core")
-    only("simulation", "core config formats lidar batching whole_turns packets rig imu")
+    only("simulation", "core config formats lidar batching whole_turns packets bags rig imu")
     never("mrpt_bridge", "slam")
     never("edit", "slam")
     never("doctor", "slam")
@@ -52,7 +52,7 @@ failed=0
     exit failed
   }' || failed=1
 
-for lib in core lidar batching whole_turns packets rig imu preprocessing ndt graph slam simulation; do
+for lib in core lidar batching whole_turns packets bags rig imu preprocessing ndt graph slam simulation; do
   grep -n '# *include <mrpt' "$lib"/* && { echo "$lib must not know MRPT"; failed=1; }
 done
 # Two types of one name, each in a header of its own, are one to the linker: it keeps the functions of either.

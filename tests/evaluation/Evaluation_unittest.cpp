@@ -1,4 +1,5 @@
 #include "evaluation/Evaluation.h"
+#include "evaluation/TotalStation.h"
 
 #include "formats/Trajectory.h"
 

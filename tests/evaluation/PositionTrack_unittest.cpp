@@ -1,58 +1,13 @@
 #include "evaluation/PositionTrack.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-
-#include "support/TemporaryFolder.h"
 
 namespace scanloom
 {
 namespace
 {
-PositionTrack read(const std::string& text)
-{
-  const TemporaryFolder folder;
-  std::ofstream(folder / "station.csv") << text;
-  return readTotalStation(folder / "station.csv");
-}
-
-std::string complaintAbout(const std::string& text)
-{
-  try
-  {
-    read(text);
-  }
-  catch (const std::invalid_argument& e)
-  {
-    return e.what();
-  }
-  return "";
-}
-
-TEST(PositionTrack, isReadToTheNanosecond)
-{
-  const PositionTrack track =
-      read("#t [s],x [m],y [m],z [m]\n1750000000.000000007,512.5769,-88.2291,48.3286\n\n1750000001.5, 1, 2, 3\r\n");
-
-  ASSERT_EQ(track.size(), 2U);
-  EXPECT_EQ(nanoseconds(track[0].stamp), 1750000000000000007);
-  EXPECT_EQ(track[0].position, Eigen::Vector3d(512.5769, -88.2291, 48.3286));
-  EXPECT_EQ(nanoseconds(track[1].stamp), 1750000001500000000);
-}
-
-TEST(PositionTrack, mayHaveAHeaderWithoutMark) { EXPECT_EQ(read("time,x,y,z\n1,1,2,3\n").size(), 1U); }
-
-TEST(PositionTrack, namesFileAndLineOfWhatIsNoMeasurement)
-{
-  EXPECT_THAT(complaintAbout("1,1,2,3\n2,1,two,3\n"), testing::HasSubstr("station.csv:2: expected 't,x,y,z'"));
-  EXPECT_THAT(complaintAbout("2,1,2,3\n2,1,2,3\n"),
-              testing::HasSubstr("station.csv:2: stamp 2.000000000 is not after"));
-  EXPECT_THROW(readTotalStation("/nowhere.csv"), std::invalid_argument);
-}
-
 /** A quarter turn to the left about the origin in a second. */
 Trajectory turning()
 {

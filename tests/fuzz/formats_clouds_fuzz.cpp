@@ -47,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   file.insert(file.end(), data + 1, data + size);
   try
   {
-    const auto positions = choice < kBeginnings.size() / 2 ? plyPositions(file) : pcdPositions(file);
+    const auto positions = (choice < kBeginnings.size() / 2 ? plyPoints(file) : pcdPoints(file)).positions;
     constexpr std::size_t kLongestCopy = 264;  // that a byte of compressed data can stand for
     require(positions.size() <= kLongestCopy * file.size());
   }

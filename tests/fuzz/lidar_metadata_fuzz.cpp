@@ -13,6 +13,7 @@
 #include "lidar/HesaiDecoder.h"
 #include "lidar/MetadataKeys.h"
 #include "lidar/OusterDecoder.h"
+#include "lidar/RobosenseDecoder.h"
 #include "lidar/VelodyneDecoder.h"
 #include "require.h"
 
@@ -64,6 +65,10 @@ std::vector<SoundFile> soundFiles()
                      "field_of_view_deg": [270, 90],
                      "vertical_angles_deg": [15, 13, 11, 9, 7, 5, 3, 1, -1, -3, -5, -7, -9, -11, -13, -15],
                      "azimuth_offsets_deg": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]})"),
+      withPlaces(R"({"lidar": "robosense", "model": "Helios-16P", "serial": "x", "rpm": 600, "returns": 2, "port": 6699,
+                     "field_of_view_deg": [270, 90],
+                     "vertical_angles_deg": [15, 13, 11, 9, 7, 5, 4, 3, 1, 0, -1, -3, -4, -5, -7, -8],
+                     "azimuth_offsets_deg": [-4, 4, -4, 4, -4, 4, -4, 4, -4, 4, -4, 4, -4, 4, -4, 4]})"),
   };
 }
 
@@ -131,6 +136,12 @@ void decode(const std::string& text)
   {
     const HesaiDecoder hesai(parseHesaiMetadata(text, "fuzz.json"), Rigid::identity());
     require(hesai.description().blockPeriod() > Duration{0} && hesai.description().columns_per_frame > 0);
+    return;
+  }
+  if (looksLikeRobosense(text))
+  {
+    const RobosenseDecoder robosense(parseRobosenseMetadata(text, "fuzz.json"), Rigid::identity());
+    require(robosense.description().blockPeriod() > Duration{0} && robosense.description().columns_per_frame > 0);
     return;
   }
   const OusterMetadata metadata = parseOusterMetadata(text, "fuzz.json");

@@ -13,6 +13,7 @@
 #include "lidar/HesaiModels.h"
 #include "lidar/MetadataKeys.h"
 #include "lidar/OusterDecoder.h"
+#include "lidar/RobosensePacket.h"
 #include "lidar/VelodynePacket.h"
 #include "packets/CaptureReader.h"
 
@@ -100,6 +101,7 @@ void addCapture(const fs::path& path, Corpus& corpus)
     const Bytes packet = datagram.payload;
     if (of_size[packet.size()]++ >= kPacketsPerCapture) continue;
     addHesai(packet, corpus);
+    if (packet.size() == kRobosensePacketBytes) corpus.add("lidar_robosense_packet", led({0, 0}, packet, 1300));
     if (packet.size() == kVelodynePacketBytes) corpus.add("lidar_velodyne_packet", led({0, 0}, packet, 1300));
     if (!ouster) continue;
     const PacketKind kind = ouster->kind(packet);

@@ -200,7 +200,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (damaged.empty()) return 0;  // MRPT refuses to write nothing
 
   const std::filesystem::path rawlog = memory.holding(Buffer{});
-  GzipArchive archive = GzipArchive::writing(rawlog, 1);
+  GzipArchive archive(rawlog, 1);
   for (const Buffer& each : {sound[0], sound[2], damaged, sound[1], sound[2]})
     archive.WriteBuffer(each.data(), each.size());
   archive.close();

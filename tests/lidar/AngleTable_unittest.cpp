@@ -16,6 +16,13 @@ TEST(AngleTable, readsRowsInAnyOrder)
   EXPECT_EQ(table.azimuth[2], -0.25);
 }
 
+TEST(AngleTable, takesRowsWithoutAChannelInTheirOrder)
+{
+  const AngleTable table = parseAngleTable("14.94,-4.05\t\n13.03,3.61\n", "unit.csv", 2);
+  EXPECT_EQ(table.vertical, (std::vector<double>{14.94, 13.03}));
+  EXPECT_EQ(table.azimuth, (std::vector<double>{-4.05, 3.61}));
+}
+
 TEST(AngleTable, saysWhichLineIsWrong)
 {
   const auto said = [](const std::string& csv) -> std::string
@@ -33,6 +40,9 @@ TEST(AngleTable, saysWhichLineIsWrong)
   EXPECT_EQ(said("id,elevation,azimuth\n1,2,3\n"), "unit.csv:2: channel 2 of 2 has no row");
   EXPECT_EQ(said("1,2,3\n1,2,3\n"), "unit.csv:2: channel 1 has two rows");
   EXPECT_EQ(said("1,2,3\n3,2,3\n"), "unit.csv:2: channel 3 is none of 1 to 2");
-  EXPECT_THAT(said("1,2,3\n2,up,3\n"), testing::HasSubstr("unit.csv:2: expected 'channel, vertical angle, azimuth'"));
+  EXPECT_THAT(said("1,2,3\n2,up,3\n"),
+              testing::HasSubstr("unit.csv:2: expected 'channel, vertical angle, azimuth' or"));
+  EXPECT_THAT(said("Channel,Time\n1,2\n2,3\n"), testing::HasSubstr("unit.csv:2: expected"));
+  EXPECT_EQ(said("1,2\n1,2\n1,2\n"), "unit.csv:3: channel 3 is none of 1 to 2");
   EXPECT_THAT(said("1,2,3\n2,nan,3\n"), testing::HasSubstr("expected"));
 }

@@ -76,7 +76,7 @@ class Rawlog : public testing::Test
 /** Objects as they are in a rawlog before it is compressed; readers take such a file, too. */
 std::string serialised(const fs::path& path, const std::vector<const mrpt::serialization::CSerializable*>& objects)
 {
-  GzipArchive archive = GzipArchive::writing(path, 0);
+  GzipArchive archive(path, 0);
   for (const auto* object : objects) archive << *object;
   archive.close();
   std::string plain(uncompressedBytes(path), '\0');
@@ -547,7 +547,7 @@ TEST_F(Rawlog, isNotUnpackedIntoMoreThanItsSizeCanMean)
   mrpt::obs::CObservationPointCloud bomb;
   bomb.pointcloud = points;
   {
-    GzipArchive archive = GzipArchive::writing(path_, 9);
+    GzipArchive archive(path_, 9);
     archive << bomb;
     archive.close();
   }

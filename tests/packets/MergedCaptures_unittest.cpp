@@ -52,6 +52,9 @@ TEST(MergedCaptures, endTheDamagedFileOnly)
   EXPECT_EQ(merged.counters().damages[0].rfind(damaged.string() + ": damaged after record 1", 0), 0u);
 }
 
-TEST(MergedCaptures, needAFile) { EXPECT_THROW(MergedCaptures({}), std::invalid_argument); }
+TEST(MergedCaptures, needAFile)
+{
+  EXPECT_THROW(MergedCaptures(std::vector<std::filesystem::path>{}), std::invalid_argument);
+}
 }  // namespace
 }  // namespace scanloom

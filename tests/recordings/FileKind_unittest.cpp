@@ -24,10 +24,12 @@ TEST(FileKind, isToldByContentNotByName)
   EXPECT_EQ(kindOfText("{\"lidar\": \"velodyne\", \"model\": \"VLP-16\"}"), FileKind::LidarMetadata);
 }
 
+TEST(FileKind, cloudsByTheirFirstLine) { EXPECT_EQ(kindOfText("ply\nformat ascii 1.0\n"), FileKind::Cloud); }
+
 TEST(FileKind, otherTextsAreNoneOfThem)
 {
   EXPECT_EQ(kindOfText(""), FileKind::Other);
-  EXPECT_EQ(kindOfText("ply\nformat ascii 1.0\n"), FileKind::Other);
+  EXPECT_EQ(kindOfText("polygon\nformat ascii 1.0\n"), FileKind::Other);
   EXPECT_EQ(kindOfText("{\"drift\": 0.1}"), FileKind::Other);
   EXPECT_EQ(kindOfText("#t [s],x [m],y [m],z [m]\n1750000000.030000000,512.5769,-88.2291,48.3286\n"), FileKind::Other);
   EXPECT_EQ(kindOfText("1750000000.0 0 0 0.16 0 0 0 1\n"), FileKind::Other);

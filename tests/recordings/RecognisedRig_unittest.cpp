@@ -4,6 +4,7 @@
 #include "packets/CaptureWriter.h"
 #include "packets/MergedCaptures.h"
 #include "rig/Rig.h"
+#include "support/Rosbag.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
@@ -17,6 +18,7 @@ namespace scanloom
 namespace
 {
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using Path = std::filesystem::path;
@@ -85,6 +87,24 @@ TEST(RecognisedRig, hasThePortsThatTheCaptureShows)
   EXPECT_EQ(rig.addresses[0].imu_port, 57503);
 }
 
+TEST(RecognisedRig, givesEachLidarItsImuWherePortsAreNotThoseOfTheMetadata)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const TemporaryFolder moved;
+  writeSome(folder / "recording.pcap", moved / "drive.pcap",
+            [](Datagram& datagram)
+            {
+              datagram.destination_port = static_cast<std::uint16_t>(datagram.destination_port + 50000);
+              return true;
+            });
+  for (const char* metadata : {"left.json", "right.json"}) std::filesystem::copy(folder / metadata, moved / metadata);
+  std::filesystem::copy(folder / "extrinsics.txt", moved / "extrinsics.txt");
+  const RecognisedRig recognised = recogniseRig(filesOf({moved.path()}));
+  EXPECT_EQ(rigFrom(recognised).addresses[0].imu_port, 57503);
+  EXPECT_EQ(rigFrom(recognised).addresses[1].imu_port, 57505);
+  EXPECT_THAT(recognised.notes, ElementsAre());
+}
+
 TEST(RecognisedRig, marksThePosesThatItCannotKnow)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
@@ -94,6 +114,7 @@ TEST(RecognisedRig, marksThePosesThatItCannotKnow)
   const RecognisedRig recognised = recogniseRig(filesOf({bare.path()}));
   EXPECT_THAT(recognised.unknown_poses, ElementsAre("lidar1_pose", "lidar2_pose"));
   EXPECT_THAT(recognised.ini, AllOf(HasSubstr("FILL IN"), HasSubstr("//lidar2_pose")));
+  EXPECT_THAT(recognised.notes, Contains(HasSubstr("scanloom calibrate")));
   EXPECT_THROW(rigFrom(recognised), ConfigError);
 }
 
@@ -126,6 +147,23 @@ TEST(RecognisedRig, knowsAVelodyneByItsPackets)
   // It bears the HDL-32E's number, but is at a VLP-16's pace (INVENTORY).
   SCANLOOM_NEEDS_DATA(vlp16, "other-lidars/jerry73204+rust-lidar-utils/velodyne-test/test_files/velodyne_vlp16.pcap");
   EXPECT_THAT(recogniseRig(filesOf({vlp16})).ini, HasSubstr("lidar1_metadata  = VLP-16"));
+}
+
+TEST(RecognisedRig, knowsAHeliosByItsPackets)
+{
+  SCANLOOM_NEEDS_DATA(bag,
+                      "other-lidars/tier4+nebula/nebula_tests/data/robosense/helios16P/rosbag2_2023_08_03-11_02_46/"
+                      "rosbag2_2023_08_03-11_02_46_0.db3");
+  const TemporaryFolder folder;
+  CaptureWriter writer(folder / "drive.pcap");
+  for (const StampedPacket& packet : robosensePacketsOfBag(bag))
+  {
+    const std::uint16_t port = packet.bytes[0] == 0x55 ? 6699 : 7788;
+    writer.write(Datagram{packet.received, IpAddress::parse("192.168.1.200"), port, port, packet.bytes});
+  }
+  writer.close();
+  EXPECT_THAT(recogniseRig(filesOf({folder / "drive.pcap"})).ini,
+              AllOf(HasSubstr("lidar1_metadata  = Helios-5515"), HasSubstr("lidar1_port      = 6699")));
 }
 
 TEST(RecognisedRig, ofACaptureWithoutMetadataSaysWhatItHolds)

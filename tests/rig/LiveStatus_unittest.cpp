@@ -48,6 +48,23 @@ TEST(LiveStatus, tellsPacketsPerSecondAndWhatIsMissing)
       "dropped");
 }
 
+TEST(LiveStatus, theLineOfATerminalFits80Columns)
+{
+  RigAccount now = accountOf(640, 640, 123456789);
+  now.lidars[0].counters.late = now.lidars[0].counters.dropped = 123456789;
+  EXPECT_EQ(LiveStatus::shortLine(accountOf(0, 0), accountOf(640, 640), 1, 60), "left 640/s, right 640/s");
+  EXPECT_EQ(LiveStatus::shortLine(accountOf(0, 0), accountOf(640, 640, 16), 1, 60), "left 640/s, right 640/s; 16 lost");
+  for (int i = 0; i < 30; ++i) now.lidars.push_back(now.lidars[0]);
+  std::ostringstream out;
+  {
+    StubInput input;
+    input.current = now;
+    LiveStatus status("record", out, true);
+    status.update(input, {1000, 1}, LiveStatus::Clock::now() + 100h);
+  }
+  EXPECT_LE(out.str().size(), std::string("\r\033[K").size() + 80);
+}
+
 TEST(LiveStatus, showsALineASecondOnATerminalAndOnePerTenSecondsElsewhere)
 {
   for (const auto& [terminal, lines] : {std::pair(true, 30), std::pair(false, 3)})

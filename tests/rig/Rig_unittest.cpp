@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "lidar/LidarModels.h"
+#include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
 using namespace scanloom;
@@ -45,6 +48,16 @@ TEST(RigOptions, twoLidarsNeedTwoNames)
           "[rig]\ndriver = CMultiLidarSensor\nlidar1_name=a\nlidar1_metadata=m\nlidar2_name=a\nlidar2_metadata=m\n")
           .find("must differ"),
       std::string::npos);
+}
+
+TEST(RigOptions, aModelIsNoPathUnlessThereIsAFileOfThatName)
+{
+  const TemporaryFolder folder;
+  EXPECT_EQ(metadataPathFrom("VLP-16", folder.path()), "VLP-16");
+  EXPECT_EQ(metadataPathFrom("left.json", folder.path()), (folder / "left.json").string());
+  std::ofstream(folder / "VLP-16") << "{}";
+  EXPECT_EQ(metadataPathFrom("VLP-16", folder.path()), (folder / "VLP-16").string());
+  EXPECT_EQ(capturePathsFrom("a.pcap , /b.pcap", "/in"), "/in/a.pcap, /b.pcap");
 }
 
 TEST(RigOptions, saysWhenNoSectionHasTheDriver)

@@ -1,5 +1,6 @@
 /** How a run ends that cannot go on. */
 #include "run/SlamRun.h"
+#include "run/SlamFiles.h"
 
 #include "core/AtomicFile.h"
 #include "formats/Trajectory.h"
@@ -77,9 +78,10 @@ struct BrokenRun : testing::Test
   SlamRunResult run(int scans, const std::function<void()>& fail) const
   {
     BrokenInput input(scans, fail);
-    SlamFiles files(folder.path(), input.setup().header.lidars, std::nullopt);
+    SlamFiles files(folder.path(), input.setup().header.lidars, OutputOptions{false, "", 0}, {});
     SlamRunResult result = runSlam(
-        input, {}, files, [](const RunProgress&) { return true; }, [](const std::string&) {});
+        input, {}, [&](const StateEstimate& estimate) { files.add(estimate); }, [](const RunProgress&) { return true; },
+        [](const std::string&) {});
     result.summary = files.close(result.summary);
     return result;
   }

@@ -156,6 +156,15 @@ TEST(LidarInertialSlam, posesBetweenScansComeAtTheImusRateAndEndAtTheEstimate)
   EXPECT_LT((e.since_last.back().map_T_body.translation - e.map_T_body.translation).norm(), 1e-9);
 }
 
+TEST(LidarInertialSlam, timesOfPointsCountFromTheEstimatesStamp)
+{
+  for (const StateEstimate& e : runFor(gentleMachine(3s), 4s).estimates)
+  {
+    EXPECT_GE(*std::min_element(e.cloud.t.begin(), e.cloud.t.end()), -100'000'000) << "the scan's first column";
+    EXPECT_LT(*std::max_element(e.cloud.t.begin(), e.cloud.t.end()), 0);
+  }
+}
+
 TEST(LidarInertialSlam, aKeyframeIsAddedEveryFourMetres)
 {
   const Driven run = runFor(gentleMachine(3s), 14s);

@@ -42,11 +42,12 @@ class GrabberLiveParams : public testing::TestWithParam<LiveParams>
 {
  protected:
   TemporaryFolder folder;
-  fs::path ini = kParams / "rawlog-grabber" / GetParam().file;
+  fs::path ini = folder / GetParam().file;
 
-  /** A sensor's metadata under every name that the files know, each with a serial number of its own. */
-  void copyMetadata(const fs::path& recording) const
+  /** The file, and a sensor's metadata under every name that the files know, each with a serial number of its own. */
+  void copyInto(const fs::path& recording) const
   {
+    fs::copy(kParams / "rawlog-grabber" / GetParam().file, ini);
     nlohmann::json metadata = nlohmann::json::parse(contentOf(recording / "left.json"));
     int serial_number = 1000;
     for (const char* name : {"top", "left", "right", "front_left", "front_right", "rear_left", "rear_right"})
@@ -65,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Files, GrabberLiveParams,
 TEST_P(GrabberLiveParams, runSlamTogetherWithTheHarvestersValues)
 {
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
-  copyMetadata(recording);
+  copyInto(recording);
   const Ended ended = runProgram(
       inFolder(fmt::format(SCANLOOM_BIN_DIR "/scanloom slam -c {} -c {}/harvester.ini --out-dir out --dry-run",
                            ini.string(), kParams.string())) +
@@ -80,7 +81,7 @@ TEST_P(GrabberLiveParams, runInTheStockGrabberUntilItIsInterrupted)
 {
   SCANLOOM_NEEDS_PROGRAM("rawlog-grabber");
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
-  copyMetadata(recording);
+  copyInto(recording);
   const OpenInput input(folder / "input");
   ChildProcess grabber(
       inFolder(fmt::format("rawlog-grabber -p {} {} < {}", SCANLOOM_PLUGIN, ini.string(), input.path().string())),

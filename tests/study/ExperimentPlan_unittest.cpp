@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "study/RunHash.h"
 #include "support/TemporaryFolder.h"
 
 namespace scanloom
@@ -101,6 +102,29 @@ TEST_F(ExperimentPlanOf, drawsNothingInRecordings)
   EXPECT_THAT(labelsOf(plan("recordings = drive\nlidars = left\nseeds = 1:10\n")), ElementsAre("drive left n1"));
 }
 
+TEST_F(ExperimentPlanOf, tellsRecordingsOfTheSameNameApart)
+{
+  std::filesystem::create_directories(folder_ / "monday");
+  std::filesystem::create_directories(folder_ / "tuesday");
+  std::ofstream(folder_ / "monday/drive.pcap.gz") << "packets";
+  std::ofstream(folder_ / "tuesday/drive.pcap") << "packets";
+
+  EXPECT_THAT(labelsOf(plan("recordings = monday/drive.pcap.gz tuesday/drive.pcap\n")),
+              ElementsAre("monday drive all n1", "tuesday drive all n1"));
+}
+
+TEST_F(ExperimentPlanOf, takesAReferenceOrNoneForEachRecording)
+{
+  std::ofstream(folder_ / "survey.csv") << "t,x,y,z\n";
+  const std::string two = "recordings = drive drive/recording.pcap\n";
+
+  const ExperimentPlan given = plan(two + "references = none survey.csv\n");
+
+  EXPECT_EQ(given.runs[0].reference, "none");
+  EXPECT_EQ(given.runs[1].reference, folder_ / "survey.csv");
+  EXPECT_THAT(complaintAbout(two + "references = survey.csv\n"), HasSubstr("for each of the 2 recordings"));
+}
+
 TEST_F(ExperimentPlanOf, findsFilesFromTheFolderOfTheFileThatNamesThem)
 {
   EXPECT_EQ(plan("simulations = stands/easy.ini\n").runs[0].simulation, folder_ / "stands/easy.ini");
@@ -117,8 +141,6 @@ TEST_F(ExperimentPlanOf, namesFileLineAndWhatIsWrong)
   EXPECT_THAT(complaintAbout(easy + "every_nth = 1 2.5\n"), HasSubstr("every_nth"));
   EXPECT_THAT(complaintAbout(easy + "axis1_name = a.b\n"), HasSubstr("axis1_name"));
   EXPECT_THAT(complaintAbout("lidars = left\n"), HasSubstr("recordings must name what runs"));
-  std::ofstream(folder_ / "slam.ini") << "[lidars]\npcap_input = always_the_same.pcap\n";
-  EXPECT_THAT(complaintAbout(easy), HasSubstr("configurations"));
 }
 
 TEST_F(ExperimentPlanOf, hashesDifferWithAnythingThatTheResultDependsOn)
@@ -138,6 +160,17 @@ TEST_F(ExperimentPlanOf, hashesDifferWithAnythingThatTheResultDependsOn)
   EXPECT_EQ(hash(plan(lines), 0), before);
   std::ofstream(folder_ / "stands/easy.ini") << "[simulated_drive]\nduration = 3\n";
   EXPECT_NE(hash(plan(lines), 0), before);
+}
+
+TEST_F(ExperimentPlanOf, hashesOfRecordingsDifferWithTheirFilesAndTheReference)
+{
+  const std::string lines = "recordings = drive\n";
+  const auto hash = [&](const ExperimentPlan& p) { return configurationHash(p.runs[0], p, "1.0"); };
+  const std::string before = hash(plan(lines));
+  EXPECT_NE(hash(plan(lines + "references = stands/easy.ini\n")), before);
+
+  std::ofstream(folder_ / "drive/groundtruth.tum") << "1 0 0 0 0 0 0 1\n";
+  EXPECT_NE(hash(plan(lines)), before);
 }
 }  // namespace
 }  // namespace scanloom

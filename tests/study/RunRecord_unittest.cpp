@@ -1,5 +1,6 @@
 #include "study/RunRecord.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -53,12 +54,27 @@ TEST(RunRecord, isALineOfCsvWithEmptyCellsForWhatARunHasNot)
   std::ostringstream csv;
   writeCsv(csv, {dual, failed});
 
-  EXPECT_EQ(csv.str(),
-            "version,configuration,stand,lidars,every_nth,slam.imu,seed,outcome,lost,drift_m,drift_percent,drift_imu_m,"
-            "drift_floor_m,final_m,ape_rmse_m,rpe_rmse_m,rpe_rmse_deg,path_m,samples,real_time_factor,peak_memory_mb,"
-            "elapsed_s,ms_smoother,error\n"
-            "1.0,0123,easy,\"left,right\",5,auto,3,OK,0,0.2500,0.025,,,0.0000,0.0000,,,1000.00,0,4.00,200,0.0,0.500,\n"
-            "1.0,0123,easy,left,1,auto,1,FAILED,0,,,,,,,,,,,,,,,\"status 1, \"\"no\"\" memory\"\n");
+  EXPECT_EQ(
+      csv.str(),
+      "version,configuration,stand,lidars,every_nth,slam.imu,seed,outcome,lost,drift_m,drift_percent,drift_imu_m,"
+      "drift_floor_m,final_m,ape_rmse_m,rpe_rmse_m,rpe_rmse_deg,path_m,samples,real_time_factor,peak_memory_mb,"
+      "elapsed_s,ms_smoother,poses_ok_percent,reference,error\n"
+      "1.0,0123,easy,\"left,right\",5,auto,3,OK,0,0.2500,0.025,,,0.0000,0.0000,,,1000.00,0,4.00,200,0.0,0.500,,,\n"
+      "1.0,0123,easy,left,1,auto,1,FAILED,0,,,,,,,,,,,,,,,,,\"status 1, \"\"no\"\" memory\"\n");
+}
+
+TEST(RunRecord, hasEmptyCellsInsteadOfZerosWithoutAReference)
+{
+  RunRecord record = runWithDrift(0.25);
+  record.figures.reset();
+  record.ok_percent = 97.5;
+
+  std::ostringstream csv;
+  writeCsv(csv, {record});
+
+  EXPECT_THAT(csv.str(), testing::EndsWith("\n1.0,0123,easy,left,1,1,OK,0,,,,,,,,,,,4.00,200,0.0,0.500,97.5,,\n"));
+  EXPECT_EQ(nlohmann::json(record).get<RunRecord>().ok_percent, 97.5);
+  EXPECT_FALSE(nlohmann::json(record).get<RunRecord>().figures);
 }
 }  // namespace
 }  // namespace scanloom

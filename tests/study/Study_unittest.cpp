@@ -47,6 +47,23 @@ TEST(Study, aMedianCanBeLostOrMissing)
   EXPECT_FALSE(summaryOfDrifts({}).median());
 }
 
+TEST(Study, aRunWithoutAReferenceHasNoDriftButIsNoFailure)
+{
+  RunRecord not_compared = runWithDrift(0), lost = not_compared;
+  not_compared.figures.reset();
+  lost.figures.reset();
+  lost.outcome = "LOST";
+  const std::vector<RunRecord> records{not_compared, lost};
+
+  const CellSummary drift = summaryOf(cellsOf(records).front(), kDrift);
+
+  EXPECT_TRUE(drift.empty());
+  EXPECT_EQ(drift.failed, 0U);
+  EXPECT_FALSE(drift.median());
+  EXPECT_FALSE(not_compared.lost());
+  EXPECT_TRUE(lost.lost());
+}
+
 TEST(Study, whatLostRunsCostCountsLikeThatOfOthers)
 {
   Quantity cost = kDrift;

@@ -55,14 +55,15 @@ inline std::vector<std::vector<std::uint8_t>> packetsOfBag(const std::filesystem
   }
   return packets;
 }
+
 struct StampedPacket
 {
   Timestamp received;
   std::vector<std::uint8_t> bytes;
 };
 
-/** The packets of pandar_msgs/PandarScan messages: header, then a sequence of (stamp, uint8[1500], uint32 used). */
-inline std::vector<StampedPacket> pandarPacketsOfBag(const std::filesystem::path& bag)
+/** A sequence of (stamp, `flag_bytes`, uint8[1500], uint32 used) behind a header. */
+inline std::vector<StampedPacket> packetsOfScans(const std::filesystem::path& bag, std::size_t flag_bytes)
 {
   constexpr std::size_t kEncapsulation = 4, kStamp = 8, kLength = 4, kField = 1500;
   const auto aligned = [](std::size_t offset) { return (offset + 3) / 4 * 4; };
@@ -73,14 +74,27 @@ inline std::vector<StampedPacket> pandarPacketsOfBag(const std::filesystem::path
     at = aligned(at + kLength + load<std::uint32_t>(message, at));  // frame_id
     const auto count = load<std::uint32_t>(message, at);
     at += kLength;
-    for (std::uint32_t i = 0; i < count; ++i, at += kStamp + kField + kLength)
+    const std::size_t used = aligned(kStamp + flag_bytes + kField);
+    for (std::uint32_t i = 0; i < count; ++i, at += used + kLength)
     {
       const std::chrono::nanoseconds seconds = std::chrono::seconds{load<std::uint32_t>(message, at)};
-      const Bytes packet = Bytes(message).slice(at + kStamp, load<std::uint32_t>(message, at + kStamp + kField));
+      const Bytes packet = Bytes(message).slice(at + kStamp + flag_bytes, load<std::uint32_t>(message, at + used));
       packets.push_back({Timestamp{seconds + std::chrono::nanoseconds{load<std::uint32_t>(message, at + 4)}},
                          {packet.begin(), packet.end()}});
     }
   }
   return packets;
+}
+
+/** The packets of pandar_msgs/PandarScan messages. */
+inline std::vector<StampedPacket> pandarPacketsOfBag(const std::filesystem::path& bag)
+{
+  return packetsOfScans(bag, 0);
+}
+
+/** The packets of robosense_msgs/RobosenseScan messages. */
+inline std::vector<StampedPacket> robosensePacketsOfBag(const std::filesystem::path& bag)
+{
+  return packetsOfScans(bag, 1);
 }
 }  // namespace scanloom

@@ -1,0 +1,156 @@
+#include "LiveWindow.h"
+
+#include "LiveScene.h"
+#include "live_view/LiveMap.h"
+#include "live_view/yieldToAll.h"
+
+#include <fmt/format.h>
+#include <mrpt/gui/CDisplayWindow3D.h>
+#include <mrpt/gui/keycodes.h>
+
+#include <cctype>
+#include <cstdlib>
+#include <stdexcept>
+#include <utility>
+
+namespace scanloom
+{
+namespace
+{
+constexpr auto kDrawEvery = 100ms;
+constexpr std::size_t kBytesAtOnce = 1 << 20;
+constexpr double kSkip = 5;  // s
+constexpr const char* kKeys =
+    "F: follow or not   M: mark an event   Q: close   of a player: Space, S: step, + -: speed, left right: 5 s";
+
+std::vector<std::string> linesOf(const ViewStatus& status)
+{
+  const auto now = std::chrono::steady_clock::now();
+  std::vector<std::string> lines{wordFor(status, now)};
+  if (!status.why.empty()) lines.front() += ": " + status.why;
+  for (const ViewedLidar& lidar : status.lidars)
+  {
+    const double silence = silenceOf(lidar, status, now);
+    lines.push_back(fmt::format("{}: {:.0f}/s, {} lost{}", lidar.name, lidar.rate, lidar.lost,
+                                silence > kSilent ? fmt::format(", silent for {:.1f} s", silence) : ""));
+  }
+  if (status.poses > 0) lines.push_back(fmt::format("{:.1f} m, {:.1f} m/s", status.distance, status.speed));
+  if (status.factor) lines.push_back(fmt::format("{:.1f} times real time", *status.factor));
+  if (const auto& player = status.player)
+    lines.push_back(fmt::format("{:.1f} of {:.1f} s, speed {:g}", player->position, player->length, player->speed));
+  for (std::size_t i = 0; i < status.warnings.size() && i < 3; ++i)
+    lines.push_back(fmt::format("warning ({}): {}", status.warnings[i].count, status.warnings[i].text));
+  return lines;
+}
+
+/** What a key asks of a player; empty if nothing. */
+std::string commandOf(int key, const PlayerStatus& player)
+{
+  using namespace mrpt::gui;
+  switch (key)
+  {
+    case MRPTK_SPACE:
+      return player.playing ? "pause" : "play";
+    case 'S':
+      return "step";
+    case '+':
+    case '=':
+      return fmt::format("speed {:g}", std::min(100.0, 2 * player.speed));
+    case '-':
+      return fmt::format("speed {:g}", std::max(0.1, player.speed / 2));
+    case MRPTK_LEFT:
+      return fmt::format("seek {:.3f}", std::max(0.0, player.position - kSkip));
+    case MRPTK_RIGHT:
+      return fmt::format("seek {:.3f}", player.position + kSkip);
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+class LiveWindow::Drawing
+{
+ public:
+  Drawing(const std::string& title, LiveExchange& exchange) : exchange_(exchange), window_(title, 1280, 800)
+  {
+    window_.get3DSceneAndLock() = scene_.scene();
+    window_.unlockAccess3DScene();
+    window_.setCameraZoom(40);
+    window_.setCameraAzimuthDeg(-120);
+    window_.setCameraElevationDeg(40);
+  }
+
+  /** False once the window is closed. */
+  bool update()
+  {
+    LiveNews news;
+    ViewStatus status;
+    {
+      const std::lock_guard lock(exchange_.mutex);
+      std::swap(news, exchange_.news);
+      status = exchange_.status;
+    }
+    map_.add(news);
+    draw(map_.lackedBy(seen_, kBytesAtOnce), linesOf(status));
+    return window_.isOpen() && obeyKeys(status);
+  }
+
+ private:
+  void draw(const std::string& messages, const std::vector<std::string>& lines)
+  {
+    constexpr int kLine = 18;  // pixels
+    window_.get3DSceneAndLock();
+    scene_.apply({reinterpret_cast<const std::uint8_t*>(messages.data()), messages.size()});
+    window_.clearTextMessages();
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      window_.addTextMessage(8, -kLine * static_cast<int>(i + 1), lines[i], i);
+    window_.addTextMessage(8, 8, kKeys, lines.size());
+    window_.unlockAccess3DScene();
+    const Eigen::Vector3f& p = scene_.position();
+    if (follow_) window_.setCameraPointingToPoint(p.x(), p.y(), p.z());
+    window_.repaint();
+  }
+
+  bool obeyKeys(const ViewStatus& status)
+  {
+    if (!window_.keyHit()) return true;
+    const int key = window_.getPushedKey();
+    const int letter = key < 128 ? std::toupper(key) : key;
+    if (letter == 'F') follow_ = !follow_;
+    const std::string command = status.player ? commandOf(letter, *status.player) : "";
+    const std::lock_guard lock(exchange_.mutex);
+    if (!command.empty()) exchange_.commands.push_back(command);
+    if (letter == 'M') exchange_.marks.push_back({"window", {}});
+    return letter != 'Q';
+  }
+
+  LiveExchange& exchange_;
+  mrpt::gui::CDisplayWindow3D window_;
+  LiveScene scene_;
+  LiveMap map_;
+  SeenByPage seen_;
+  bool follow_ = true;
+};
+LiveWindow::LiveWindow(const std::string& title, LiveExchange& exchange)
+{
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
+    throw std::runtime_error("there is no display for a window: use --web");
+  drawing_ = std::make_unique<Drawing>(title, exchange);  // by this thread: one that yields may be too late for MRPT
+  exchange.viewers = 1;
+  thread_ = std::thread([this] { show(); });
+}
+
+LiveWindow::~LiveWindow()
+{
+  stopping_ = true;
+  thread_.join();
+}
+
+void LiveWindow::show()
+{
+  yieldToAll();
+  while (!stopping_ && drawing_->update()) std::this_thread::sleep_for(kDrawEvery);
+  open_ = false;
+}
+}  // namespace scanloom

@@ -1,0 +1,61 @@
+#include "SlamInput.h"
+
+#include "core/ConfigError.h"
+#include "core/Progress.h"
+#include "mrpt_bridge/ImuDriverInput.h"
+#include "mrpt_bridge/RawlogInput.h"
+#include "mrpt_bridge/configuredImu.h"
+#include "recordings/CloudsInput.h"
+#include "rig/ReadAhead.h"
+#include "rig/RigOptions.h"
+#include "rig/openRig.h"
+#include "run/ImuInUse.h"
+#include "simulation/SimulatedRig.h"
+
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+SlamInput openLive(const Rig& rig, const Configuration& configuration, const std::string& section)
+{
+  std::unique_ptr<SensorInput> sensors = openRig(rig);
+  if (auto imu = openConfiguredImu(configuration, section))
+    sensors = std::make_unique<ImuDriverInput>(std::move(sensors), std::move(imu));
+  return {std::move(sensors), 0, "", true};
+}
+
+std::unique_ptr<SensorInput> readAhead(std::unique_ptr<SensorInput> input)
+{
+  return std::make_unique<ReadAhead>(std::move(input));
+}
+}  // namespace
+
+SlamInput openInput(const RecordingFiles& files, const SceneArguments& scene, const std::vector<std::string>& lidars,
+                    const Configuration& configuration)
+{
+  if (!files.rawlogs.empty()) return {readAhead(std::make_unique<RawlogInput>(files.rawlogs.front(), lidars))};
+  if (!files.clouds.empty())
+  {
+    if (!lidars.empty()) throw UsageError("clouds do not tell lidars apart: all lidars are used");
+    return {readAhead(std::make_unique<CloudsInput>(files.clouds))};
+  }
+  if (scene.given())
+  {
+    const SimulatedRig simulated = simulatedRig(configuration, scene.seed, lidars);
+    return {readAhead(makeSceneInput(simulated.scene, simulated.rig)),
+            static_cast<std::uint64_t>(std::ceil(simulated.scene->span.duration)), "s"};
+  }
+  const std::string section = rigSection(configuration);
+  const Rig rig = makeRig(readRigSettings(configuration, section), lidars);
+  if (rig.captures.empty()) return openLive(rig, configuration, section);
+  const std::uint64_t megabytes = megabytesOf(rig.captures);
+  return {readAhead(openRig(rig)), megabytes};
+}
+
+void refuseUnknownImu(const SlamInput& input, const SlamOptions& options)
+{
+  chosenImu(*input.sensors, options.imu, fromSeconds(1e-3 * options.imu_delay_ms));
+}
+}  // namespace scanloom

@@ -1,0 +1,48 @@
+/** What `slam` reads: its settings, and its sensors. */
+#pragma once
+#include "Arguments.h"
+#include "maps/OctoMapExport.h"
+#include "recordings/RecordingFiles.h"
+#include "rig/SensorInput.h"
+#include "run/OutputOptions.h"
+#include "run/SlamRun.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+struct SlamVerbSettings : SlamSettings
+{
+  OutputOptions output;
+  OctoMapOptions octomap;
+
+  template <typename Self, typename Visitor>
+  static void sections(Self& s, Visitor&& visit)
+  {
+    SlamSettings::sections(s, visit);
+    visit(s.output, Section{"output", "the files that 'slam' writes"});
+    visit(s.octomap, Section{"octomap", "the occupancy map (OctoMap)"});
+  }
+};
+
+struct SlamInput
+{
+  std::unique_ptr<SensorInput> sensors;
+  std::uint64_t size = 0;  // 0: not known
+  const char* unit = "MB";
+  bool live = false;
+};
+
+/**
+ * The rawlog of `files`, the scene, or the rig of the configuration, which reads the captures or live lidars.
+ * @param lidars names of those to use; empty: all.
+ */
+SlamInput openInput(const RecordingFiles& files, const SceneArguments&, const std::vector<std::string>& lidars,
+                    const Configuration&);
+
+/** Throws ConfigError if the settings name an IMU that the input does not have. */
+void refuseUnknownImu(const SlamInput&, const SlamOptions&);
+}  // namespace scanloom

@@ -1,0 +1,94 @@
+#include "Web.h"
+
+#include "core/ConfigError.h"
+
+#include <fmt/format.h>
+
+namespace scanloom
+{
+namespace
+{
+constexpr const char* kDefaultAddress = "127.0.0.1:8080";
+constexpr std::uint16_t kDefaultPort = 8080;
+
+bool isLoopback(const IpAddress& ip)
+{
+  const std::string text = SensorAddress{ip}.text();
+  return text.rfind("127.", 0) == 0 || text == "::1";
+}
+}  // namespace
+
+Option addWeb(CLI::App& app, WebArguments& arguments)
+{
+  return addOption(
+             app, "--web", arguments.address,
+             fmt::format("show the run on a page for browsers; default: http://{}. Other computers reach it at an "
+                         "address of this one, or 0.0.0.0:8080 for all",
+                         kDefaultAddress))
+      .optionalValue(kDefaultAddress)
+      .typeName("ADDRESS:PORT");
+}
+
+void addWindow(CLI::App& app, const Option& web, WebArguments& arguments)
+{
+  addFlag(app, "--window", arguments.window, "show the run in a window of this display").excludes(web);
+}
+
+SensorAddress webAddress(const WebArguments& arguments)
+{
+  try
+  {
+    SensorAddress address = SensorAddress::parse(arguments.address);
+    const std::string web_port = fmt::format(":{}", SensorAddress::kHttpPort);
+    const bool has_web_port =
+        arguments.address.size() > web_port.size() &&
+        arguments.address.compare(arguments.address.size() - web_port.size(), web_port.size(), web_port) == 0;
+    if (address.port == SensorAddress::kHttpPort && !has_web_port) address.port = kDefaultPort;
+    return address;
+  }
+  catch (const std::invalid_argument& error)
+  {
+    throw UsageError(fmt::format("--web {}: {}; without an address write --web last, or --web={}", arguments.address,
+                                 error.what(), kDefaultAddress));
+  }
+}
+
+void announcePage(const LiveServer& server, const SensorAddress& address)
+{
+  fmt::print(stderr, "{}\n", server.url());
+  if (!isLoopback(address.ip))
+    fmt::print(stderr, "warning: everyone who reaches {} sees the map and may mark events\n", address.text());
+}
+
+Web::Web(const WebArguments& arguments, const ViewedWork& work, SensorInput& input, const std::filesystem::path& folder)
+  : feed_(exchange_, work), input_(input, feed_)
+{
+  if (arguments.window)
+  {
+    window_ = std::make_unique<LiveWindow>("scanloom " + work.verb, exchange_);
+    return;
+  }
+  const SensorAddress address = webAddress(arguments);
+  server_ = std::make_unique<LiveServer>(address, exchange_, LiveServerOptions{5e6, 8, folder});
+  announcePage(*server_, address);
+}
+
+void Web::update(const FeedProgress& progress)
+{
+  constexpr auto kAccountEvery = 200ms;  // the account is copied whole
+  const auto now = LiveFeed::Clock::now();
+  if (now - accounted_ >= kAccountEvery)
+  {
+    feed_.update(input_.account(), progress, now);
+    accounted_ = now;
+  }
+  feed_.offer(now);
+}
+
+std::unique_ptr<Web> openWeb(const WebArguments& arguments, const ViewedWork& work, SensorInput& input,
+                             const std::filesystem::path& folder)
+{
+  if (!arguments.given()) return nullptr;
+  return std::make_unique<Web>(arguments, work, input, folder.empty() ? "." : folder);
+}
+}  // namespace scanloom

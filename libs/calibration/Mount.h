@@ -1,0 +1,22 @@
+/** Pose and clock of a lidar on the body, and what it sees with them. */
+#pragma once
+#include "calibration/LidarScans.h"
+#include "core/StampedPose.h"
+#include "ndt/View.h"
+
+#include <optional>
+
+namespace scanloom
+{
+struct Mount
+{
+  Rigid body_T_sensor;
+  double clock_offset = 0;  // s: its stamps are so much later than the reference's for the same instant
+};
+
+/**
+ * The scan's points as they would have been seen from the body at the instant `at`, in its frame. None if the
+ * trajectory does not cover the scan and the instant, or has a gap of more than 0.5 s there.
+ */
+std::optional<View> viewFrom(const LidarScan&, const Mount&, const Trajectory&, Timestamp at);
+}  // namespace scanloom

@@ -1,0 +1,112 @@
+#include "calibration/MountCovariance.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kBlocks = 20;
+constexpr double kUntold = 10;                               // m
+constexpr double kOpenClock = 0.005;                         // s
+constexpr double kFlat = 1e-4;                               // of the largest curvature
+constexpr double kCommonOffset = 0.003, kCommonShare = 0.1;  // m; of the distance of surfaces
+constexpr double kCommonArm = 10;                            // m: the same error as a turn is this much less
+
+/** The expectation of a scatter's inverse is larger than that of few blocks shows (Hotelling's T2). */
+Matrix7d scatterOf(const std::vector<Vector7d>& gradients, int numbers)
+{
+  const std::size_t blocks = std::min(kBlocks, gradients.size());
+  Vector7d mean = Vector7d::Zero();
+  std::vector<Vector7d> sums(blocks, Vector7d::Zero());
+  for (std::size_t i = 0; i < gradients.size(); ++i) sums[i * blocks / gradients.size()] += gradients[i];
+  for (const Vector7d& sum : sums) mean += sum / static_cast<double>(blocks);
+  Matrix7d scatter = Matrix7d::Zero();
+  for (const Vector7d& sum : sums) scatter += (sum - mean) * (sum - mean).transpose();
+  const auto n = static_cast<double>(blocks);
+  return scatter * n / std::max(1.0, n - numbers - 2);
+}
+
+void withoutClock(Matrix7d& matrix)
+{
+  matrix.row(6).setZero();
+  matrix.col(6).setZero();
+}
+
+/** From corrections about the body's origin to errors at the sensor, both in metres. */
+Matrix7d atSensor(const Eigen::Vector3d& sensor)
+{
+  Matrix7d at_sensor = Matrix7d::Identity();
+  at_sensor.block<3, 3>(0, 3) = -skew(sensor);
+  const Vector7d scale = mountStepOfMetres();
+  return scale.cwiseInverse().asDiagonal() * at_sensor * scale.asDiagonal();
+}
+}  // namespace
+
+Matrix7d sandwich(const Matrix7d& hessian, const std::vector<Vector7d>& gradients, Clock clock)
+{
+  const Eigen::SelfAdjointEigenSolver<Matrix7d> solver(hessian);
+  Matrix7d inverse = Matrix7d::Zero(), untold = Matrix7d::Zero();
+  for (int i = 0; i < 7; ++i)
+  {
+    const Vector7d direction = solver.eigenvectors().col(i);
+    if (solver.eigenvalues()[i] > kFlat * solver.eigenvalues()[6])
+      inverse += direction * direction.transpose() / solver.eigenvalues()[i];
+    else
+      untold += kUntold * kUntold * direction * direction.transpose();
+  }
+  const Matrix7d scatter = scatterOf(gradients, clock == Clock::Kept ? 6 : 7);
+  return inverse * scatter * inverse + untold;
+}
+
+Matrix7d mountCovariance(const Matrix7d& all, const std::vector<Vector7d>& gradients, Clock clock,
+                         const Eigen::Vector3d& sensor_in_body, double surface_distance)
+{
+  Matrix7d hessian = all;
+  if (clock == Clock::Kept) withoutClock(hessian);
+  std::vector<Vector7d> in_metres;
+  for (const Vector7d& gradient : gradients) in_metres.emplace_back(mountStepOfMetres().cwiseProduct(gradient));
+  const Matrix7d at_sensor = atSensor(sensor_in_body);
+  Matrix7d covariance = at_sensor * sandwich(hessian, in_metres, clock) * at_sensor.transpose();
+  if (clock == Clock::Kept) withoutClock(covariance);
+  Vector7d common;
+  const double offset = std::max(kCommonOffset, kCommonShare * surface_distance);
+  common << Eigen::Vector3d::Constant(offset), Eigen::Vector3d::Constant(offset / kCommonArm), 0;
+  covariance.diagonal() += common.cwiseQuotient(mountStepOfMetres()).cwiseAbs2();
+  return covariance;
+}
+
+std::vector<OpenDirection> openDirections(const Matrix7d& covariance, double limit)
+{
+  constexpr double kMostly = 0.7;
+  std::vector<OpenDirection> open;
+  const Eigen::SelfAdjointEigenSolver<Matrix7d> solver(covariance);
+  for (int i = 6; i >= 0; --i)
+  {
+    const Vector7d direction = solver.eigenvectors().col(i);
+    const double sigma = std::sqrt(std::max(0.0, solver.eigenvalues()[i]));
+    const bool of_clock = std::abs(direction[6]) > kMostly;
+    if (sigma > (of_clock ? kOpenClock : limit)) open.push_back({direction, sigma});
+  }
+  return open;
+}
+
+Mount keepingOpen(const Mount& start, const Mount& estimate, const std::vector<OpenDirection>& open)
+{
+  const Rigid &from = start.body_T_sensor, &to = estimate.body_T_sensor;
+  Vector7d change;
+  change << to.translation - from.translation, logSo3(to.rotation * from.rotation.conjugate()),
+      estimate.clock_offset - start.clock_offset;
+  Vector7d metres = change.cwiseQuotient(mountStepOfMetres());
+  for (const OpenDirection& o : open) metres -= o.direction * o.direction.dot(metres);
+  change = metres.cwiseProduct(mountStepOfMetres());
+  Mount kept;
+  kept.body_T_sensor.translation = from.translation + change.head<3>();
+  kept.body_T_sensor.rotation = (expSo3(change.segment<3>(3)) * from.rotation).normalized();
+  kept.clock_offset = start.clock_offset + change[6];
+  return kept;
+}
+}  // namespace scanloom

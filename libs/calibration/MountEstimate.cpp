@@ -1,0 +1,120 @@
+#include "calibration/MountEstimate.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kFewestStations = 10;
+constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
+constexpr int kRounds = 6;
+constexpr double kSettled = 5e-4;  // m, a round's correction
+
+constexpr MountLevel kCoarse{2.0, 0.2}, kMiddle{1.0, 0.4};
+// Cells of 0.5 m hold so few points of one scan that the pattern of its beams pulls the sensors together by 2 cm.
+constexpr MountLevel kFine{1.0, 1.0};
+
+std::vector<Vector6d> twistsOf(const std::vector<Station>& stations)
+{
+  std::vector<Vector6d> twists;
+  for (const Station& station : stations) twists.push_back(station.twist);
+  return twists;
+}
+
+Mount moved(const Mount& mount, const MountCorrection& correction)
+{
+  return {correction.pose * mount.body_T_sensor, mount.clock_offset + correction.clock};
+}
+
+double lengthOf(const MountCorrection& correction)
+{
+  Vector7d step;
+  step << boxMinus(correction.pose, Rigid::identity()), correction.clock;
+  return step.cwiseQuotient(mountStepOfMetres()).norm();
+}
+
+/** What a level does from one mount to a better one. */
+class LevelOfDrive
+{
+ public:
+  LevelOfDrive(const std::vector<Station>& stations, const Trajectory& trajectory, const MountLevel& level, Clock clock)
+    : stations_(stations),
+      trajectory_(trajectory),
+      level_(level),
+      clock_(clock),
+      twists_(twistsOf(stations)),
+      reference_(mapsOfReference(stations, level))
+  {
+  }
+
+  /** Whether the mount changes no more. */
+  bool improve(Mount& mount) const
+  {
+    for (int round = 0; round < kRounds; ++round)
+    {
+      const std::vector<NdtMap> lidar = mapsOfLidar(stations_, mount, trajectory_, level_);
+      std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
+      const MountMinimum minimum = minimiseMount(pairs, twists_, clock_, level_.d2);
+      mount = moved(mount, minimum.correction);
+      if (lengthOf(minimum.correction) < kSettled) return true;
+    }
+    return false;
+  }
+
+  struct Fit
+  {
+    double shared, distance;
+    Matrix7d covariance;  // in metres
+  };
+
+  Fit fitOf(const Mount& mount) const
+  {
+    const std::vector<NdtMap> lidar = mapsOfLidar(stations_, mount, trajectory_, level_);
+    std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
+    const Matrix7d hessian = hessianOf(pairs, twists_, {}, level_.d2);
+    const MountEquations equations = mountEquations(pairs, twists_, {}, level_.d2);
+    const double distance = surfaceDistance(pairs);
+    return {equations.met_points / std::max(1.0, pointsInCells(lidar)), distance,
+            mountCovariance(hessian, equations.gradients, clock_, mount.body_T_sensor.translation, distance)};
+  }
+
+ private:
+  const std::vector<Station>& stations_;
+  const Trajectory& trajectory_;
+  MountLevel level_;
+  Clock clock_;
+  std::vector<Vector6d> twists_;
+  std::vector<NdtMap> reference_;
+};
+}  // namespace
+
+MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& given, const Mount& start,
+                            const Trajectory& trajectory, Clock clock)
+{
+  MountEstimate estimate;
+  estimate.mount = given;
+  estimate.stations = stations.size();
+  if (stations.size() < kFewestStations) return estimate;
+
+  Mount mount = start;
+  for (const MountLevel& level : {kCoarse, kMiddle}) LevelOfDrive(stations, trajectory, level, clock).improve(mount);
+  const LevelOfDrive fine(stations, trajectory, kFine, clock);
+  const LevelOfDrive::Fit before = fine.fitOf(given);
+  const bool settled = fine.improve(mount);
+  const LevelOfDrive::Fit after = fine.fitOf(mount);
+  estimate.shared_before = before.shared, estimate.distance_before = before.distance;
+  estimate.shared_after = after.shared, estimate.distance_after = after.distance;
+
+  estimate.outcome = MountOutcome::NothingShared;
+  if (after.shared < kLeastShared) return estimate;
+  estimate.outcome = MountOutcome::Unstable;
+  if (!settled || after.shared < before.shared - kMostShareLost) return estimate;
+  estimate.open = openDirections(after.covariance, kOpenLidar);
+  estimate.outcome = estimate.open.empty() ? MountOutcome::Estimated : MountOutcome::Open;
+  estimate.mount = keepingOpen(given, mount, estimate.open);
+  const Vector7d scale = mountStepOfMetres();
+  estimate.covariance = scale.asDiagonal() * after.covariance * scale.asDiagonal();
+  return estimate;
+}
+}  // namespace scanloom

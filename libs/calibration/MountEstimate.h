@@ -1,0 +1,37 @@
+/** Pose and clock of a lidar on the body by what a reference lidar saw at the same places of a drive. */
+#pragma once
+#include "calibration/MountCovariance.h"
+#include "calibration/StationMaps.h"
+
+#include <vector>
+
+namespace scanloom
+{
+enum class MountOutcome
+{
+  Estimated,
+  Open,           // but for some directions, which keep the given values
+  StoodStill,     // fewer than ten stations: no covariance, so no number is trusted
+  NothingShared,  // less than a tenth of its points are where the reference saw something
+  Unstable,       // it did not settle
+};
+
+struct MountEstimate
+{
+  MountOutcome outcome = MountOutcome::StoodStill;
+  Mount mount;  // the given one, unless Estimated or Open
+  /** Of the errors of position (m), rotation (rad), along the body's axes, and clock (s); zero if not estimated. */
+  Matrix7d covariance = Matrix7d::Zero();
+  std::vector<OpenDirection> open;
+  std::size_t stations = 0;
+  double shared_before = 0, shared_after = 0;      // share of points that are where the reference saw something
+  double distance_before = 0, distance_after = 0;  // m, surfaceDistance
+};
+
+/**
+ * D2D NDT (ndt/Registration.h) from `start` (findStart), with cells of 2 m, then 1 m; scans are deskewed anew with each
+ * better mount. `given` is what is known without the drive: open directions keep it.
+ */
+MountEstimate estimateMount(const std::vector<Station>&, const Mount& given, const Mount& start, const Trajectory&,
+                            Clock);
+}  // namespace scanloom

@@ -1,0 +1,86 @@
+#include "calibration/MountReport.h"
+
+#include "calibration/MountNumbers.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+const char* toString(MountOutcome outcome)
+{
+  switch (outcome)
+  {
+    case MountOutcome::Estimated:
+      return "ESTIMATED";
+    case MountOutcome::Open:
+      return "OPEN";
+    case MountOutcome::StoodStill:
+      return "STOOD STILL";
+    case MountOutcome::NothingShared:
+      return "NOTHING SHARED";
+    case MountOutcome::Unstable:
+      return "UNSTABLE";
+  }
+  return "";
+}
+
+std::string reasonOf(const std::string& reference, const MountEstimate& e)
+{
+  switch (e.outcome)
+  {
+    case MountOutcome::StoodStill:
+      return fmt::format("only {} places at least 0.7 m or 10 deg apart, 10 are needed: drive 10 m or more, with turns",
+                         e.stations);
+    case MountOutcome::NothingShared:
+      return fmt::format(
+          "only {:.0f} % of what it saw is where '{}' saw something: it is covered, or its pose is wrong by more than "
+          "20 "
+          "deg or 0.5 m, or both never see the same place within 8 m of the drive",
+          100 * e.shared_after, reference);
+    case MountOutcome::Unstable:
+      return "the estimate did not settle: drive where there are stems or walls on all sides";
+    default:
+      return "";
+  }
+}
+}  // namespace
+
+bool trusted(const MountEstimate& estimate) { return estimate.outcome == MountOutcome::Estimated; }
+
+std::string inWords(const std::string& lidar, const std::string& reference, const MountEstimate& e,
+                    const TimeOffset& time_offset)
+{
+  if (e.outcome != MountOutcome::Estimated && e.outcome != MountOutcome::Open)
+    return fmt::format("{}: not calibrated: {}\n", lidar, reasonOf(reference, e));
+  const double clock_sigma = std::sqrt(e.covariance(6, 6));
+  std::string words = fmt::format("{}: {}\n", lidar, poseInWords(e.mount, e.covariance));
+  if (clock_sigma > 0)
+    words += fmt::format("{}: its stamps are {:.2f} ms late (+- {:.2f}); set {} = {:.6f}\n", lidar,
+                         1e3 * e.mount.clock_offset, 1e3 * clock_sigma, time_offset.key,
+                         time_offset.value - e.mount.clock_offset);
+  words += fmt::format(
+      "{}: at {} places, {:.0f} % of its points (before: {:.0f} %) are where '{}' saw something; surfaces {:.3f} m "
+      "apart "
+      "(before: {:.3f} m)\n",
+      lidar, e.stations, 100 * e.shared_after, 100 * e.shared_before, reference, e.distance_after, e.distance_before);
+  return words + openInWords(lidar, e.open);
+}
+
+nlohmann::json toJson(const std::string& lidar, const MountEstimate& e)
+{
+  nlohmann::json json = numbersOf(e.mount, e.covariance, e.open);
+  json["lidar"] = lidar;
+  json["outcome"] = toString(e.outcome);
+  json["stations"] = e.stations;
+  json["shared_before"] = e.shared_before;
+  json["shared_after"] = e.shared_after;
+  json["surface_distance_before"] = e.distance_before;
+  json["surface_distance_after"] = e.distance_after;
+  return json;
+}
+}  // namespace scanloom

@@ -1,0 +1,126 @@
+#include "calibration/MountSearch.h"
+
+#include "calibration/GroundPlane.h"
+#include "calibration/MountEquations.h"
+#include "calibration/StationMaps.h"
+#include "core/Angle.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kCompared = 8;  // stations
+constexpr MountLevel kSearchLevels[] = {{4.0, 0.05}, {2.0, 0.2}}, kScoreLevel{1.0, 0.4};
+
+std::vector<Station> someOf(const std::vector<Station>& all, std::size_t count)
+{
+  std::vector<Station> some;
+  for (std::size_t i = 0; i < std::min(count, all.size()); ++i) some.push_back(all[i * all.size() / count]);
+  return some;
+}
+
+Mount refined(Mount mount, const std::vector<Station>& stations, const Trajectory& trajectory)
+{
+  const std::vector<Vector6d> at_rest(stations.size(), Vector6d::Zero());
+  for (const MountLevel& level : kSearchLevels)
+  {
+    const std::vector<NdtMap> reference = mapsOfReference(stations, level);
+    const std::vector<NdtMap> lidar = mapsOfLidar(stations, mount, trajectory, level);
+    std::vector<Neighbourhoods> pairs = stationPairs(reference, lidar);
+    mount.body_T_sensor = minimiseMount(pairs, at_rest, Clock::Kept, level.d2).correction.pose * mount.body_T_sensor;
+  }
+  return mount;
+}
+
+/** Points that are where the reference saw something. */
+double scoreOf(const Mount& mount, const std::vector<Station>& stations, const std::vector<NdtMap>& reference,
+               const Trajectory& trajectory)
+{
+  const std::vector<NdtMap> lidar = mapsOfLidar(stations, mount, trajectory, kScoreLevel);
+  std::vector<Neighbourhoods> pairs = stationPairs(reference, lidar);
+  const std::vector<Vector6d> at_rest(stations.size(), Vector6d::Zero());
+  return mountEquations(pairs, at_rest, {}, kScoreLevel.d2).met_points;
+}
+
+Mount bestFrom(const std::vector<Mount>& starts, const std::vector<Station>& all, const Trajectory& trajectory)
+{
+  const std::vector<Station> stations = someOf(all, kCompared);
+  const std::vector<NdtMap> reference = mapsOfReference(stations, kScoreLevel);
+  Mount best = starts.front();
+  double best_score = -1;
+  for (const Mount& start : starts)
+  {
+    const Mount candidate = refined(start, stations, trajectory);
+    const double score = scoreOf(candidate, stations, reference, trajectory);
+    if (score <= best_score) continue;
+    best = candidate;
+    best_score = score;
+  }
+  return best;
+}
+
+std::optional<GroundPlane> groundOf(const std::vector<LidarScan>& scans, const Rigid& body_T_sensor)
+{
+  constexpr std::size_t kScans = 10;
+  std::vector<PointCloud> clouds;
+  for (std::size_t i = 0; i < std::min(kScans, scans.size()); ++i)
+  {
+    const LidarScan& scan = scans[i * scans.size() / kScans % scans.size()];
+    PointCloud cloud;
+    cloud.resize(scan.points.size());
+    for (std::size_t k = 0; k < scan.points.size(); ++k)
+    {
+      const Eigen::Vector3f p = (body_T_sensor * scan.points[k].cast<double>()).cast<float>();
+      cloud.x[k] = p.x(), cloud.y[k] = p.y(), cloud.z[k] = p.z();
+    }
+    clouds.push_back(std::move(cloud));
+  }
+  std::vector<const PointCloud*> pointers;
+  for (const PointCloud& cloud : clouds) pointers.push_back(&cloud);
+  return groundPlane(pointers, body_T_sensor.translation);
+}
+
+/** Turned so that the lidar sees the ground in the plane in which the reference sees it; the same without a ground. */
+Mount levelled(Mount mount, const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
+               const Rigid& body_T_reference)
+{
+  const std::optional<GroundPlane> ours = groundOf(of_lidar, mount.body_T_sensor);
+  const std::optional<GroundPlane> reference = groundOf(of_reference, body_T_reference);
+  if (!ours || !reference) return mount;
+  Rigid& pose = mount.body_T_sensor;
+  pose.rotation = (Eigen::Quaterniond::FromTwoVectors(ours->up, reference->up) * pose.rotation).normalized();
+  const double height = reference->up.dot(pose.translation) + reference->body_height;
+  pose.translation += (ours->sensor_height - height) * reference->up;
+  return mount;
+}
+
+/** The mount, and the same turned about the body's z by multiples of `step`. */
+std::vector<Mount> headingsAround(const Mount& mount, int to_each_side, double step)
+{
+  std::vector<Mount> headings;
+  for (int i = -to_each_side; i <= to_each_side; ++i)
+  {
+    Mount turned = mount;
+    turned.body_T_sensor.rotation =
+        Eigen::AngleAxisd(i * step, Eigen::Vector3d::UnitZ()) * mount.body_T_sensor.rotation;
+    headings.push_back(turned);
+  }
+  return headings;
+}
+}  // namespace
+
+Mount findStart(const std::vector<Station>& stations, const Mount& given, PoseGiven known,
+                const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
+                const Rigid& body_T_reference, const Trajectory& trajectory)
+{
+  Mount start = given;
+  if (known == PoseGiven::No) start.body_T_sensor = {Eigen::Quaterniond::Identity(), body_T_reference.translation};
+  const Mount level = levelled(start, of_lidar, of_reference, body_T_reference);
+  std::vector<Mount> starts =
+      known == PoseGiven::No ? headingsAround(level, 6, 30 * kDegree) : headingsAround(level, 2, 10 * kDegree);
+  starts.push_back(start);
+  return bestFrom(starts, stations, trajectory);
+}
+}  // namespace scanloom

@@ -1,0 +1,83 @@
+#include "calibration/Stations.h"
+
+#include "core/Angle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kStationStep = 0.7, kViewStep = 1;  // m
+constexpr double kTurn = 10 * kDegree;
+constexpr std::size_t kMostStations = 60;
+
+struct Placed
+{
+  const LidarScan* scan;
+  Rigid map_T_body;
+};
+
+bool apart(const Rigid& a, const Rigid& b, double step)
+{
+  return (a.translation - b.translation).norm() >= step || a.rotation.angularDistance(b.rotation) >= kTurn;
+}
+
+std::vector<Placed> placesOf(const std::vector<LidarScan>& scans, const Trajectory& trajectory, double step)
+{
+  std::vector<Placed> places;
+  for (const LidarScan& scan : scans)
+  {
+    const std::optional<Rigid> pose = poseAt(trajectory, scan.middle());
+    const bool covered = pose && poseAt(trajectory, scan.start) && poseAt(trajectory, scan.start + scan.period);
+    if (covered && (places.empty() || apart(places.back().map_T_body, *pose, step))) places.push_back({&scan, *pose});
+  }
+  return places;
+}
+
+Vector6d twistAt(const Trajectory& trajectory, Timestamp at)
+{
+  constexpr Duration kSide = 50ms;
+  const std::optional<Rigid> before = poseAt(trajectory, at - kSide), after = poseAt(trajectory, at + kSide);
+  if (!before || !after) return Vector6d::Zero();
+  return boxMinus(*after, *before) / seconds(2 * kSide);
+}
+
+/** The reference's scan at the same time comes first: a machine that works on the spot turns and sways. */
+std::vector<View> viewsAround(const Placed& here, const std::vector<LidarScan>& all, const std::vector<Placed>& places,
+                              const Mount& reference, const Trajectory& trajectory, double reach)
+{
+  std::vector<View> views;
+  const auto add = [&](const LidarScan& scan)
+  {
+    if (std::optional<View> view = viewFrom(scan, reference, trajectory, here.scan->middle()))
+      views.push_back(std::move(*view));
+  };
+  for (const LidarScan& scan : all)
+    if (scan.start == here.scan->start) add(scan);
+  for (const Placed& place : places)
+    if (place.scan->start != here.scan->start &&
+        (place.map_T_body.translation - here.map_T_body.translation).norm() < reach)
+      add(*place.scan);
+  return views;
+}
+}  // namespace
+
+std::vector<Station> stationsOf(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
+                                const Mount& reference, const Trajectory& trajectory, double reach)
+{
+  const std::vector<Placed> all = placesOf(of_lidar, trajectory, kStationStep);
+  const std::vector<Placed> places = placesOf(of_reference, trajectory, kViewStep);
+  const std::size_t count = std::min(all.size(), kMostStations);
+  std::vector<Station> stations;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Placed& here = all[i * all.size() / count];
+    stations.push_back({here.scan->middle(), here.scan,
+                        viewsAround(here, of_reference, places, reference, trajectory, reach),
+                        twistAt(trajectory, here.scan->middle())});
+  }
+  return stations;
+}
+}  // namespace scanloom

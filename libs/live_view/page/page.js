@@ -1,0 +1,61 @@
+import { Scene } from "./scene.js";
+import { readForEver } from "./stream.js";
+import { show, showWord } from "./panel.js";
+import { connectPlayer, post, showPlayer } from "./player.js";
+
+const element = (id) => document.getElementById(id);
+
+/** Remembered by the browser, so that a reload changes nothing; ?id=value in the address comes first, for a bookmark. */
+function connectChoice(id, otherwise, choose) {
+  const buttons = [...element(id).querySelectorAll("button")];
+  const pick = (value) => {
+    for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.value === value));
+    choose(value);
+  };
+  for (const button of buttons)
+    button.onclick = () => { localStorage.setItem(id, button.dataset.value); pick(button.dataset.value); };
+  const wanted = new URLSearchParams(location.search).get(id) || localStorage.getItem(id);
+  pick(buttons.some((button) => button.dataset.value === wanted) ? wanted : otherwise);
+}
+
+function connectMark() {
+  const button = element("mark"), usual = button.textContent;
+  button.onclick = async () => {
+    button.disabled = true;
+    try {
+      await post("mark", "marked on the page");
+      button.textContent = "Marked";
+    } catch (error) {
+      button.textContent = "Not marked: " + error.message;
+    }
+    setTimeout(() => { button.textContent = usual; button.disabled = false; }, 1500);
+  };
+}
+
+function connectStatus() {
+  const events = new EventSource("status");
+  let ended = false;
+  events.onmessage = (event) => {
+    const status = JSON.parse(event.data);
+    ended = status.word === "ENDED";
+    show(status);
+    showPlayer(status.player);
+  };
+  events.onerror = () => {
+    if (!ended) showWord("NO CONNECTION", "the program does not answer, or too many pages are open");
+    if (events.readyState === EventSource.CLOSED) setTimeout(connectStatus, 2000);
+  };
+}
+
+const scene = new Scene(element("canvas"));
+const dark = matchMedia("(prefers-color-scheme: dark)").matches;
+connectChoice("theme", dark ? "dark" : "light", (theme) => {
+  document.documentElement.dataset.theme = theme;
+  scene.setTheme(theme);
+});
+connectChoice("camera", "follow", (mode) => scene.setCamera(mode));
+connectChoice("colour", "height", (mode) => scene.setColour(mode));
+connectMark();
+connectPlayer();
+connectStatus();
+readForEver(scene);

@@ -1,0 +1,102 @@
+// The words and numbers at the side.
+import { kLidarColours } from "./scene.js";
+
+const element = (id) => document.getElementById(id);
+
+function make(tag, text, name) {
+  const made = document.createElement(tag);
+  if (text !== undefined) made.textContent = text;
+  if (name) made.className = name;
+  return made;
+}
+
+function bytesText(bytes) {
+  if (bytes >= 1e12) return (bytes / 1e12).toFixed(2) + " TB";
+  return bytes >= 1e9 ? (bytes / 1e9).toFixed(1) + " GB" : (bytes / 1e6).toFixed(0) + " MB";
+}
+
+function timeText(seconds) {
+  const whole = Math.round(seconds);
+  if (whole < 60) return seconds.toFixed(1) + " s";
+  return Math.floor(whole / 60) + ":" + String(whole % 60).padStart(2, "0") + " min";
+}
+
+function windowOf(lidar) {
+  if (lidar.usual_returns <= 0) return null;
+  const share = lidar.returns / lidar.usual_returns;
+  const text = "returns " + Math.round(100 * lidar.returns) + " %";
+  return share < 0.6 ? make("span", text + ", usually " + Math.round(100 * lidar.usual_returns) + " %: window dirty or covered?", "fault")
+                     : make("div", text);
+}
+
+function lidarCard(lidar, index, played) {
+  const card = make("div", undefined, "sensor"), head = make("header"), dot = make("span", "", "dot");
+  dot.style.background = kLidarColours[index % kLidarColours.length];
+  head.append(dot, make("b", lidar.name), make("span", lidar.model, "model"));
+  const heard = make("div"), columns = make("div"), returns = windowOf(lidar);
+  heard.append(lidar.silent ? make("span", "silent for " + timeText(lidar.silence), "fault")
+                            : "seen " + timeText(lidar.silence) + " ago");
+  if (!played) heard.append(", " + Math.round(lidar.rate) + " packets/s");
+  columns.append(lidar.lost + " columns lost" + (lidar.left_out ? ", " + lidar.left_out + " too late" : ""));
+  card.append(head, heard, columns);
+  if (returns) card.append(returns);
+  if (lidar.clock_offset) card.append(make("div", "clock " + offsetText(lidar.clock_offset)));
+  return card;
+}
+
+/** What is added to the lidar's stamps: of microseconds, or of the years between two clocks' epochs. */
+function offsetText(seconds) {
+  const size = Math.abs(seconds), sign = seconds < 0 ? "\u2212" : "+";
+  if (size < 1) return sign + (1e3 * size).toFixed(3) + " ms";
+  return sign + size.toFixed(3) + " s";
+}
+
+function imuCard(imu) {
+  const card = make("div", undefined, "sensor"), head = make("header");
+  head.append(make("b", imu.name), make("span", Math.round(imu.rate) + "/s", "model"));
+  card.append(head);
+  if (imu.silence > 1) card.append(make("span", "silent for " + timeText(imu.silence), "fault"));
+  return card;
+}
+
+function runRows(status) {
+  const rows = [];
+  if (status.factor !== undefined) rows.push(["real-time factor", status.factor.toFixed(1)]);
+  if (status.poses) {
+    rows.push(["path", status.distance.toFixed(1) + " m"], ["speed", status.speed.toFixed(1) + " m/s"],
+              ["keyframes", status.keyframes]);
+    if (status.keyframes_left_out) rows.push(["keyframes not drawn", status.keyframes_left_out]);
+  }
+  rows.push(["recorded", timeText(status.recorded)], ["scans", status.scans]);
+  if (status.marks) rows.push(["marks", status.marks]);
+  rows.push(["disk left", bytesText(status.disk_free)], ["memory", bytesText(status.memory)]);
+  return rows;
+}
+
+function why(status) {
+  const silent = status.lidars.filter((lidar) => lidar.silent).map((lidar) => "'" + lidar.name + "' sends nothing");
+  return silent.concat(status.why ? [status.why] : []).join("; ");
+}
+
+function warningRow(warning) {
+  const row = make("li", warning.text + " ");
+  const times = warning.count > 1 ? warning.count + " times, " : "";
+  row.append(make("small", "(" + times + timeText(warning.age) + " ago)"));
+  return row;
+}
+
+export function showWord(word, reason) {
+  element("health").dataset.word = word;
+  element("word").textContent = word;
+  element("why").textContent = reason;
+  document.title = word + " - scanloom";
+}
+
+export function show(status) {
+  showWord(status.word, why(status));
+  element("lidars").replaceChildren(...status.lidars.map((lidar, i) => lidarCard(lidar, i, Boolean(status.player))));
+  element("imus").replaceChildren(...(status.imus.length ? status.imus.map(imuCard) : [make("span", "none")]));
+  element("run").replaceChildren(...runRows(status).flatMap(([name, value]) => [make("dt", name), make("dd", value)]));
+  element("warnings").replaceChildren(...(status.warnings.length ? status.warnings.map(warningRow) : [make("li", "none")]));
+  element("mark").hidden = Boolean(status.player) || status.word === "ENDED";
+}

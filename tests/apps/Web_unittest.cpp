@@ -1,0 +1,37 @@
+/** --web as a person gives it; what the page does: tests/live_view. */
+#include "Web.h"
+
+#include <gmock/gmock.h>
+
+#include "core/ConfigError.h"
+#include "support/TemporaryFolder.h"
+#include "support/TestData.h"
+#include "support/runProgram.h"
+
+namespace scanloom
+{
+TEST(Web, listensAtPort8080UnlessToldOtherwise)
+{
+  EXPECT_EQ(webAddress({"127.0.0.1"}).port, 8080);
+  EXPECT_EQ(webAddress({"192.168.1.7:80"}).port, 80);
+  EXPECT_EQ(webAddress({"[::1]:8000"}).port, 8000);
+}
+
+TEST(Web, takesNoRecordingForAnAddress) { EXPECT_THROW(webAddress({"drive.pcap"}), UsageError); }
+
+TEST(Web, changesNoBitOfTheTrajectory)
+{
+  SCANLOOM_NEEDS_DATA(recording, "recordings/dense");
+  if (!std::filesystem::exists("/usr/share/javascript/three/three.min.js")) GTEST_SKIP() << "libjs-three is missing";
+  const TemporaryFolder folder;
+  const auto slam = [&](const std::string& name, const std::string& options)
+  {
+    const std::string out = (folder / name).string();
+    const Ended ended = runProgram(SCANLOOM_BIN_DIR "/scanloom slam " + recording.string() +
+                                   " --set output.maps=false --every-nth 3 --out-dir " + out + options + " 2>&1");
+    EXPECT_EQ(ended.status, 0) << ended.output;
+    return contentOf(folder / name / "trajectory.tum");
+  };
+  EXPECT_EQ(slam("without", ""), slam("with", " --web=127.0.0.1:18080"));
+}
+}  // namespace scanloom

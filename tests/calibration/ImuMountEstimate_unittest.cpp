@@ -1,0 +1,200 @@
+/** The IMU's mount from a drive in closed form: noisy poses by a lidar in a map that is not level, noisy readings. */
+#include "calibration/ImuMountEstimate.h"
+
+#include "calibration/ImuMountReport.h"
+#include "calibration/seenInWorld.h"
+#include "imu/AnalyticDrive.h"
+
+#include <gtest/gtest.h>
+
+using namespace scanloom;
+
+namespace
+{
+const Mount kTruth{at(0.15, -0.3, 2.85, 86, 6, -11), 0.012};
+
+struct SeenDrive
+{
+  Trajectory poses;
+  std::vector<ImuSample> imu;
+};
+
+/** 40 s, poses at 5 Hz with errors of 3 mm and 0.03 deg, readings at 200 Hz with a bias; stamps late by the truth's.
+ */
+SeenDrive seenOf(const AnalyticDrive& drive, unsigned seed)
+{
+  Noise random(seed);
+  const Rigid local_T_map = at(3, -4, 0.5, 70, 4, -7);
+  const ImuBias bias{random.normal<3>(1e-3), random.normal<3>(0.01)};
+  SeenDrive seen;
+  seen.imu = drive.samples(Timestamp{1s}, Timestamp{41s}, 5ms);
+  for (ImuSample& sample : seen.imu)
+  {
+    sample.stamp += fromSeconds(kTruth.clock_offset);
+    sample.gyro += bias.gyro + random.normal<3>(7e-4);
+    sample.accel += bias.accel + random.normal<3>(3.5e-3);
+  }
+  for (Timestamp stamp{1s}; stamp <= Timestamp{41s}; stamp += 200ms)
+  {
+    Vector6d error;
+    error << random.normal<3>(0.003), random.normal<3>(0.03 * kDegree);
+    const Rigid map_T_body = drive.stateAt(stamp, {}).map_T_imu * kTruth.body_T_sensor.inverse();
+    seen.poses.push_back({stamp, boxPlus(local_T_map * map_T_body, error)});
+  }
+  return seen;
+}
+
+AnalyticDrive atRest()
+{
+  AnalyticDrive drive;
+  for (Sine* s : {&drive.x, &drive.y, &drive.z, &drive.yaw, &drive.pitch, &drive.roll}) s->rate = s->amplitude = 0;
+  return drive;
+}
+
+AnalyticDrive onFlatGround()
+{
+  AnalyticDrive drive;
+  drive.z.amplitude = drive.pitch.amplitude = drive.roll.amplitude = 0;
+  return drive;
+}
+
+Mount off(double metres, double degrees)
+{
+  const Rigid step =
+      Rigid{expSo3(degrees * kDegree * Eigen::Vector3d(0.48, -0.6, 0.64)), metres * Eigen::Vector3d(0.6, 0.64, -0.48)};
+  return {kTruth.body_T_sensor * step, 0};
+}
+
+ImuMountEstimate calibrated(const SeenDrive& seen, const Mount& given)
+{
+  const std::optional<Mount> start = imuMountByTurns(seen.poses, seen.imu, given);
+  return start ? estimateImuMount(seen.poses, seen.imu, given, *start, {}) : withoutImuMount(seen.poses, given);
+}
+
+Vector7d errorOf(const ImuMountEstimate& estimate)
+{
+  Vector7d error;
+  error << estimate.mount.body_T_sensor.translation - kTruth.body_T_sensor.translation,
+      logSo3(estimate.mount.body_T_sensor.rotation * kTruth.body_T_sensor.rotation.conjugate()),
+      estimate.mount.clock_offset - kTruth.clock_offset;
+  return error;
+}
+
+void expectRight(const ImuMountEstimate& estimate)
+{
+  ASSERT_TRUE(trusted(estimate)) << inWords(estimate);
+  const Vector7d error = errorOf(estimate);
+  EXPECT_LT(error.head<3>().norm(), 0.02) << inWords(estimate);
+  EXPECT_LT(error.segment<3>(3).norm() / kDegree, 0.05) << inWords(estimate);
+  EXPECT_LT(std::abs(error[6]), 0.001) << inWords(estimate);
+}
+
+void expectAsGiven(const ImuMountEstimate& estimate, const Mount& given)
+{
+  EXPECT_FALSE(hasNumbers(estimate)) << inWords(estimate);
+  EXPECT_FALSE(trusted(estimate));
+  EXPECT_EQ(estimate.mount.body_T_sensor.translation, given.body_T_sensor.translation);
+  EXPECT_EQ(estimate.mount.body_T_sensor.rotation.coeffs(), given.body_T_sensor.rotation.coeffs());
+}
+}  // namespace
+
+TEST(ImuMountEstimate, ofAnImuThreeDegreesAndTenCentimetresOffIsItsPoseAndClock)
+{
+  expectRight(calibrated(seenOf({}, 1), off(0.1, 3)));
+}
+
+TEST(ImuMountEstimate, ofAnImuTwentyDegreesAndHalfAMetreOffIsItsPoseAndClock)
+{
+  expectRight(calibrated(seenOf({}, 2), off(0.5, 20)));
+}
+
+TEST(ImuMountEstimate, isAsFarOffAsItsCovarianceSays)
+{
+  constexpr unsigned kDrives = 10;
+  double nees = 0;
+  for (unsigned seed = 1; seed <= kDrives; ++seed)
+  {
+    const ImuMountEstimate estimate = calibrated(seenOf({}, seed), off(0.1, 3));
+    const Vector7d error = errorOf(estimate);
+    nees += error.dot(estimate.covariance.inverse() * error) / kDrives;
+  }
+  EXPECT_LT(nees, 14);  // 7 is right
+  EXPECT_GT(nees, 0.1);
+}
+
+TEST(ImuMountEstimate, ofAMachineThatStandsStillIsNone)
+{
+  const ImuMountEstimate estimate = calibrated(seenOf(atRest(), 3), off(0.1, 3));
+  expectAsGiven(estimate, off(0.1, 3));
+  EXPECT_EQ(estimate.outcome, ImuMountOutcome::TurnedTooLittle);
+}
+
+TEST(ImuMountEstimate, ofADriveStraightOnIsNone)
+{
+  AnalyticDrive straight = atRest();
+  straight.x = {0, 1, 0.3, 1.7, 0};
+  const ImuMountEstimate estimate = calibrated(seenOf(straight, 4), off(0.1, 3));
+  expectAsGiven(estimate, off(0.1, 3));
+  EXPECT_NE(inWords(estimate).find("drive winding"), std::string::npos);
+}
+
+TEST(ImuMountEstimate, ofADriveOnFlatGroundIsNotTold)
+{
+  EXPECT_FALSE(trusted(calibrated(seenOf(onFlatGround(), 5), off(0.1, 3))));
+}
+
+TEST(ImuMountEstimate, keepsTheHeightThatGroundNearlyFlatLeavesOpen)
+{
+  AnalyticDrive drive = onFlatGround();
+  drive.pitch.amplitude = drive.roll.amplitude = 0.5 * kDegree;
+  const Mount given = off(0.1, 3);
+  const SeenDrive seen = seenOf(drive, 6);
+  const Mount start{kTruth.body_T_sensor, kTruth.clock_offset};
+  const ImuMountEstimate estimate = estimateImuMount(seen.poses, seen.imu, given, start, {});
+  ASSERT_EQ(estimate.outcome, ImuMountOutcome::Open) << inWords(estimate);
+  const Vector7d error = errorOf(estimate);
+  EXPECT_LT(error.head<2>().norm(), 0.08) << inWords(estimate);
+  EXPECT_NE(inWords(estimate).find("OPEN: z"), std::string::npos) << inWords(estimate);
+}
+
+TEST(ImuMountEstimate, ofAnotherDrivesImuIsNone)
+{
+  SeenDrive seen = seenOf({}, 7);
+  AnalyticDrive other;
+  other.yaw = {0, 0, 0.4, 1.3, 0}, other.roll = {0, 0, 0.1, 2.7, 0.3}, other.pitch = {0, 0, 0.1, 0.9, 2};
+  seen.imu = seenOf(other, 8).imu;
+  const ImuMountEstimate estimate = calibrated(seen, off(0.1, 3));
+  expectAsGiven(estimate, off(0.1, 3));
+  EXPECT_EQ(estimate.outcome, ImuMountOutcome::Contradicted);
+}
+
+TEST(ImuMountEstimate, ofAnImuInDegreesPerSecondIsNone)
+{
+  SeenDrive seen = seenOf({}, 9);
+  for (ImuSample& sample : seen.imu) sample.gyro /= kDegree;
+  const ImuMountEstimate estimate = calibrated(seen, off(0.1, 3));
+  expectAsGiven(estimate, off(0.1, 3));
+  EXPECT_EQ(estimate.outcome, ImuMountOutcome::Contradicted);
+}
+
+TEST(ImuMountEstimate, ofLeftHandedAxesIsNone)
+{
+  SeenDrive seen = seenOf({}, 10);
+  for (ImuSample& sample : seen.imu) sample.gyro = -sample.gyro;
+  expectAsGiven(calibrated(seen, off(0.1, 3)), off(0.1, 3));
+}
+
+TEST(ImuMountEstimate, ofAccelerationsInUnitsOfGravityIsNone)
+{
+  SeenDrive seen = seenOf({}, 11);
+  for (ImuSample& sample : seen.imu) sample.accel /= kGravity;
+  expectAsGiven(calibrated(seen, off(0.1, 3)), off(0.1, 3));
+}
+
+TEST(ImuMountEstimate, ofNoReadingsOrPosesIsNone)
+{
+  const SeenDrive seen = seenOf({}, 12);
+  expectAsGiven(calibrated({seen.poses, {}}, off(0.1, 3)), off(0.1, 3));
+  expectAsGiven(calibrated({{}, seen.imu}, off(0.1, 3)), off(0.1, 3));
+  expectAsGiven(estimateImuMount({}, {}, off(0.1, 3), off(0.1, 3), {}), off(0.1, 3));
+}

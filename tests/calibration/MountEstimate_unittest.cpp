@@ -1,0 +1,140 @@
+/** Mounts of lidars from a drive among stems, compared with the poses and clocks by which the drive was made. */
+#include "calibration/MountEstimate.h"
+
+#include "calibration/MountReport.h"
+#include "calibration/MountSearch.h"
+#include "calibration/seenInWorld.h"
+
+#include <gtest/gtest.h>
+
+using namespace scanloom;
+
+namespace
+{
+const Rigid kLeft = at(1.5, 1.2, 2.5, 30, 15, -25), kRight = at(1.5, -1.2, 2.5, -30, 15, 25);
+constexpr double kLate = 0.02;  // s
+
+/** A winding path at 1 m/s, turning by up to 0.3 rad/s; at rest with speed 0. */
+Rigid bodyAt(double t, double speed)
+{
+  return at(speed * t, speed * std::sin(0.3 * t), 0, speed * 20 * std::sin(t), 0, 0);
+}
+
+struct DriveOfTwo
+{
+  Trajectory trajectory;
+  std::vector<LidarScan> left, right;
+};
+
+LidarScan scanAt(double t, double late, double speed, const Rigid& body_T_sensor, std::uint64_t seed)
+{
+  LidarScan scan;
+  scan.start = Timestamp{fromSeconds(t + late)};
+  scan.points = scanFrom(forest(1), bodyAt(t, speed) * body_T_sensor, seed, lidar());
+  scan.t.assign(scan.points.size(), 0);
+  return scan;
+}
+
+DriveOfTwo driven(double speed, double late = 0)
+{
+  DriveOfTwo drive;
+  for (int i = 0; i <= 1600; ++i) drive.trajectory.push_back({Timestamp{i * 10ms}, bodyAt(0.01 * i, speed)});
+  for (int i = 1; i <= 15; ++i)
+  {
+    const auto seed = static_cast<std::uint64_t>(i);
+    drive.left.push_back(scanAt(i, 0, speed, kLeft, seed));
+    drive.right.push_back(scanAt(i, late, speed, kRight, 100 + seed));
+  }
+  return drive;
+}
+
+MountEstimate calibrated(const DriveOfTwo& drive, const Rigid& given, Clock clock, PoseGiven known)
+{
+  constexpr double kReach = 3;  // m
+  const std::vector<Station> stations = stationsOf(drive.right, drive.left, {kLeft, 0}, drive.trajectory, kReach);
+  const Mount start = findStart(stations, {given, 0}, known, drive.right, drive.left, kLeft, drive.trajectory);
+  return estimateMount(stations, {given, 0}, start, drive.trajectory, clock);
+}
+
+void expectRight(const MountEstimate& estimate)
+{
+  ASSERT_TRUE(trusted(estimate)) << inWords("right", "left", estimate);
+  EXPECT_LT((estimate.mount.body_T_sensor.translation - kRight.translation).norm(), 0.015);
+  EXPECT_LT(estimate.mount.body_T_sensor.rotation.angularDistance(kRight.rotation) / kDegree, 0.1);
+}
+}  // namespace
+
+TEST(MountEstimate, ofALidarThreeDegreesAndTenCentimetresOffIsItsPose)
+{
+  const MountEstimate estimate =
+      calibrated(driven(1), at(1.55, -1.12, 2.45, -32, 16.5, 26.5), Clock::Kept, PoseGiven::Within20Degrees);
+  expectRight(estimate);
+  EXPECT_GT(estimate.shared_after, estimate.shared_before);
+  EXPECT_LT(estimate.distance_after, estimate.distance_before);
+}
+
+TEST(MountEstimate, ofALidarTwentyDegreesAndHalfAMetreOffIsItsPose)
+{
+  expectRight(calibrated(driven(1), at(1.8, -0.9, 2.2, -46, 23, 33), Clock::Kept, PoseGiven::Within20Degrees));
+}
+
+TEST(MountEstimate, ofALidarWithoutAPoseIsItsPose)
+{
+  expectRight(calibrated(driven(1), Rigid::identity(), Clock::Kept, PoseGiven::No));
+}
+
+TEST(MountEstimate, findsHowLateALidarsStampsAre)
+{
+  const MountEstimate estimate = calibrated(driven(1, kLate), kRight, Clock::Estimated, PoseGiven::Within20Degrees);
+  expectRight(estimate);
+  EXPECT_NEAR(estimate.mount.clock_offset, kLate, 0.003);
+}
+
+TEST(MountEstimate, ofAMachineThatStandsStillIsNone)
+{
+  const Rigid given = at(1.5, -1.1, 2.5, -31, 15, 25);
+  const MountEstimate estimate = calibrated(driven(0), given, Clock::Kept, PoseGiven::Within20Degrees);
+  EXPECT_EQ(estimate.outcome, MountOutcome::StoodStill);
+  EXPECT_FALSE(trusted(estimate));
+  EXPECT_EQ(estimate.mount.body_T_sensor.translation, given.translation);
+  EXPECT_NE(inWords("right", "left", estimate).find("drive 10 m or more"), std::string::npos);
+}
+
+TEST(MountEstimate, ofACoveredLidarIsNone)
+{
+  DriveOfTwo drive = driven(1);
+  for (LidarScan& scan : drive.right)
+    for (Eigen::Vector3f& p : scan.points) p = 0.8F * p.normalized();
+  EXPECT_FALSE(trusted(calibrated(drive, kRight, Clock::Kept, PoseGiven::Within20Degrees)));
+}
+
+TEST(LidarScans, areInTheFramesOfTheLidars)
+{
+  Scan scan;
+  scan.period = 100ms;
+  scan.points.resize(2);
+  scan.points.x[0] = 2, scan.points.x[1] = 3;
+  scan.points.sensor_id[1] = 1;
+  scan.columns.resize(2);
+  scan.columns[0].count = scan.columns[1].count = 1;
+  scan.columns[1].first_point = 1;
+  scan.columns[1].sensor_id = 1;
+  LidarScans scans(std::vector<MountedLidar>{{"left", at(1, 0, 0)}, {"right", at(0, 0, 1)}});
+  scans.add(scan);
+  ASSERT_EQ(scans.byLidar()[0].size(), 1u);
+  EXPECT_EQ(scans.byLidar()[0][0].points, std::vector<Eigen::Vector3f>({{1, 0, 0}}));
+  EXPECT_EQ(scans.byLidar()[1][0].points, std::vector<Eigen::Vector3f>({{3, 0, -1}}));
+}
+
+TEST(LidarScans, areNeverMoreThanMemoryHolds)
+{
+  Scan scan;
+  scan.period = 100ms;
+  scan.points.resize(1);
+  scan.columns.resize(1);
+  scan.columns[0].count = 1;
+  LidarScans scans(std::vector<MountedLidar>{{"left", Rigid::identity()}});
+  for (int i = 0; i < 5000; ++i, scan.start += scan.period) scans.add(scan);
+  EXPECT_LE(scans.byLidar()[0].size(), 601u);
+  EXPECT_GE(scans.byLidar()[0].size(), 300u);
+}
