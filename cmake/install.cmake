@@ -26,7 +26,7 @@ if(HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
 endif()
 
 # The libs that others can build on; those behind them need MRPT's maps and sensors, and are the program's own.
-set(public_libs core config formats lidar batching whole_turns packets bags rig imu preprocessing ndt graph slam)
+set(public_libs core config formats lidar batching whole_turns packets rawlogs bags rig imu preprocessing ndt graph slam)
 foreach(lib ${public_libs})
   set_target_properties(scanloom_${lib} PROPERTIES EXPORT_NAME ${lib})
   install(TARGETS scanloom_${lib} EXPORT scanloom ARCHIVE COMPONENT dev)

@@ -207,7 +207,8 @@ RecordingFiles capturesOf(const RecordingArguments& arguments)
 std::filesystem::path defaultRawlog(const RecordingArguments& recording)
 {
   if (!recording.given()) throw UsageError("-o is required where no RECORDING is given: name the rawlog to write");
-  return besideRecording(recording, ".rawlog");
+  const std::filesystem::path rawlog = besideRecording(recording, ".rawlog");
+  return rawlog == recording.paths.front() ? besideRecording(recording, "_scans.rawlog") : rawlog;  // one of packets
 }
 
 std::function<int()> addRecordOptions(CLI::App& app)

@@ -3,6 +3,7 @@
 #include "Recording.h"
 #include "Verb.h"
 #include "Web.h"
+#include "bags/BagReader.h"
 #include "core/AtomicFile.h"
 #include "core/ConfigError.h"
 #include "core/Interruption.h"
@@ -102,11 +103,19 @@ void addKeyframes(SceneBuilder& scene, const Path& path)
   scene.addPath(poses);
 }
 
+/** A rawlog with packets is one, too. */
+bool isOfPackets(const Path& file)
+{
+  return std::filesystem::is_directory(file) || isCapture(file) || isBag(file);
+}
+
 SceneBuilder sceneOf(const ViewArguments& arguments)
 {
   SceneBuilder scene;
   const std::string ending = arguments.file.extension().string();
-  if (ending == ".rawlog")
+  if (isOfPackets(arguments.file))
+    addCapturedScan(scene, capturesOf(arguments.file), arguments.scan.value_or(0));
+  else if (ending == ".rawlog")
     addScan(scene, arguments.file, arguments.scan.value_or(0));
   else if (ending == ".simplemap")
     addKeyframes(scene, arguments.file);
@@ -116,11 +125,9 @@ SceneBuilder sceneOf(const ViewArguments& arguments)
     scene.addPath(readTrajectory(arguments.file));
   else if (ending == ".ply" || ending == ".pcd" || ending == ".bin" || ending == ".gz")
     scene.addPoints(readCloud(arguments.file).points);
-  else if (std::filesystem::is_directory(arguments.file) || isCapture(arguments.file))
-    addCapturedScan(scene, capturesOf(arguments.file), arguments.scan.value_or(0));
   else
     throw UsageError(
-        fmt::format("{}: must be a capture, .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin or a trajectory",
+        fmt::format("{}: must be a capture, a bag, .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin or a trajectory",
                     arguments.file.string()));
   return scene;
 }
@@ -146,16 +153,15 @@ int show(const mrpt::opengl::COpenGLScene::Ptr& scene, const ViewArguments& argu
 
 Player::Open openerOf(const Path& file)
 {
+  if (isOfPackets(file)) return [rig = rigOf(capturesOf(file))] { return openRig(rig); };
   if (file.extension() == ".rawlog") return [file] { return std::make_unique<RawlogInput>(file); };
-  if (std::filesystem::is_directory(file) || isCapture(file))
-    return [rig = rigOf(capturesOf(file))] { return openRig(rig); };
   throw UsageError(
-      fmt::format("{}: --web plays a capture, its folder or a .rawlog; others are shown without it", file.string()));
+      fmt::format("{}: --web plays a capture, a bag, a folder of these or a .rawlog; others are shown without it", file.string()));
 }
 
 bool isRecording(const Path& file)
 {
-  return file.extension() == ".rawlog" || std::filesystem::is_directory(file) || isCapture(file);
+  return file.extension() == ".rawlog" || isOfPackets(file);
 }
 
 int play(const ViewArguments& arguments)

@@ -2,9 +2,11 @@
 
 #include "bags/McapBag.h"
 #include "bags/MergedBags.h"
+#include "bags/RawlogBag.h"
 #include "bags/Ros1Bag.h"
 #include "bags/SqliteBag.h"
 #include "formats/CompressedFile.h"
+#include "rawlogs/PacketRawlog.h"
 
 #include <fmt/format.h>
 
@@ -42,7 +44,7 @@ const Container* containerOf(const Path& path)
 bool isBagFile(const Path& path)
 try
 {
-  return std::filesystem::is_regular_file(path) && containerOf(path) != nullptr;
+  return std::filesystem::is_regular_file(path) && (containerOf(path) || isRawlogOfPackets(path));
 }
 catch (const std::exception&)  // what can't be read is no bag
 {
@@ -61,6 +63,7 @@ std::vector<Path> bagFilesIn(const Path& folder)
 std::unique_ptr<BagReader> openFile(const Path& path)
 {
   const Container* container = containerOf(path);
+  if (!container && isRawlogOfPackets(path)) return openRawlogBag(path);
   if (!container)
     throw std::runtime_error(
         fmt::format("{}: no bag; expected one of ROS 2 (.db3, .mcap) or of ROS 1 (.bag, version 2.0)", path.string()));

@@ -1,4 +1,4 @@
-/** Recordings of ROS 1 and ROS 2: topics and their messages. */
+/** Recordings of ROS 1 and ROS 2, and rawlogs of packets as if they were: topics and their messages. */
 #pragma once
 #include "bags/MessageReader.h"
 
@@ -24,8 +24,9 @@ struct BagMessage
 };
 
 /**
- * A bag, whatever its container: SQLite (.db3), MCAP, ROS 1 (.bag). Damaged and cut files are read up to the damage,
- * which is told once. At no time more than one message (SQLite) or one chunk (the others) of a file is in memory.
+ * A bag, whatever its container: SQLite (.db3), MCAP, ROS 1 (.bag), a rawlog of packets. Damaged and cut files are read
+ * up to the damage, which is told once. At no time more than one message (SQLite, rawlog) or one chunk (the others) of
+ * a file is in memory.
  */
 class BagReader
 {
@@ -54,7 +55,7 @@ class BagReader
   virtual double progress() const = 0;
 };
 
-/** Whether it is a bag by its first bytes, those of a gzip or zstd file unpacked, or a folder that holds one. */
+/** Whether it is a bag by what it begins with, gzip and zstd unpacked, or a folder that holds one. */
 bool isBag(const std::filesystem::path& file_or_folder);
 
 /** The topics of all bags among the files, of each file in its order. Throws what BagReader::open throws. */

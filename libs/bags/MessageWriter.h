@@ -1,4 +1,6 @@
+/** Messages of ROS 2 as bytes. */
 #pragma once
+#include "core/ImuSample.h"
 #include "core/Rigid.h"
 #include "core/Time.h"
 
@@ -35,11 +37,19 @@ class MessageWriter
     bytes_.insert(bytes_.end(), sequence.begin(), sequence.end());
   }
 
-  void header(Timestamp stamp, const std::string& frame)
+  /** uint8[N] */
+  void byteArray(const std::vector<std::uint8_t>& array) { bytes_.insert(bytes_.end(), array.begin(), array.end()); }
+
+  void time(Timestamp stamp)
   {
     const std::int64_t ns = nanoseconds(stamp);
     number(static_cast<std::int32_t>(ns / 1'000'000'000));
     number(static_cast<std::uint32_t>(ns % 1'000'000'000));
+  }
+
+  void header(Timestamp stamp, const std::string& frame)
+  {
+    time(stamp);
     string(frame);
   }
 
@@ -59,4 +69,11 @@ class MessageWriter
   static constexpr std::size_t kEncapsulation = 4;
   std::vector<std::uint8_t> bytes_{0, 1, 0, 0};
 };
+
+/** sensor_msgs/Imu without an orientation. */
+std::vector<std::uint8_t> imuMessage(const ImuSample&, const std::string& frame);
+
+/** tf2_msgs/TFMessage of one transform. */
+std::vector<std::uint8_t> transformMessage(Timestamp, const std::string& parent, const std::string& child,
+                                           const Rigid& parent_T_child);
 }  // namespace scanloom

@@ -7,10 +7,10 @@
 #include "doctor/RawlogEvidence.h"
 #include "edit/CloudObservation.h"
 #include "edit/RawlogHeader.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogReader.h"
 #include "mrpt_bridge/jsonText.h"
+#include "rawlogs/Conversions.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

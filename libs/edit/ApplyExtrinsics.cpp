@@ -3,9 +3,9 @@
 #include "core/ConfigError.h"
 #include "edit/CloudObservation.h"
 #include "edit/RawlogHeader.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogReader.h"
+#include "rawlogs/Conversions.h"
 #include "rig/Extrinsics.h"
 #include "rig/RigOptions.h"
 

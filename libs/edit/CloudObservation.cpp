@@ -1,7 +1,7 @@
 #include "edit/CloudObservation.h"
 
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/PointSelection.h"
+#include "rawlogs/Conversions.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include "edit/CropClouds.h"
 
 #include "edit/CloudObservation.h"
-#include "mrpt_bridge/Conversions.h"
+#include "rawlogs/Conversions.h"
 
 namespace scanloom
 {

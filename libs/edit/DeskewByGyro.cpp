@@ -5,9 +5,9 @@
 #include "edit/GyroBias.h"
 #include "imu/ImuBuffer.h"
 #include "imu/Preintegration.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
 #include "preprocessing/Deskew.h"
+#include "rawlogs/Conversions.h"
 
 #include <fmt/format.h>
 

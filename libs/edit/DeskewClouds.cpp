@@ -2,9 +2,9 @@
 
 #include "edit/CloudObservation.h"
 #include "formats/SecondsText.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
 #include "preprocessing/Deskew.h"
+#include "rawlogs/Conversions.h"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,8 @@
 #include "edit/CloudObservation.h"
 #include "formats/EurocImu.h"
 #include "formats/Trajectory.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
+#include "rawlogs/Conversions.h"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

@@ -3,8 +3,8 @@
 #include "edit/CloudObservation.h"
 #include "edit/DeskewClouds.h"
 #include "maps/MapFile.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
+#include "rawlogs/Conversions.h"
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "edit/RawlogCut.h"
 
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/RawlogReader.h"
+#include "rawlogs/Conversions.h"
 
 #include <mrpt/obs/CObservation.h>
 

@@ -2,9 +2,9 @@
 
 #include "config/Names.h"
 #include "core/ConfigError.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogReader.h"
+#include "rawlogs/Conversions.h"
 
 #include <fmt/format.h>
 

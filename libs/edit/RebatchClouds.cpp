@@ -1,11 +1,11 @@
 #include "edit/RebatchClouds.h"
 
 #include "edit/CloudObservation.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/PointSelection.h"
 #include "mrpt_bridge/RawlogReader.h"
 #include "mrpt_bridge/RecordingHeaderJson.h"
+#include "rawlogs/Conversions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "edit/TimeOffset.h"
 
 #include "edit/RawlogLabels.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/RawlogReader.h"
+#include "rawlogs/Conversions.h"
 
 #include <mrpt/obs/CObservationPointCloud.h>
 

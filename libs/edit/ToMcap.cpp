@@ -6,8 +6,8 @@
 #include "edit/CloudObservation.h"
 #include "edit/ExportTables.h"
 #include "edit/RawlogHeader.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/Observations.h"
+#include "rawlogs/Conversions.h"
 
 #include <algorithm>
 #include <cctype>
@@ -70,35 +70,6 @@ std::vector<std::uint8_t> cloudMessageOf(const Scan& scan, const std::string& fr
   message.number(static_cast<std::uint32_t>(data.size()));
   message.byteSequence(data);
   message.number(std::uint8_t{1});  // no point without coordinates
-  return message.bytes();
-}
-
-std::vector<std::uint8_t> imuMessageOf(const ImuSample& sample, const std::string& frame)
-{
-  const auto unknown = [](MessageWriter& message, double first)
-  {
-    for (int i = 0; i < 9; ++i) message.number(i == 0 ? first : 0.0);
-  };
-  MessageWriter message;
-  message.header(sample.stamp, frame);
-  message.quaternion(Eigen::Quaterniond::Identity());
-  unknown(message, -1);  // there is no orientation
-  message.vector(sample.gyro);
-  unknown(message, 0);
-  message.vector(sample.accel);
-  unknown(message, 0);
-  return message.bytes();
-}
-
-std::vector<std::uint8_t> transformMessageOf(Timestamp stamp, const std::string& parent, const std::string& child,
-                                             const Rigid& parent_T_child)
-{
-  MessageWriter message;
-  message.number(std::uint32_t{1});
-  message.header(stamp, parent);
-  message.string(child);
-  message.vector(parent_T_child.translation);
-  message.quaternion(parent_T_child.rotation);
   return message.bytes();
 }
 
@@ -177,14 +148,14 @@ class McapExport
   {
     if (frames_.insert(frame).second)
       writer_.add(topic("/tf_static", transformsSchema()), stamp,
-                  transformMessageOf(stamp, kBodyFrame, frame, body_T_frame));
+                  transformMessage(stamp, kBodyFrame, frame, body_T_frame));
   }
 
   void add(const RecordedImu& imu)
   {
     const std::string frame = rosName(imu.label);
     addFrame(imu.sample.stamp, frame, imu.body_T_imu);
-    writer_.add(topic("/" + frame, imuSchema()), imu.sample.stamp, imuMessageOf(imu.sample, frame));
+    writer_.add(topic("/" + frame, imuSchema()), imu.sample.stamp, imuMessage(imu.sample, frame));
   }
 
   void writePosesUntil(Timestamp end)
@@ -193,7 +164,7 @@ class McapExport
     {
       const StampedPose& pose = trajectory_[written_];
       writer_.add(topic("/tf", transformsSchema()), pose.stamp,
-                  transformMessageOf(pose.stamp, kMapFrame, kBodyFrame, pose.map_T_body));
+                  transformMessage(pose.stamp, kMapFrame, kBodyFrame, pose.map_T_body));
     }
   }
 

@@ -1,8 +1,8 @@
 #include "maps/SimpleMapFile.h"
 
 #include "core/AtomicFile.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/readByAll.h"
+#include "rawlogs/Conversions.h"
 
 #include <fmt/format.h>
 #include <mrpt/maps/CPointsMapXYZI.h>

@@ -2,9 +2,9 @@
 
 #include "config/MrptMessage.h"
 #include "maps/SimpleMapFile.h"
-#include "mrpt_bridge/Conversions.h"
-#include "mrpt_bridge/CountedArchive.h"
 #include "mrpt_bridge/registerClasses.h"
+#include "rawlogs/Conversions.h"
+#include "rawlogs/CountedArchive.h"
 
 #include <fmt/format.h>
 #include <mrpt/maps/CPointsMapXYZI.h>

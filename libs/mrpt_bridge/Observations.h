@@ -1,12 +1,11 @@
-/** Scans and IMU samples as MRPT's observations, and back. */
+/** Scans as MRPT's observations, and back. */
 #pragma once
 #include "batching/Scan.h"
-#include "core/ImuSample.h"
+#include "rawlogs/ImuObservation.h"
 #include "rig/RecordingHeader.h"
 
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
-#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
 #include <optional>
@@ -14,15 +13,13 @@
 
 namespace scanloom
 {
-/** MOLA's default labels, so that its pipelines work without changes. */
-inline constexpr const char* kLidarLabel = "lidar";
+inline constexpr const char* kLidarLabel = "lidar";    // MOLA's default, so that its pipelines work without changes
 inline constexpr const char* kSliceSuffix = "_slice";  // of the label of slices; a scan contains its slices again
+inline constexpr const char* kHeaderLabel = "scanloom";
+inline constexpr const char* kMarkLabel = "mark";
 
 /** By its label. */
 bool isSlice(const mrpt::obs::CObservation&);
-inline constexpr const char* kImuLabel = "imu";
-inline constexpr const char* kHeaderLabel = "scanloom";
-inline constexpr const char* kMarkLabel = "mark";
 
 enum class CloudClass
 {
@@ -57,20 +54,6 @@ Scan measuredScan(const mrpt::obs::CObservationPointCloud&, const std::optional<
 
 /** Removes points that no lidar measures: not finite, or 100 km or more from the body along an axis. */
 void removeImpossible(PointCloud& points_in_body);
-
-struct RecordedImu
-{
-  ImuSample sample;
-  Rigid body_T_imu;
-  std::string label;
-};
-
-/** m/s2 and rad/s, sensorPose is body_T_imu. */
-mrpt::obs::CObservationIMU::Ptr toObservation(const ImuSample&, const Rigid& body_T_imu,
-                                              const std::string& label = kImuLabel);
-
-/** Nothing if an axis of the accelerometer or the gyroscope is missing or not finite. */
-std::optional<RecordedImu> fromObservation(const mrpt::obs::CObservationIMU&);
 
 /** What a person has marked, at any place of a rawlog. */
 mrpt::obs::CObservationComment::Ptr markObservation(Timestamp, const std::string& text);

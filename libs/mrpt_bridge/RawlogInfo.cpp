@@ -1,7 +1,7 @@
 #include "mrpt_bridge/RawlogInfo.h"
 
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/RawlogReader.h"
+#include "rawlogs/Conversions.h"
 
 #include <algorithm>
 #include <map>

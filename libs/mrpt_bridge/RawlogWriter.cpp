@@ -1,9 +1,9 @@
 #include "mrpt_bridge/RawlogWriter.h"
 
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/GzipArchive.h"
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/readByAll.h"
+#include "rawlogs/Conversions.h"
 
 #include <utility>
 

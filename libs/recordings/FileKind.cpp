@@ -5,6 +5,7 @@
 #include "lidar/LidarModels.h"
 #include "lidar/MetadataKeys.h"
 #include "packets/describeFile.h"
+#include "rawlogs/PacketRawlog.h"
 
 #include <algorithm>
 #include <cctype>
@@ -29,16 +30,6 @@ std::string firstBytesOf(const std::filesystem::path& path)
 bool beginsWith(std::string_view bytes, std::string_view beginning)
 {
   return bytes.substr(0, beginning.size()) == beginning;
-}
-
-/** MRPT writes the length of a class's name with its highest bit set, then the name. */
-bool isSerialisedObject(std::string_view bytes)
-{
-  if (bytes.size() < 3 || (static_cast<unsigned char>(bytes[0]) & 0x80U) == 0) return false;
-  const std::size_t length = static_cast<unsigned char>(bytes[0]) & 0x7FU;
-  const std::string_view name = bytes.substr(1, length);
-  const auto inName = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == ':' || c == '<' || c == '>'; };
-  return name.size() == length && length > 1 && std::all_of(name.begin(), name.end(), inName);
 }
 
 /** KITTI's scans have nothing but points in them: they are told by their ending. */
@@ -88,7 +79,7 @@ FileKind kindOf(const std::filesystem::path& path)
 {
   const std::string bytes = firstBytesOf(path);
   if (beginsLikeCapture(bytes) || isBag(path)) return FileKind::Capture;
-  if (isSerialisedObject(bytes)) return FileKind::Rawlog;
+  if (beginsLikeRawlog(bytes)) return FileKind::Rawlog;
   if (isCloud(path, bytes)) return FileKind::Cloud;
   if (!bytes.empty() && isText(bytes)) return kindOfText(path, bytes);
   return FileKind::Other;

@@ -6,8 +6,8 @@ namespace scanloom
 /** What a file of a recording is good for. */
 enum class FileKind
 {
-  Capture,        // pcap, pcapng, or a bag of ROS
-  Rawlog,         // of MRPT
+  Capture,        // pcap, pcapng, a bag of ROS, or a rawlog of packets
+  Rawlog,         // of MRPT, other
   Cloud,          // PLY, PCD, KITTI
   LidarMetadata,  // of any known brand
   BodyImu,        // EuRoC csv

@@ -22,9 +22,10 @@ constexpr const char* kUnknownPose = "[0 0 0 0 0 0]";
 
 constexpr Duration kBagLookedAt = 10s;  // of a bag: its static transforms and metadata come first
 
-/** "left" of "/left/ouster/lidar_packets"; empty for a topic that stands alone. */
+/** "left" of "/left/ouster/lidar_packets"; empty for "/packets", which stands alone. A label of a rawlog is a name. */
 std::string firstOf(const std::string& topic)
 {
+  if (topic.find('/') == std::string::npos) return topic;
   const std::size_t begin = topic.find_first_not_of('/');
   const std::size_t end = begin == std::string::npos ? begin : topic.find('/', begin);
   return end == std::string::npos ? "" : topic.substr(begin, end - begin);

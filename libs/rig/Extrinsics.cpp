@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -58,7 +59,9 @@ std::string poseText(const Rigid& pose)
 {
   const Eigen::Vector3d& t = pose.translation;
   const Eigen::Vector3d angles = pose.yawPitchRoll() / kDegree;
-  return fmt::format("{:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}", t.x(), t.y(), t.z(), angles[0], angles[1], angles[2]);
+  const auto text = [](double value) { return fmt::format("{:.9f}", std::abs(value) < 0.5e-9 ? 0.0 : value); };
+  return fmt::format("{} {} {} {} {} {}", text(t.x()), text(t.y()), text(t.z()), text(angles[0]), text(angles[1]),
+                     text(angles[2]));
 }
 
 std::map<std::string, Rigid> readExtrinsics(const std::filesystem::path& path)

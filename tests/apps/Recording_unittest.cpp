@@ -1,5 +1,8 @@
 /** A recording on the command line, without a configuration. */
 #include "formats/TrajectoryReader.h"
+#include "packets/CaptureReader.h"
+#include "rawlogs/Conversions.h"
+#include "support/PacketRawlogFile.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 #include "support/runProgram.h"
@@ -74,6 +77,29 @@ TEST(Recording, isReadFromAnotherFolderByItsOwnConfiguration)
       "/", fmt::format("slam -c {0}/data/results/configuration.ini --out-dir {0}/again", folder.path().string()));
   EXPECT_EQ(again.status, 0) << again.output;
   EXPECT_EQ(contentOf(folder / "data/results/trajectory.tum"), contentOf(folder / "again/trajectory.tum"));
+}
+
+TEST(Recording, asARawlogOfStockMrptGivesTheSameTrajectory)
+{
+  SCANLOOM_NEEDS_DATA(capture, kVelodynes);
+  const TemporaryFolder folder;
+  std::filesystem::copy(capture, folder / "street.pcap");
+  CaptureReader reader(capture);
+  std::vector<mrpt::serialization::CSerializable::Ptr> scans;
+  for (Datagram datagram; reader.next(datagram);)
+    scans.push_back(velodyneScan({datagram.payload}, toMrpt(datagram.received), "VELODYNE"));
+  writeRawlog(folder / "stock.rawlog", scans);
+
+  for (const char* name : {"street.pcap", "stock.rawlog"})
+  {
+    const Ended ended = scanloom(folder.path(), fmt::format("slam {}", name));
+    EXPECT_EQ(ended.status, 0) << ended.output;
+  }
+  EXPECT_EQ(contentOf(folder / "stock_slam/trajectory.tum"), contentOf(folder / "street_slam/trajectory.tum"));
+
+  EXPECT_EQ(scanloom(folder.path(), "record stock.rawlog").status, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "stock_scans.rawlog"));
+  EXPECT_EQ(scanloom(folder.path(), "view stock.rawlog --png scan.png").status, 0);
 }
 
 TEST(Recording, cloudsOfItGiveItsTrajectory)

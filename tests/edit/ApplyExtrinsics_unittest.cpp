@@ -4,8 +4,8 @@
 #include "core/ConfigError.h"
 #include "edit/CloudObservation.h"
 #include "edit/DeskewClouds.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/RawlogInfo.h"
+#include "rawlogs/Conversions.h"
 #include "smallRawlog.h"
 
 #include <gmock/gmock.h>

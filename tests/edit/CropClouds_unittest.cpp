@@ -3,7 +3,7 @@
 
 #include "edit/CloudObservation.h"
 #include "edit/ThinClouds.h"
-#include "mrpt_bridge/Conversions.h"
+#include "rawlogs/Conversions.h"
 #include "smallRawlog.h"
 
 #include <gmock/gmock.h>

@@ -6,7 +6,7 @@
 #include "edit/ExportTables.h"
 #include "edit/SplitLidars.h"
 #include "formats/CloudFile.h"
-#include "mrpt_bridge/Conversions.h"
+#include "rawlogs/Conversions.h"
 #include "smallRawlog.h"
 
 #include <gmock/gmock.h>

@@ -6,7 +6,7 @@
 #include "edit/RawlogCut.h"
 #include "edit/RawlogLabels.h"
 #include "edit/TimeOffset.h"
-#include "mrpt_bridge/Conversions.h"
+#include "rawlogs/Conversions.h"
 #include "smallRawlog.h"
 
 #include <gmock/gmock.h>

@@ -5,8 +5,8 @@
 #include "edit/RawlogHeader.h"
 #include "edit/RawlogLabels.h"
 #include "edit/SplitLidars.h"
-#include "mrpt_bridge/Conversions.h"
 #include "mrpt_bridge/RawlogInfo.h"
+#include "rawlogs/Conversions.h"
 #include "smallRawlog.h"
 
 #include <gmock/gmock.h>

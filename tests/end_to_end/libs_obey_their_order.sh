@@ -44,7 +44,7 @@ failed=0
     only("ndt", "core")
     only("config", "core")
     only("lidar", "core")
-    only("simulation", "core config formats lidar batching whole_turns packets bags rig imu")
+    only("simulation", "core config formats lidar batching whole_turns packets rawlogs bags rig imu")
     never("mrpt_bridge", "slam")
     never("edit", "slam")
     never("doctor", "slam")

@@ -1,6 +1,6 @@
 #include "maps/SimpleMapFile.h"
 
-#include "mrpt_bridge/Conversions.h"
+#include "rawlogs/Conversions.h"
 #include "support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>

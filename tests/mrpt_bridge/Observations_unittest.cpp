@@ -1,7 +1,7 @@
 #include "mrpt_bridge/Observations.h"
 
 #include "mrpt_bridge/CGenericPointsMap.h"
-#include "mrpt_bridge/Conversions.h"
+#include "rawlogs/Conversions.h"
 #include "someScan.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
-#include "mrpt_bridge/ObservationReader.h"
+#include "rawlogs/RawlogObservations.h"
 
 #include "config/MrptMessage.h"
-#include "mrpt_bridge/registerClasses.h"
 
 #include <fmt/format.h>
 
@@ -10,9 +9,7 @@
 
 namespace scanloom
 {
-ObservationReader::ObservationReader(const std::filesystem::path& path) : archive_(path) { registerClasses(); }
-
-mrpt::obs::CObservation::Ptr ObservationReader::next()
+mrpt::obs::CObservation::Ptr RawlogObservations::next()
 {
   while (waiting_.empty() && !ended_) readObject();
   if (waiting_.empty()) return nullptr;
@@ -21,7 +18,7 @@ mrpt::obs::CObservation::Ptr ObservationReader::next()
   return observation;
 }
 
-void ObservationReader::readObject()
+void RawlogObservations::readObject()
 {
   try
   {
@@ -43,14 +40,14 @@ void ObservationReader::readObject()
 }
 
 /** An object of a frame that is no observation has become null. */
-void ObservationReader::takeFrame(const mrpt::obs::CSensoryFrame& frame)
+void RawlogObservations::takeFrame(const mrpt::obs::CSensoryFrame& frame)
 {
   std::copy_if(frame.begin(), frame.end(), std::back_inserter(waiting_),
                [](const auto& observation) { return observation != nullptr; });
   passed_over_ += frame.size() - waiting_.size();
 }
 
-void ObservationReader::endBecause(const std::string& why)
+void RawlogObservations::endBecause(const std::string& why)
 {
   ended_ = true;
   waiting_.clear();

@@ -1,4 +1,4 @@
-#include "mrpt_bridge/CountedArchive.h"
+#include "rawlogs/CountedArchive.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,8 @@ constexpr std::array kCountedClasses{
     CountedClass{kMovement3d, 1, 0, kEach},               // its first number is not large
     CountedClass{"CObservationPointCloud", 1, 1, kEach},  // its label, and a file's name
     CountedClass{"CObservationComment", 1, 1, kEach},
-    CountedClass{"CObservationIMU", 8, 1, kEach},  // before version 4: numbers of doubles
+    CountedClass{"CObservationVelodyneScan", 1, 1, kEach, 0, 1206},  // its label, its packets
+    CountedClass{"CObservationIMU", 8, 1, kEach},                    // before version 4: numbers of doubles
     CountedClass{"CObservationRobotPose", 1},
     CountedClass{"CObservationOdometry", 1},
     CountedClass{"CPose2D", 0, 0, 0, 1},
@@ -50,6 +51,8 @@ constexpr std::array kCountedClasses{
 };
 
 constexpr CountedClass kVelocity{"velocity", 1, 1, 1};  // of a keyframe, after its frame: names of two types
+
+constexpr std::string_view kLists = "std::vector<uint64_t>";  // in a vector of them
 
 constexpr std::size_t kLongestName = 120;  // as in MRPT
 
@@ -123,10 +126,22 @@ void CountedArchive::follow(const char* bytes, std::size_t count)
     std::memcpy(&items, bytes, sizeof items);
     followCount(items);
   }
+  else if (now == Next::Items && std::string_view(bytes, count) == kLists)
+    next_ = Next::NoLists;
+  else if (now == Next::NoLists)
+    followLists(bytes, count);
   else if (now == Next::Items)
     next_ = --arrays_ > 0 ? Next::Items : afterItems();
   else if (const CountedClass* begun = classNamed({bytes, count}))
     begin(*begun);
+}
+
+/** Each list would have counts of its own. No stock program writes them. */
+void CountedArchive::followLists(const char* bytes, std::size_t count)
+{
+  if (std::any_of(bytes, bytes + count, [](char byte) { return byte != 0; }))
+    refuse(fmt::format("holds a {} with lists of points by laser, which are not read", class_->name));
+  next_ = Next::Anything;
 }
 
 /** MRPT writes the length of the name with the highest bit set, the name, the data, and an end flag. */
@@ -211,8 +226,10 @@ void CountedArchive::followMovement(const char* bytes, std::size_t count)
 
 void CountedArchive::followCount(std::uint32_t items)
 {
-  const bool first = more_ == class_->more;
-  const std::uint64_t least = first ? class_->least_bytes : std::min(class_->least_bytes, kFloat);
+  const int counts_before = class_->more - more_;
+  const std::uint64_t least = counts_before == 0                               ? class_->least_bytes
+                              : counts_before == 1 && class_->second_bytes > 0 ? class_->second_bytes
+                                                                               : std::min(class_->least_bytes, kFloat);
   if (!follows(items * least))
     refuse(fmt::format("is damaged: a {} of {} items, but only {} bytes follow", class_->name, items, ahead_.size()));
   next_ = items > 0 && arrays_ > 0 ? Next::Items : afterItems();

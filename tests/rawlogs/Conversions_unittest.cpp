@@ -1,4 +1,4 @@
-#include "mrpt_bridge/Conversions.h"
+#include "rawlogs/Conversions.h"
 
 #include <gtest/gtest.h>
 

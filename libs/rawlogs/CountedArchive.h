@@ -24,7 +24,8 @@ struct CountedClass
   const char* name;
   std::uint64_t least_bytes;  // of an item in the file; 0: a part of other classes, without counts
   int arrays = 0, more = 0;
-  char least_version = 0;  // older ones have their counts elsewhere
+  char least_version = 0;          // older ones have their counts elsewhere
+  std::uint64_t second_bytes = 0;  // of an item of the second count, if those are larger than a float
 };
 
 /** More than a dozen members: where in the nested objects of the file the reading is. */
@@ -56,7 +57,8 @@ class CountedArchive : public mrpt::serialization::CArchive
     Id,  // of a CSensoryFrame before its version 2
     Count,
     Movement,
-    Items,  // of array after array: no count, although they may be 4 bytes
+    NoLists,  // a number of lists, of which there must be none
+    Items,    // of array after array: no count, although they may be 4 bytes
   };
 
   void follow(const char* bytes, std::size_t count);
@@ -65,6 +67,7 @@ class CountedArchive : public mrpt::serialization::CArchive
   void beginVelocity();
   void followVersion(char version);
   void followCount(std::uint32_t items);
+  void followLists(const char* bytes, std::size_t count);
   void followMovement(const char* bytes, std::size_t count);
   Next afterItems();
   bool follows(std::uint64_t bytes);
