@@ -1,6 +1,7 @@
 #pragma once
 #include "core/Bytes.h"
 
+#include <Eigen/Core>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfLines.h>
