@@ -46,6 +46,8 @@ ceres::Solver::Options solverOptions(int max_iterations)
   o.num_threads = 1;
   o.max_num_iterations = max_iterations;
   o.logging_type = ceres::SILENT;
+  // The scales are sums of squares, which Ceres 2.1 and 2.2 add in another order; Cholesky is as exact without them.
+  o.jacobi_scaling = false;
   // The IMU's prediction starts close to the optimum: whole Gauss-Newton steps, damped only where one fails.
   o.initial_trust_region_radius = 1e12;
   o.max_trust_region_radius = 1e20;
