@@ -6,8 +6,9 @@
 namespace scanloom
 {
 /**
- * Where a person sees from the machine what the lidars leave open: "open ahead", "open sideways", "open upwards", "open
- * in heading", "open in tilt", joined by commas; or why the registration is not trusted otherwise.
+ * What the lidars leave open, as a person on the machine sees it: "open ahead", "open ahead to the left" (a line
+ * between two axes), "open sideways", "open upwards", "open in heading", "open in tilt", joined by commas; or why the
+ * registration is not trusted otherwise.
  */
 std::string openDirection(const StateEstimate&);
 }  // namespace scanloom
