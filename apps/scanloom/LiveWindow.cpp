@@ -121,7 +121,7 @@ class LiveWindow::Drawing
     const std::string command = status.player ? commandOf(letter, *status.player) : "";
     const std::lock_guard lock(exchange_.mutex);
     if (!command.empty()) exchange_.commands.push_back(command);
-    if (letter == 'M') exchange_.marks.push_back({"window", {}});
+    if (letter == 'M') exchange_.marks.push_back("marked in the window");
     return letter != 'Q';
   }
 
@@ -137,7 +137,6 @@ LiveWindow::LiveWindow(const std::string& title, LiveExchange& exchange)
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
     throw std::runtime_error("there is no display for a window: use --web");
   drawing_ = std::make_unique<Drawing>(title, exchange);  // by this thread: one that yields may be too late for MRPT
-  exchange.viewers = 1;
   thread_ = std::thread([this] { show(); });
 }
 

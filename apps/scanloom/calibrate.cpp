@@ -64,15 +64,16 @@ void drive(const Rig& rig, const SlamSettings& settings, Calibration& calibratio
   std::optional<InputDisplay> display;
   const OpenInput open = [&]
   {
-    display.emplace("calibrate", megabytes, "MB");
-    return std::make_unique<ReadAhead>(openRig(rig));
+    auto input = std::make_unique<ReadAhead>(openRig(rig));
+    display.emplace("calibrate", *input, megabytes, "MB");
+    return input;
   };
   const KeepGoing keepGoing = [&](const RunProgress& progress)
   {
     display->update(progress.share, progress.scans, {progress.recorded, progress.busy});
     return !interrupted();
   };
-  const Warn warn = [](const std::string& warning) { fmt::print(stderr, "warning: {}\n", warning); };
+  const Warn warn = [&](const std::string& warning) { display->warn(warning); };
   if (!rig.body_T_imu)
   {
     calibration.drive = driveForCalibration(*open(), calibration.reference, settings, {}, keepGoing, warn);

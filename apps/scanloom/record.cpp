@@ -65,15 +65,9 @@ struct Source
 std::unique_ptr<InputDisplay> displayOf(const Source& source, SensorInput& input)
 {
   if (source.isLive()) return std::make_unique<InputDisplay>("record", input);
-  if (!source.scene) return std::make_unique<InputDisplay>("record", megabytesOf(source.rig.captures), "MB");
+  if (!source.scene) return std::make_unique<InputDisplay>("record", input, megabytesOf(source.rig.captures), "MB");
   const double duration = std::ceil(source.scene->span.duration);
-  return std::make_unique<InputDisplay>("record", static_cast<std::uint64_t>(duration), "s");
-}
-
-void writeMarks(Web& web, RawlogWriter& writer)
-{
-  web.update();
-  for (const EventMark& mark : web.feed().takeMarks()) writer.write(*markObservation(mark.stamp, mark.text));
+  return std::make_unique<InputDisplay>("record", input, static_cast<std::uint64_t>(duration), "s");
 }
 
 Recorded record(SensorInput& input, const Source& source, const RecordArguments& arguments, RawlogWriter& writer)
@@ -89,7 +83,7 @@ Recorded record(SensorInput& input, const Source& source, const RecordArguments&
                 [&](const Recorded& so_far)
                 {
                   if (display) display->update(watched.progress(), so_far.scans);
-                  if (web) writeMarks(*web, writer);
+                  if (web) web->update();
                   const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
                   return !interrupted() && !over;
                 });
@@ -132,12 +126,15 @@ void report(const RecordArguments& arguments, const Recorded& recorded, const Ri
   const auto counts = countsOf(account);
   if (arguments.json)
   {
-    const nlohmann::json result = {
-        {"scans", recorded.scans}, {"imu_samples", recorded.imu_samples}, {"counts", counts}};
+    const nlohmann::json result = {{"scans", recorded.scans},
+                                   {"imu_samples", recorded.imu_samples},
+                                   {"marks", recorded.marks},
+                                   {"counts", counts}};
     std::cout << result.dump(2) << '\n';
     return;
   }
   fmt::print("{} scans and {} IMU samples in {}\n", recorded.scans, recorded.imu_samples, rawlog.string());
+  if (recorded.marks > 0) fmt::print("  {} events were marked\n", recorded.marks);
   for (const auto& [name, lidar, of_other_senders, clock_offset] : account.lidars)
   {
     fmt::print("  {}: {} blocks sent, {} emitted, {} before the start, {} invalid, {} lost, {} late, {} duplicate\n",

@@ -57,7 +57,7 @@ std::string commandOf(const SlamArguments& arguments)
 InputDisplay displayOf(const SlamInput& input, SensorInput& sensors)
 {
   if (input.live) return {"slam", sensors};
-  return {"slam", input.size, input.unit};
+  return {"slam", sensors, input.size, input.unit};
 }
 
 void warnOfDroppedScans(const RunSummary& summary)
@@ -91,6 +91,7 @@ void report(const SlamRunResult& result, const std::filesystem::path& folder)
   if (count("poses_degenerate") + count("poses_lost") + count("poses_initialising") > 0)
     fmt::print(stderr, "warning: {} poses INITIALISING, {} DEGENERATE, {} LOST: see trajectory.csv\n",
                count("poses_initialising"), count("poses_degenerate"), count("poses_lost"));
+  if (!s.marks.empty()) fmt::print("{} events were marked: see trajectory.csv\n", s.marks.size());
   fmt::print("{}\n", (folder / "trajectory.tum").string());
 }
 
@@ -114,17 +115,16 @@ SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings&
       {
         display.update(progress.share, progress.scans, {progress.recorded, progress.busy});
         if (web) web->update({progress.recorded, progress.busy});
-        if (web)
-          for (const EventMark& mark : web->feed().takeMarks()) files.mark(mark.text);
         const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
         if (input.live && (over || interrupted())) input.sensors->stop();
         return input.live || !interrupted();
       },
       [&](const std::string& warning)
       {
-        fmt::print(stderr, "warning: {}\n", warning);
+        display.warn(warning);
         if (web) web->feed().warn(warning);
-      });
+      },
+      [&](const EventMark& mark) { files.add(mark); });
   if (web) web->feed().end();
   return result;
 }

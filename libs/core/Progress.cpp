@@ -13,12 +13,14 @@ using namespace std::chrono_literals;
 
 constexpr auto kTerminalPeriod = 100ms;
 constexpr auto kLogPeriod = 10s;  // if the total is not known
-constexpr int kBarWidth = 20;
+constexpr std::size_t kBarWidth = 20;
+constexpr std::size_t kTerminalWidth = 79;  // a line that is longer would not be replaced by the next
+constexpr const char* kBackAndErase = "\r\033[K";
 
-std::string bar(double share)
+std::string bar(double share, std::size_t width)
 {
-  const int filled = static_cast<int>(share * kBarWidth);
-  return "[" + std::string(filled, '=') + std::string(kBarWidth - filled, ' ') + "]";
+  const auto filled = static_cast<std::size_t>(share * static_cast<double>(width));
+  return "[" + std::string(filled, '=') + std::string(width - filled, ' ') + "] ";
 }
 }  // namespace
 
@@ -54,11 +56,16 @@ void Progress::show()
 {
   shown_ = done_;
   shown_at_ = Clock::now();
-  constexpr const char* kBackAndErase = "\r\033[K";
   if (terminal_)
     out_ << kBackAndErase << line() << std::flush;
   else
     out_ << line() << std::endl;
+}
+
+void Progress::say(const std::string& text)
+{
+  out_ << (terminal_ ? kBackAndErase : "") << text << std::endl;
+  if (terminal_) show();
 }
 
 std::string Progress::line() const
@@ -69,11 +76,15 @@ std::string Progress::line() const
   if (total_ == 0) return fmt::format("{}: {} {}, {}", what_, done_, unit_, speed);
 
   const double share = static_cast<double>(done_) / static_cast<double>(total_);
-  const std::string drawn = terminal_ ? bar(share) + " " : "";
   const std::string time = done_ == total_ ? "took " + timeText(elapsed)
                            : rate > 0      ? timeText(static_cast<double>(total_ - done_) / rate) + " left"
                                            : "starting";
-  return fmt::format("{}: {}{:.0f} %, {}/{} {}, {}, {}", what_, drawn, 100 * share, done_, total_, unit_, speed, time);
+  const std::string numbers = fmt::format("{:.0f} %, {}/{} {}, {}, {}", 100 * share, done_, total_, unit_, speed, time);
+  if (!terminal_) return fmt::format("{}: {}", what_, numbers);
+  constexpr std::size_t kFrame = 5;  // ": ", brackets and a blank
+  const std::size_t taken = what_.size() + kFrame + numbers.size();
+  const std::string drawn = bar(share, std::min(kBarWidth, kTerminalWidth - std::min(kTerminalWidth, taken)));
+  return fmt::format("{}: {}{}", what_, drawn, numbers).substr(0, kTerminalWidth);
 }
 
 std::uint64_t megabytesOf(const std::vector<std::filesystem::path>& files)

@@ -27,6 +27,9 @@ class Progress
 
   void update(std::uint64_t done);
 
+  /** A line that stays, above the one that is shown. */
+  void say(const std::string& text);
+
  private:
   using Clock = std::chrono::steady_clock;
 

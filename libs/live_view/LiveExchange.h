@@ -4,7 +4,6 @@
 #include "core/Rigid.h"
 #include "live_view/ViewStatus.h"
 
-#include <atomic>
 #include <mutex>
 #include <vector>
 
@@ -41,13 +40,6 @@ struct PathPoint
   std::uint8_t health = 0;   // as enum Health, or kPathBreak
 };
 
-/** A person has seen something. */
-struct EventMark
-{
-  std::string text;
-  Timestamp stamp{};  // of the newest scan; set by the thread that works
-};
-
 /** What the working thread has for the others. */
 struct LiveNews
 {
@@ -67,8 +59,7 @@ struct LiveExchange
   std::mutex mutex;
   ViewStatus status;                  // guarded
   LiveNews news;                      // guarded
-  std::vector<EventMark> marks;       // guarded; on their way to the working thread
+  std::vector<std::string> marks;     // guarded; texts, on their way to the working thread
   std::vector<std::string> commands;  // guarded; for a player
-  std::atomic<int> viewers{0};
 };
 }  // namespace scanloom

@@ -1,6 +1,7 @@
 #include "live_view/LiveFeed.h"
 
 #include "live_view/openDirection.h"
+#include "rig/RepeatedWarnings.h"
 
 #include <algorithm>
 
@@ -11,9 +12,11 @@ namespace
 using namespace std::chrono_literals;
 
 constexpr std::size_t kScanPoints = 4000, kKeyframePoints = 60000, kMostWaiting = 8, kMostWarnings = 30,
-                      kMostMarks = 100;
+                      kMostMarks = 100, kMarksShown = 20;
 constexpr LiveFeed::Clock::duration kOfferEvery = 50ms, kRateEvery = 1s;
-constexpr double kPathStep = 0.05;  // m
+constexpr double kPathStep = 0.1;  // m
+
+const std::string kBodyImu = "body";
 
 double per(std::uint64_t count, double seconds) { return seconds > 0 ? static_cast<double>(count) / seconds : 0; }
 }  // namespace
@@ -32,7 +35,6 @@ void LiveFeed::add(const Scan& scan, const RecordingHeader& header)
   if (!status_.first) status_.first = scan.end();
   status_.scan_came = Clock::now();
   watchLidars(scan, header);
-  if (exchange_.viewers == 0) return;  // nobody would see it; the map is kept for those who come later
   PlacedCloud placed{scan.start, scan.period, {}, {}, thinned(scan.points, kScanPoints)};
   if (localised_)
     waiting_.push_back(std::move(placed));
@@ -65,15 +67,15 @@ void LiveFeed::add(const SensorImu& read, const RecordingHeader& header)
   const Timestamp stamp = read.sample.stamp;
   HeardImu& heard = heard_imus_.try_emplace(read.sensor, HeardImu{0, stamp}).first->second;
   ++heard.samples;
-  const double since = seconds(stamp - heard.since);
-  if (since < 1) return;
   const auto of = static_cast<std::size_t>(read.sensor);
   const bool own = read.sensor >= 0 && of < header.lidars.size();
-  const std::string name = own ? header.lidars[of].name : "body";
+  const std::string& name = own ? header.lidars[of].name : kBodyImu;
   auto shown = std::find_if(status_.imus.begin(), status_.imus.end(), [&](auto& imu) { return imu.name == name; });
   if (shown == status_.imus.end()) shown = status_.imus.insert(shown, {name, 0, stamp});
-  shown->rate = per(heard.samples, since);
   shown->seen = stamp;
+  const double since = seconds(stamp - heard.since);
+  if (since < 1) return;
+  shown->rate = per(heard.samples, since);
   heard = {0, stamp};
 }
 
@@ -108,6 +110,13 @@ void LiveFeed::add(const StateEstimate& estimate)
                   false});
   }
   last_ = {estimate.stamp, estimate.map_T_body};
+}
+
+void LiveFeed::add(const EventMark& mark)
+{
+  ++status_.marks;
+  status_.newest_marks.push_front({mark.text, status_.first ? seconds(mark.stamp - *status_.first) : 0});
+  if (status_.newest_marks.size() > kMarksShown) status_.newest_marks.pop_back();
 }
 
 void LiveFeed::addPath(const StateEstimate& estimate)
@@ -164,7 +173,9 @@ void LiveFeed::update(const RigAccount& account, const FeedProgress& progress, C
 void LiveFeed::warn(const std::string& text, Clock::time_point now)
 {
   auto& warnings = status_.warnings;
-  const auto known = std::find_if(warnings.begin(), warnings.end(), [&](auto& w) { return w.text == text; });
+  const std::string common = withoutNumbers(text);
+  const auto known =
+      std::find_if(warnings.begin(), warnings.end(), [&](auto& w) { return withoutNumbers(w.text) == common; });
   CountedWarning warning{text, 1, now};
   if (known != warnings.end())
   {
@@ -187,7 +198,8 @@ void LiveFeed::restart()
   heard_imus_.clear();
   for (ViewedLidar& lidar : status_.lidars) lidar.seen.reset();
   status_.first = status_.newest = std::nullopt;
-  status_.scans = status_.poses = status_.keyframes = 0;
+  status_.scans = status_.poses = status_.keyframes = status_.marks = 0;
+  status_.newest_marks.clear();
   status_.distance = 0;
 }
 
@@ -208,8 +220,8 @@ void LiveFeed::offer(Clock::time_point now)
   if (now - offered_ < kOfferEvery) return;
   const std::unique_lock lock(exchange_.mutex, std::try_to_lock);
   if (!lock) return;
-  for (EventMark& mark : exchange_.marks)
-    if (marks_.size() < kMostMarks) marks_.push_back(std::move(mark)), ++status_.marks;
+  for (std::string& mark : exchange_.marks)
+    if (marks_.size() < kMostMarks) marks_.push_back(std::move(mark));
   for (std::string& command : exchange_.commands)
     if (commands_.size() < kMostMarks) commands_.push_back(std::move(command));
   exchange_.marks.clear();
@@ -220,11 +232,12 @@ void LiveFeed::offer(Clock::time_point now)
   offered_ = now;
 }
 
-std::vector<EventMark> LiveFeed::takeMarks()
+std::optional<EventMark> LiveFeed::takeMark()
 {
-  if (!status_.newest) return {};  // without a time they would be of no use: they wait for the first scan
-  for (EventMark& mark : marks_) mark.stamp = *status_.newest;
-  return std::exchange(marks_, {});
+  if (!status_.newest || marks_.empty()) return std::nullopt;
+  EventMark mark{*status_.newest, std::move(marks_.front())};
+  marks_.pop_front();
+  return mark;
 }
 
 std::vector<std::string> LiveFeed::takeCommands() { return std::exchange(commands_, {}); }

@@ -37,6 +37,7 @@ class LiveFeed
   void add(const Scan&, const RecordingHeader&);
   void add(const SensorImu&, const RecordingHeader&);
   void add(const StateEstimate&);
+  void add(const EventMark&);
   void update(const RigAccount&, const FeedProgress&, Clock::time_point now = Clock::now());
   void warn(const std::string&, Clock::time_point now = Clock::now());
   void show(const PlayerStatus&);
@@ -50,8 +51,8 @@ class LiveFeed
   /** Hands over what there is, if the lock is free. */
   void offer(Clock::time_point now = Clock::now());
 
-  /** Events that a person marked since the last call, with stamps. */
-  std::vector<EventMark> takeMarks();
+  /** An event that a person marked on the page; none before the first scan, without which it would have no time. */
+  std::optional<EventMark> takeMark();
   std::vector<std::string> takeCommands();
 
  private:
@@ -75,7 +76,7 @@ class LiveFeed
   bool localised_;
   ViewStatus status_;
   LiveNews news_;
-  std::vector<EventMark> marks_;
+  std::deque<std::string> marks_;  // not taken yet
   std::vector<std::string> commands_;
   std::deque<PlacedCloud> waiting_;  // scans without their pose
   std::vector<Heard> heard_;         // by sensor id

@@ -95,8 +95,20 @@ void LiveMap::addKeyframe(const PlacedCloud& keyframe)
     if (!in_map.allFinite() || !cubes_.insert(voxelKey(in_map.cast<float>(), edge_)).second) continue;
     putPoint(piece.points, in_map - piece.origin, keyframe.points.reflectivity[i], keyframe.points.lidar[i]);
   }
+  shuffle(piece.points);
   if (!piece.points.empty()) pieces_.push_back(std::move(piece));
   while (cubes_.size() > kMostPoints) makeCoarser();
+}
+
+void LiveMap::shuffle(std::string& points)
+{
+  for (std::size_t left = points.size() / kPointBytes; left > 1; --left)
+  {
+    const std::size_t last = (left - 1) * kPointBytes, other = random_() % left * kPointBytes;
+    std::swap_ranges(points.begin() + static_cast<std::ptrdiff_t>(last),
+                     points.begin() + static_cast<std::ptrdiff_t>(last + kPointBytes),
+                     points.begin() + static_cast<std::ptrdiff_t>(other));
+  }
 }
 
 void LiveMap::makeCoarser()

@@ -3,6 +3,7 @@
 
 #include <tsl/robin_set.h>
 
+#include <random>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct SeenByPage
 
 /**
  * The map so far, the path and the newest scan, as bytes for pages. The map grows at its end only, so a page that comes
- * late gets all of it, and one that stays gets each point once. Memory is bounded: when there are too many points, the
+ * late gets all of it, and one that stays gets each point once. The points of a message are in random order: its first
+ * ones are a fair sample, for a page that cannot draw all. Memory is bounded: when there are too many points, the
  * map is made coarser and a new epoch begins, in which pages get all of it again.
  *
  * Messages, little endian: u32 kind, u32 bytes that follow, then
@@ -62,6 +64,7 @@ class LiveMap
 
   void addKeyframe(const PlacedCloud&);
   void addPath(const std::vector<PathPoint>&);
+  void shuffle(std::string& points);
   void showScan(const PlacedCloud&);
   void makeCoarser();
   void appendMap(SeenByPage&, std::size_t bytes, std::string& messages) const;
@@ -73,5 +76,6 @@ class LiveMap
   std::vector<Piece> pieces_;
   std::vector<PathPoint> path_;
   std::string scan_;  // a whole message
+  std::mt19937 random_;
 };
 }  // namespace scanloom

@@ -108,7 +108,7 @@ void LiveServer::sendStatus(HttpReply& reply)
 
 void LiveServer::sendPoints(HttpReply& reply)
 {
-  const Place place(exchange_.viewers, options_.most_pages);
+  const Place place(viewers_, options_.most_pages);
   if (!place) throw BadRequest(kHttpBusy, fmt::format("{} pages are open already", options_.most_pages));
   if (!reply.beginStream("application/octet-stream")) return;
   constexpr double kBitsPerByte = 8;
@@ -137,7 +137,7 @@ void LiveServer::mark(const HttpRequest& request, HttpReply& reply)
   {
     const std::lock_guard lock(exchange_.mutex);
     if (exchange_.marks.size() >= kMostUntaken) throw BadRequest(kHttpBusy, "too many marks at once");
-    exchange_.marks.push_back({printable(request.body), {}});
+    exchange_.marks.push_back(printable(request.body));
   }
   reply.send(kHttpOk, kText, "marked\n");
 }

@@ -58,8 +58,8 @@ class LiveServer
   LiveServerOptions options_;
   PageFiles files_;
   std::mutex map_mutex_;
-  LiveMap map_;  // guarded
-  std::atomic<int> statuses_{0};
+  LiveMap map_;                                // guarded
+  std::atomic<int> statuses_{0}, viewers_{0};  // that are open
   std::atomic<bool> stopping_{false};
   std::thread collector_;
   HttpServer server_;  // last: its threads use all of the above

@@ -84,6 +84,7 @@ void Player::playNext()
     return;
   }
   if (const auto* sample = std::get_if<SensorImu>(&*event)) feed_.add(*sample, header_);
+  if (const auto* mark = std::get_if<EventMark>(&*event)) feed_.add(*mark);
   const auto* scan = std::get_if<Scan>(&*event);
   if (!scan) return;
   if (!first_) first_ = scan->start;

@@ -14,13 +14,13 @@ namespace scanloom
 struct ViewedLidar
 {
   std::string name, model;
-  double rate = 0;                // packets/s, or, of a rawlog, columns/s
-  std::uint64_t lost = 0;         // columns that never arrived
-  std::uint64_t left_out = 0;     // columns that came too late, or for which there was no room
-  double clock_offset = 0;        // s, what is added to its stamps
-  std::optional<Timestamp> seen;  // end of the last scan with columns of it
-  double returns = 0;             // share of the beams that came back, in the last second
-  double usual_returns = 0;       // the same since the start
+  double rate = 0;                     // packets/s, or, of a rawlog, columns/s
+  std::uint64_t lost = 0;              // columns that never arrived
+  std::uint64_t left_out = 0;          // columns that came too late, or for which there was no room
+  std::optional<double> clock_offset;  // s, what is added to its stamps; none: a rawlog does not tell
+  std::optional<Timestamp> seen;       // end of the last scan with columns of it
+  double returns = 0;                  // share of the beams that came back, in the last second
+  double usual_returns = 0;            // the same since the start
 };
 
 struct ViewedImu
@@ -35,6 +35,12 @@ struct CountedWarning
   std::string text;
   std::uint64_t count = 1;
   std::chrono::steady_clock::time_point last;
+};
+
+struct ShownMark
+{
+  std::string text;
+  double after = 0;  // s after the first scan
 };
 
 /** A player of a recording. */
@@ -61,6 +67,7 @@ struct ViewStatus
   std::vector<ViewedLidar> lidars;
   std::vector<ViewedImu> imus;
   std::deque<CountedWarning> warnings;  // newest first
+  std::deque<ShownMark> newest_marks;   // newest first, of all `marks`
   std::optional<PlayerStatus> player;
 };
 

@@ -20,7 +20,7 @@ json lidarJson(const ViewedLidar& lidar, const ViewStatus& status, Clock::time_p
           {"rate", lidar.rate},
           {"lost", lidar.lost},
           {"left_out", lidar.left_out},
-          {"clock_offset", lidar.clock_offset},
+          {"clock_offset", lidar.clock_offset ? json(*lidar.clock_offset) : json()},
           {"silence", silenceOf(lidar, status, now)},
           {"silent", silenceOf(lidar, status, now) > kSilent},
           {"returns", lidar.returns},
@@ -65,7 +65,8 @@ std::string toJson(const ViewStatus& status, const ComputerStatus& computer, Clo
                 {"memory", computer.memory},
                 {"lidars", json::array()},
                 {"imus", json::array()},
-                {"warnings", json::array()}};
+                {"warnings", json::array()},
+                {"newest_marks", json::array()}};
   if (status.factor) event["factor"] = *status.factor;
   if (status.player) event["player"] = playerJson(*status.player);
   for (const ViewedLidar& lidar : status.lidars) event["lidars"].push_back(lidarJson(lidar, status, now));
@@ -76,6 +77,8 @@ std::string toJson(const ViewStatus& status, const ComputerStatus& computer, Clo
     event["warnings"].push_back({{"text", warning.text},
                                  {"count", warning.count},
                                  {"age", std::chrono::duration<double>(now - warning.last).count()}});
+  for (const ShownMark& mark : status.newest_marks)
+    event["newest_marks"].push_back({{"text", mark.text}, {"after", mark.after}});
   // Names and warnings may quote files: what is no UTF-8 must not end the stream.
   return event.dump(-1, ' ', false, json::error_handler_t::replace);
 }

@@ -6,7 +6,11 @@ std::optional<SensorEvent> WatchedInput::next(Duration patience)
 {
   // setup() copies all that is known of the lidars: live it becomes more, but not with every event.
   constexpr auto kReadAgainAfter = 1s;
-  std::optional<SensorEvent> event = input_.next(patience);
+  std::optional<SensorEvent> event;
+  if (auto mark = feed_.takeMark())
+    event = *std::move(mark);
+  else
+    event = input_.next(patience);
   const auto now = LiveFeed::Clock::now();
   if (header_.lidars.empty() || now - header_read_ > kReadAgainAfter)
   {
@@ -16,6 +20,7 @@ std::optional<SensorEvent> WatchedInput::next(Duration patience)
   if (!event) return event;
   if (const auto* scan = std::get_if<Scan>(&*event)) feed_.add(*scan, header_);
   if (const auto* sample = std::get_if<SensorImu>(&*event)) feed_.add(*sample, header_);
+  if (const auto* mark = std::get_if<EventMark>(&*event)) feed_.add(*mark);
   return event;
 }
 

@@ -5,7 +5,10 @@
 
 namespace scanloom
 {
-/** Another input, whose events a page gets to see on their way to the one who asks for them. */
+/**
+ * Another input, whose events a page gets to see on their way to the one who asks for them. Events that a person marks
+ * on the page are among them, as those of a recording are.
+ */
 class WatchedInput : public SensorInput
 {
  public:

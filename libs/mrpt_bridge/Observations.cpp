@@ -1,5 +1,6 @@
 #include "mrpt_bridge/Observations.h"
 
+#include "core/printable.h"
 #include "mrpt_bridge/CGenericPointsMap.h"
 #include "mrpt_bridge/RecordingHeaderJson.h"
 #include "mrpt_bridge/readByAll.h"
@@ -240,13 +241,20 @@ void removeImpossible(PointCloud& points)
   if (std::find(keep.begin(), keep.end(), 0) != keep.end()) points.keep(keep);
 }
 
-mrpt::obs::CObservationComment::Ptr markObservation(Timestamp stamp, const std::string& text)
+mrpt::obs::CObservationComment::Ptr toObservation(const EventMark& mark)
 {
   auto comment = std::make_shared<CommentReadByAll>();
   comment->sensorLabel = kMarkLabel;
-  comment->timestamp = toMrpt(stamp);
-  comment->text = text;
+  comment->timestamp = toMrpt(mark.stamp);
+  comment->text = mark.text;
   return comment;
+}
+
+std::optional<EventMark> markIn(const mrpt::obs::CObservation& observation)
+{
+  const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&observation);
+  if (!comment || comment->sensorLabel != kMarkLabel) return std::nullopt;
+  return EventMark{fromMrpt(comment->timestamp), printable(comment->text)};
 }
 
 mrpt::obs::CObservationComment::Ptr toObservation(const RecordingHeader& header, Timestamp stamp)

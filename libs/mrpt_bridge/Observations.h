@@ -2,7 +2,7 @@
 #pragma once
 #include "batching/Scan.h"
 #include "rawlogs/ImuObservation.h"
-#include "rig/RecordingHeader.h"
+#include "rig/SensorInput.h"
 
 #include <mrpt/maps/CPointsMap.h>
 #include <mrpt/obs/CObservationComment.h>
@@ -55,8 +55,11 @@ Scan measuredScan(const mrpt::obs::CObservationPointCloud&, const std::optional<
 /** Removes points that no lidar measures: not finite, or 100 km or more from the body along an axis. */
 void removeImpossible(PointCloud& points_in_body);
 
-/** What a person has marked, at any place of a rawlog. */
-mrpt::obs::CObservationComment::Ptr markObservation(Timestamp, const std::string& text);
+/** A comment with the label kMarkLabel, at any place of a rawlog. */
+mrpt::obs::CObservationComment::Ptr toObservation(const EventMark&);
+
+/** Nothing if the observation is no such comment. */
+std::optional<EventMark> markIn(const mrpt::obs::CObservation&);
 
 /** The first object of a rawlog. */
 mrpt::obs::CObservationComment::Ptr toObservation(const RecordingHeader&, Timestamp);

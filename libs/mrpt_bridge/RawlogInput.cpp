@@ -117,6 +117,8 @@ std::optional<SensorEvent> RawlogInput::read()
         setup_.body_T_imu[*sensor] = recorded->body_T_imu;
         return SensorImu{*sensor, recorded->sample};
       }
+    if (const auto* other = std::get_if<OtherObservation>(&*event))
+      if (auto mark = markIn(**other)) return *std::move(mark);
     ++other_objects_;
   }
   return std::nullopt;

@@ -14,6 +14,7 @@ Timestamp beforeEverything(const std::optional<SensorEvent>& first, Duration per
   if (!first) return {};
   if (const auto* scan = std::get_if<Scan>(&*first)) return scan->start;
   if (const auto* part = std::get_if<ScanPart>(&*first)) return part->scan.start;
+  if (const auto* mark = std::get_if<EventMark>(&*first)) return mark->stamp;
   return std::get<SensorImu>(*first).sample.stamp - period;
 }
 }  // namespace
@@ -25,6 +26,7 @@ mrpt::obs::CObservation::Ptr toObservation(const SensorEvent& event, const Senso
     return toObservation(*scan, cloudClassFromName(options.cloud_class), options.sensorLabel);
   if (const auto* part = std::get_if<ScanPart>(&event))
     return toObservation(part->scan, cloudClassFromName(options.cloud_class), options.sensorLabel + kSliceSuffix);
+  if (const auto* mark = std::get_if<EventMark>(&event)) return toObservation(*mark);
 
   const auto& [sensor, sample] = std::get<SensorImu>(event);
   std::string label = options.imu_label;

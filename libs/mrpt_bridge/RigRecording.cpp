@@ -16,6 +16,7 @@ Recorded recordRig(SensorInput& input, const DriverOptions& options, RawlogWrite
       writer.write(*toObservation(*event, input.setup(), options));
       if (std::holds_alternative<Scan>(*event)) ++recorded.scans;
       if (std::holds_alternative<SensorImu>(*event)) ++recorded.imu_samples;
+      if (std::holds_alternative<EventMark>(*event)) ++recorded.marks;
     }
     writer.secure();
     if (!keep_recording(recorded)) input.stop();

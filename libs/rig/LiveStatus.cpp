@@ -42,10 +42,14 @@ void LiveStatus::say(const std::string& warning)
   out_ << "warning: " << warning << std::endl;
 }
 
+void LiveStatus::warn(const std::string& warning, Clock::time_point now)
+{
+  if (const auto said = warnings_.toSay(warning, now)) say(*said);
+}
+
 void LiveStatus::update(SensorInput& input, const Work& work, Clock::time_point now)
 {
-  for (const std::string& warning : input.takeWarnings())
-    if (const auto said = warnings_.toSay(warning, now)) say(*said);
+  for (const std::string& warning : input.takeWarnings()) warn(warning, now);
   if (now - shown_at_ < (terminal_ ? kTerminalPeriod : kLogPeriod)) return;
 
   const RigAccount account = input.account();

@@ -23,8 +23,11 @@ class LiveStatus
   LiveStatus& operator=(const LiveStatus&) = delete;
   ~LiveStatus();
 
-  /** Prints a line if one is due, and the input's warnings at once; those that come again are counted. */
+  /** Prints a line if one is due, and the input's warnings at once. */
   void update(SensorInput&, const Work& = {}, Clock::time_point now = Clock::now());
+
+  /** At once; those that come again are counted. */
+  void warn(const std::string&, Clock::time_point now = Clock::now());
 
   /**
    * `left 640/s, right 640/s packets; columns: 0 lost, 0 late, 0 dropped; datagrams: 0 dropped; scans: 0 waiting, 0

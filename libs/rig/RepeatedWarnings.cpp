@@ -11,17 +11,18 @@ namespace
 {
 constexpr std::size_t kMostKnown = 1000;  // their texts may be of others' making
 
-std::string withoutNumbers(std::string text)
-{
-  text.erase(std::remove_if(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; }), text.end());
-  return text;
-}
-
 std::string again(const std::string& warning, std::size_t times)
 {
   return times == 1 ? warning : fmt::format("{} ({} times since the last such line)", warning, times);
 }
 }  // namespace
+
+std::string withoutNumbers(std::string warning)
+{
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  warning.erase(std::remove_if(warning.begin(), warning.end(), is_digit), warning.end());
+  return warning;
+}
 
 std::optional<std::string> RepeatedWarnings::toSay(const std::string& warning, Clock::time_point now)
 {

@@ -7,6 +7,9 @@
 
 namespace scanloom
 {
+/** What warnings have in common that differ in numbers only. */
+std::string withoutNumbers(std::string warning);
+
 /** Says a warning once, and from then on at most once a minute how often it came. */
 class RepeatedWarnings
 {

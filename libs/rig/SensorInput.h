@@ -23,11 +23,18 @@ struct ScanPart
   Scan scan;
 };
 
+/** A person has seen something. */
+struct EventMark
+{
+  Timestamp stamp;  // end of the newest scan then
+  std::string text;
+};
+
 /**
  * IMU samples and scans, both in time order. A sample comes before a scan if its stamp is [batcher] deadline_ms or more
  * before the scan's end: a scan is not held back for IMU packets, which may be as late as lidar packets.
  */
-using SensorEvent = std::variant<Scan, SensorImu, ScanPart>;
+using SensorEvent = std::variant<Scan, SensorImu, ScanPart, EventMark>;
 
 struct LidarAccount
 {

@@ -36,6 +36,11 @@ void to_json(nlohmann::json& json, const GyroAgreement& imu)
           {"scale", imu.scale}};
 }
 
+void to_json(nlohmann::json& json, const MarkedEvent& event)
+{
+  json = {{"stamp_ns", nanoseconds(event.mark.stamp)}, {"after_s", event.after}, {"text", event.mark.text}};
+}
+
 void to_json(nlohmann::json& json, const RunSummary& run)
 {
   json = {{"command", run.command},
@@ -44,6 +49,7 @@ void to_json(nlohmann::json& json, const RunSummary& run)
           {"seed", run.seed},
           {"counts", run.counts},
           {"stages", run.stages},
+          {"marks", run.marks},
           {"recorded_s", run.recorded},
           {"elapsed_s", run.elapsed},
           {"waited_s", run.waited},

@@ -3,6 +3,7 @@
 #include "core/Finding.h"
 #include "core/StageTimes.h"
 #include "imu/GyroAgreement.h"
+#include "rig/SensorInput.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -11,9 +12,16 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace scanloom
 {
+struct MarkedEvent
+{
+  EventMark mark;
+  double after = 0;  // s after the start of the first scan
+};
+
 /** All that summary.json says of a run, hence more than a dozen members. */
 struct RunSummary
 {
@@ -26,6 +34,7 @@ struct RunSummary
   std::map<std::string, StageTime> stages;
   Findings lidars;                   // whether their poses fit what they see (LidarCheck)
   std::optional<GyroAgreement> imu;  // compared with the rotations that the lidars saw in the last minute
+  std::vector<MarkedEvent> marks;    // by a person, in the order of time
   double recorded = 0;               // s of recording that were processed
   double elapsed = 0;                // s of wall-clock time
   double waited = 0;                 // s of `elapsed`, live: waiting for the sensors
@@ -41,6 +50,7 @@ std::uint64_t peakMemory();
 
 void to_json(nlohmann::json&, const StageTime&);
 void to_json(nlohmann::json&, const GyroAgreement&);
+void to_json(nlohmann::json&, const MarkedEvent&);
 void to_json(nlohmann::json&, const RunSummary&);
 
 void writeSummary(const std::filesystem::path&, const RunSummary&);

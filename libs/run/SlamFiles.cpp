@@ -19,13 +19,13 @@ double distance(const StampedPose& a, const StampedPose& b)
 {
   return (a.map_T_body.translation - b.map_T_body.translation).norm();
 }
+
 /** Without what would end the column or the line. */
-std::string csvText(const std::vector<std::string>& texts)
+std::string csvText(std::string text)
 {
-  std::string joined = fmt::format("{}", fmt::join(texts, "; "));
-  for (char& c : joined)
+  for (char& c : text)
     if (c == ',' || c == '"' || c == '\n' || c == '\r') c = ' ';
-  return joined;
+  return text;
 }
 }  // namespace
 
@@ -65,12 +65,19 @@ void SlamFiles::add(const StateEstimate& e)
              nanoseconds(e.stamp), toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap,
              r.score, r.iterations, e.cloud.size(), e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise,
              e.trusted, e.recovered, fmt::join(sigma.begin(), sigma.end(), ","), e.correction.head<3>().norm(),
-             180 / M_PI * e.correction.tail<3>().norm(), csvText(marks_));
-  marks_.clear();
+             180 / M_PI * e.correction.tail<3>().norm(), marksUntil(e.stamp));
   for (TumWriter* writer : {&trajectory_, &trajectory_imu_}) writer->flush();
   csv_.flush();
   if (maps_ && e.keyframe) maps_->add(*e.keyframe);
   if (dense_map_) dense_map_->add(e);
+}
+
+std::string SlamFiles::marksUntil(Timestamp stamp)
+{
+  std::vector<std::string> texts;
+  for (; !marks_.empty() && marks_.front().stamp <= stamp; marks_.pop_front())
+    texts.push_back(csvText(marks_.front().text));
+  return fmt::format("{}", fmt::join(texts, "; "));
 }
 
 void SlamFiles::extendPath(const StampedPose& pose)

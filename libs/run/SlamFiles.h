@@ -8,6 +8,7 @@
 #include "run/SlamMaps.h"
 #include "slam/StateEstimate.h"
 
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -32,8 +33,8 @@ class SlamFiles
   /** Writes the poses at once. Throws std::runtime_error if the disk does not take them. */
   void add(const StateEstimate&);
 
-  /** What a person has marked; it is written with the next estimate. */
-  void mark(const std::string& text) { marks_.push_back(text); }
+  /** What a person has marked is written with the first pose at that time or later. */
+  void add(const EventMark& mark) { marks_.push_back(mark); }
 
   /**
    * Writes the maps, adds the path length, the memory and the maps that failed to the summary, and renames every file
@@ -42,6 +43,7 @@ class SlamFiles
   RunSummary close(RunSummary);
 
  private:
+  std::string marksUntil(Timestamp);
   void extendPath(const StampedPose&);
   void closePoses();
   void closePosesAfterFailure();
@@ -51,7 +53,7 @@ class SlamFiles
   OutputFile csv_;
   Trajectory path_;  // the newest pose and earlier ones at least 0.05 m apart, so that a rest does not fill the memory
   double path_length_ = 0;
-  std::vector<std::string> marks_;  // not yet written
+  std::deque<EventMark> marks_;  // not yet written
   std::optional<SlamMaps> maps_;
   std::optional<DenseMap> dense_map_;
 };

@@ -24,10 +24,12 @@ double secondsSince(Clock::time_point start) { return std::chrono::duration<doub
 class SlamRun
 {
  public:
-  SlamRun(SensorInput& input, const SlamSettings& settings, const SeeEstimate& see, const Warn& warn)
+  SlamRun(SensorInput& input, const SlamSettings& settings, const SeeEstimate& see, const Warn& warn,
+          const SeeMark& see_mark)
     : input_(input),
       see_(see),
       warn_(warn),
+      see_mark_(see_mark),
       settings_(settings),
       imu_(chosenImu(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms))),
       slam_(settingsInUse(), imuPose(), mountedLidars(lidars())),
@@ -43,6 +45,7 @@ class SlamRun
     if (!event) return;
     if (const auto* sample = std::get_if<SensorImu>(&*event)) take(*sample);
     if (auto* scan = std::get_if<Scan>(&*event)) take(std::move(*scan));
+    if (const auto* mark = std::get_if<EventMark>(&*event)) take(*mark);
   }
 
   void finish()
@@ -96,6 +99,7 @@ class SlamRun
     summary.stages = slam_.times().stages();
     for (const auto& [stage, time] : times_.stages()) summary.stages[stage] = time;
     for (const auto& [stage, time] : input_.stages()) summary.stages[stage] = time;
+    summary.marks = marks_;
     summary.recorded = counts_.recorded();
     summary.elapsed = secondsSince(start_);
     return result;
@@ -148,6 +152,12 @@ class SlamRun
     if (!motion_) chooseImu(scan.end());
     keep(slam_.addScan(std::move(scan)));
     coverScans();
+  }
+
+  void take(const EventMark& mark)
+  {
+    marks_.push_back({mark, first_scan_ ? seconds(mark.stamp - *first_scan_) : 0});
+    see_mark_(mark);
   }
 
   bool mayGoWithoutImu() const
@@ -208,6 +218,7 @@ class SlamRun
   SensorInput& input_;
   const SeeEstimate& see_;
   const Warn& warn_;
+  const SeeMark& see_mark_;
   SlamSettings settings_;
   std::optional<ImuInUse> imu_;  // none: there is no IMU
   LidarInertialSlam slam_;
@@ -215,6 +226,7 @@ class SlamRun
   std::optional<Timestamp> first_scan_;
   std::deque<Timestamp> uncovered_;  // ends of scans that an IMU, or what is assumed for it, does not cover yet
   bool imu_heard_ = false;
+  std::vector<MarkedEvent> marks_;
   RigCheck check_;
   StageTimes times_;
   RunCounts counts_;
@@ -222,9 +234,9 @@ class SlamRun
 }  // namespace
 
 SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, const SeeEstimate& see,
-                      const KeepGoing& keepGoing, const Warn& warn)
+                      const KeepGoing& keepGoing, const Warn& warn, const SeeMark& see_mark)
 {
-  SlamRun run(input, settings, see, warn);
+  SlamRun run(input, settings, see, warn, see_mark);
   bool going = true;
   try
   {

@@ -23,6 +23,9 @@ using KeepGoing = std::function<bool(const RunProgress&)>;
 /** Called with every estimate, in the order of time. */
 using SeeEstimate = std::function<void(const StateEstimate&)>;
 
+/** Called with every event that a person marked, before the estimate of the scan in which it lies. */
+using SeeMark = std::function<void(const EventMark&)>;
+
 struct SlamRunResult
 {
   /**
@@ -49,5 +52,7 @@ struct SlamRunResult
  * or when a scan arrives that ends ImuInUse::patience() later. By then, if the IMU is silent and another one is not,
  * that one has taken over, and the scan is processed with its samples.
  */
-SlamRunResult runSlam(SensorInput&, const SlamSettings&, const SeeEstimate&, const KeepGoing&, const Warn&);
+SlamRunResult runSlam(
+    SensorInput&, const SlamSettings&, const SeeEstimate&, const KeepGoing&, const Warn&,
+    const SeeMark& = [](const EventMark&) {});
 }  // namespace scanloom

@@ -117,6 +117,8 @@ void runAndEvaluate(RunRecord& record, const ExperimentFolder& folder, const Dri
   record.outcome = summary.at("outcome");
   record.costs = costsOf(summary);
   record.costs->elapsed = elapsed.count();
+  record.marks.clear();
+  for (const nlohmann::json& mark : summary.at("marks")) record.marks.push_back({mark.at("after_s"), mark.at("text")});
   record.ok_percent = okPercent(summary);
   if (!record.ok_percent) throw std::runtime_error("slam gave no pose: see its log.txt");
   const RunReference reference = referenceOf(drive.path, record.run.reference);

@@ -169,6 +169,7 @@ void to_json(Json& json, const RunRecord& record)
           {"lost", record.lost()},
           {"reference", record.reference},
           {"poses_ok_percent", jsonOf(record.ok_percent)}};
+  for (const RecordedMark& mark : record.marks) json["marks"].push_back({{"after_s", mark.after}, {"text", mark.text}});
   json["figures"] = record.figures ? toJson(*record.figures) : Json();
   json["costs"] = record.costs ? toJson(*record.costs) : Json();
 }
@@ -190,6 +191,9 @@ void from_json(const Json& json, RunRecord& record)
   record.reference = json.value("reference", "");  // results before 1.1 have none of these two
   record.ok_percent.reset();
   read(json.value("poses_ok_percent", Json()), record.ok_percent);
+  record.marks.clear();
+  for (const Json& mark : json.value("marks", Json::array()))
+    record.marks.push_back({mark.at("after_s"), mark.at("text")});
   record.figures.reset();
   record.costs.reset();
   if (!json.at("figures").is_null()) record.figures = figuresFrom(json.at("figures"));

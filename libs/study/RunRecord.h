@@ -33,6 +33,13 @@ struct RunCosts
   double elapsed = 0;  // s, wall-clock time of slam
 };
 
+/** An event that a person marked while the recording was made. */
+struct RecordedMark
+{
+  double after = 0;  // s after the first scan
+  std::string text;
+};
+
 struct RunRecord
 {
   PlannedRun run;
@@ -42,6 +49,7 @@ struct RunRecord
   std::string reference;              // RunReference::description; empty: it was compared with nothing
   std::optional<RunFigures> figures;  // none: it failed, or there is no reference
   std::optional<RunCosts> costs;      // none: it failed
+  std::vector<RecordedMark> marks;    // of the recording
   std::optional<double> ok_percent;   // of the poses, those whose health is OK; none: it failed, or has no poses
 
   /** It did not fail; it may be lost. */

@@ -141,6 +141,24 @@ std::string table(const std::vector<StudyCell>& cells, const std::vector<Quantit
   return html + "</table></div>\n";
 }
 
+/** Of each recording once: its runs have the same. */
+std::string marksOf(const std::vector<RunRecord>& records)
+{
+  std::set<std::string> told;
+  std::string rows;
+  for (const RunRecord& record : records)
+  {
+    if (record.marks.empty() || !told.insert(record.run.stand).second) continue;
+    for (const RecordedMark& mark : record.marks)
+      rows += fmt::format("<tr><td>{}</td><td>{:.1f}</td><td>{}</td></tr>\n", escaped(record.run.stand), mark.after,
+                          escaped(mark.text));
+  }
+  if (rows.empty()) return "";
+  return "<h2>Marked events</h2>\n<p>By a person while the recording was made; seconds after its first scan.</p>\n"
+         "<table><tr><th>stand</th><th>time [s]</th><th>event</th></tr>\n" +
+         rows + "</table>\n";
+}
+
 std::string failures(const std::vector<RunRecord>& records)
 {
   std::string items;
@@ -180,7 +198,7 @@ std::string htmlReport(const Study& study, const std::string& configuration, con
   for (const auto& stand : byStand(cells)) html += figuresOf(stand.front().stand, stand, draw);
   html += "<h2>Errors and health, medians</h2>\n" + table(cells, errorQuantities());
   html += "<h2>Milliseconds per stage, real-time factor, memory; medians</h2>\n" + table(cells, costQuantities(cells));
-  html += failures(study.records);
+  html += marksOf(study.records) + failures(study.records);
   return html + fmt::format("<h2>Configuration</h2>\n<pre>{}</pre>\n</body></html>\n", escaped(configuration));
 }
 }  // namespace scanloom

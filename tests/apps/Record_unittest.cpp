@@ -47,6 +47,7 @@ TEST(RecordVerb, anInterruptedRecordingOfCapturesReplacesNoWholeOne)
     usleep(10'000);
   child.send(SIGTERM);
   EXPECT_EQ(child.wait(), 130) << child.log();
+  EXPECT_THAT(child.log(), HasSubstr("ending; once more ends it at once"));
   EXPECT_EQ(contentOf(folder / "a.rawlog"), "earlier");
   EXPECT_GT(rawlogInfo(folder / "a.partial.rawlog").observations(), 1u);
   EXPECT_THAT(child.log(), HasSubstr("a.partial.rawlog"));

@@ -17,6 +17,29 @@ TEST(Web, listensAtPort8080UnlessToldOtherwise)
   EXPECT_EQ(webAddress({"[::1]:8000"}).port, 8000);
 }
 
+TEST(Web, isThisComputersAloneUnlessToldOtherwise)
+{
+  for (const char* verb : {"slam", "record", "view"})
+    EXPECT_THAT(runProgram(std::string(SCANLOOM_BIN_DIR "/scanloom ") + verb + " --help").output,
+                testing::HasSubstr("--web ADDRESS:PORT=127.0.0.1:8080"));
+}
+
+TEST(Web, saysSoIfOtherComputersReachIt)
+{
+  if (!std::filesystem::exists("/usr/share/javascript/three/three.min.js")) GTEST_SKIP() << "libjs-three is missing";
+  const auto announced = [](const char* ip)
+  {
+    LiveExchange exchange;
+    const SensorAddress address{SensorAddress::parse(ip).ip, 0};
+    const LiveServer server(address, exchange);
+    testing::internal::CaptureStderr();
+    announcePage(server, address);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_THAT(announced("0.0.0.0"), testing::HasSubstr("warning: everyone who reaches"));
+  EXPECT_THAT(announced("127.0.0.1"), testing::Not(testing::HasSubstr("warning")));
+}
+
 TEST(Web, takesNoRecordingForAnAddress) { EXPECT_THROW(webAddress({"drive.pcap"}), UsageError); }
 
 TEST(Web, changesNoBitOfTheTrajectory)

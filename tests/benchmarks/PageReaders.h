@@ -1,4 +1,7 @@
-/** Readers of a page in a process of their own: every fourth stalls, every fourth reads a byte a second. */
+/**
+ * Readers of a page in a process of their own. Of four, one takes all, one stalls, one reads a byte a second, and one
+ * floods: 2000 requests a second for the page's largest file, none of whose answers it reads.
+ */
 #pragma once
 #include "live_view/LiveServer.h"
 #include "packets/SocketAddress.h"
@@ -43,6 +46,8 @@ class PageReaders
   }
 
  private:
+  static constexpr int kTakesAll = 0, kStalls = 1, kReadsAByteASecond = 2, kFloods = 3;
+
   static int connect(const SensorAddress& page)
   {
     const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
@@ -50,6 +55,22 @@ class PageReaders
     const std::string request = fmt::format("GET /points HTTP/1.1\r\nHost: {}\r\n\r\n", page.text());
     if (::connect(socket, where.get(), where.length) != 0) return -1;
     return ::send(socket, request.data(), request.size(), MSG_NOSIGNAL) > 0 ? socket : -1;
+  }
+
+  /** Ends the connections of the last time, and opens as many. */
+  static void flood(const SensorAddress& page, std::vector<int>& sockets)
+  {
+    constexpr int kAtOnce = 10;  // every 5 ms
+    for (const int socket : sockets) ::close(socket);
+    sockets.clear();
+    const SocketAddress where = SocketAddress::of(page.ip, page.port);
+    const std::string request = fmt::format("GET /three.min.js HTTP/1.1\r\nHost: {}\r\n\r\n", page.text());
+    for (int i = 0; i < kAtOnce; ++i)
+    {
+      sockets.push_back(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0));
+      ::connect(sockets.back(), where.get(), where.length);
+      ::send(sockets.back(), request.data(), request.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    }
   }
 
   [[noreturn]] void read(int count, const SensorAddress& page) const
@@ -60,8 +81,8 @@ class PageReaders
     sigemptyset(&end);
     sigaddset(&end, SIGTERM);
     sigprocmask(SIG_BLOCK, &end, nullptr);
-    std::vector<int> sockets;
-    for (int i = 0; i < count; ++i) sockets.push_back(connect(page));
+    std::vector<int> sockets, flood_sockets;
+    for (int i = 0; i < count; ++i) sockets.push_back(i % 4 == kFloods ? -1 : connect(page));
     const Clock::time_point start = Clock::now();
     Clock::time_point next_byte = start;
     std::uint64_t bytes = 0;
@@ -73,10 +94,11 @@ class PageReaders
       if (byte_is_due) next_byte += std::chrono::seconds(1);
       for (int i = 0; i < count; ++i)
       {
-        const bool stalls = i % 4 == 1, byte_by_byte = i % 4 == 2;
-        if (stalls || (byte_by_byte && !byte_is_due)) continue;
+        const bool byte_by_byte = i % 4 == kReadsAByteASecond;
+        if (i % 4 == kFloods) flood(page, flood_sockets);
+        if (i % 4 == kFloods || i % 4 == kStalls || (byte_by_byte && !byte_is_due)) continue;
         const ssize_t got = ::recv(sockets[i], part.data(), byte_by_byte ? 1 : part.size(), MSG_DONTWAIT);
-        if (i == 0 && got > 0) bytes += static_cast<std::uint64_t>(got);
+        if (i == kTakesAll && got > 0) bytes += static_cast<std::uint64_t>(got);
       }
     }
     const double rate = 8.0 * static_cast<double>(bytes) / std::chrono::duration<double>(Clock::now() - start).count();

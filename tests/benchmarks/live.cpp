@@ -6,7 +6,7 @@
  *   scanloom_bench_live --sensors 8 --seconds 120             latency
  *   scanloom_bench_live --sensors 8 --seconds 600 --speed 3   a soak
  *   scanloom_bench_live --sensors 2 --seconds 600 --busy 4    with all cores under stress
- *   scanloom_bench_live --sensors 2 --web --pages 4           shown on a page; one reader stalls, one reads slowly
+ *   scanloom_bench_live --sensors 2 --web --pages 4           shown on pages (PageReaders)
  *   scanloom_bench_live --spoofed 10 --flood 1000             with strangers, without configured addresses
  */
 #include "LoopbackLidars.h"

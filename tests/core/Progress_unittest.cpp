@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -48,6 +49,31 @@ TEST(Progress, saysHowFarAnInterruptedRunCame)
 
   ASSERT_EQ(lines.size(), 2U);
   EXPECT_THAT(lines[1], HasSubstr("17 %, 17/100 scans"));
+}
+
+TEST(Progress, fits80ColumnsOfATerminal)
+{
+  std::ostringstream out;
+  {
+    Progress progress("experiment", 123456789, "MB", out, true);
+    progress.update(12345678);
+  }
+  for (std::size_t begin = 0; begin < out.str().size();)
+  {
+    const std::size_t end = std::min(out.str().find_first_of("\r\n", begin), out.str().size());
+    EXPECT_LE(end - begin, std::string("\033[K").size() + 79) << out.str().substr(begin, end - begin);
+    begin = end + 1;
+  }
+}
+
+TEST(Progress, saysAWarningAboveItsLine)
+{
+  std::ostringstream out;
+  Progress progress("slam", 100, "scans", out, true);
+  progress.update(15);
+  progress.say("warning: low disk");
+  EXPECT_THAT(out.str(), HasSubstr("\r\033[Kwarning: low disk\n"));
+  EXPECT_THAT(out.str(), testing::Not(testing::EndsWith("\n"))) << "the line is there again";
 }
 
 TEST(Progress, drawsABarOnOneLineOfATerminal)

@@ -72,10 +72,10 @@ TEST(LiveFeed, countsRepeatedWarningsAndShowsTheNewestFirst)
   LiveExchange exchange;
   LiveFeed feed(exchange, {"slam", true, true});
   const auto now = LiveFeed::Clock::now() + 1s;
-  for (const char* text : {"a", "b", "a", "a"}) feed.warn(text, now);
+  for (const char* text : {"back after 1 s", "b", "back after 2 s", "back after 3 s"}) feed.warn(text, now);
   feed.offer(now);
   ASSERT_EQ(exchange.status.warnings.size(), 2U);
-  EXPECT_EQ(exchange.status.warnings[0].text, "a");
+  EXPECT_EQ(exchange.status.warnings[0].text, "back after 3 s") << "the same but for a number";
   EXPECT_EQ(exchange.status.warnings[0].count, 3U);
 }
 
@@ -92,18 +92,66 @@ TEST(LiveFeed, namesALidarThatIsSilentForASecond)
   EXPECT_EQ(wordFor(exchange.status, now), "SILENT");
 }
 
+TEST(LiveFeed, tellsARestOfAnImuOnlyWhenItIsOne)
+{
+  LiveExchange exchange;
+  LiveFeed feed(exchange, {"record", true, false});
+  for (int i = 0; i < 35; ++i)
+  {
+    feed.add(scanOf(i, 2), twoLidars());
+    for (int k = 0; k < 10; ++k)
+      feed.add(SensorImu{1, {scanOf(i, 2).start + k * 10ms, {0, 0, 0}, {0, 0, 9.8}}}, twoLidars());
+  }
+  feed.offer(LiveFeed::Clock::now() + 1s);
+  ASSERT_EQ(exchange.status.imus.size(), 1U);
+  EXPECT_EQ(exchange.status.imus[0].name, "right");
+  EXPECT_NEAR(exchange.status.imus[0].rate, 100, 2);
+  EXPECT_LT(seconds(*exchange.status.newest - exchange.status.imus[0].seen), 0.02);
+}
+
+TEST(LiveFeed, keepsTheScanForPagesThatComeLater)
+{
+  LiveExchange exchange;
+  LiveFeed feed(exchange, {"view", false, false});
+  feed.add(scanOf(1, 2), twoLidars());
+  feed.offer(LiveFeed::Clock::now() + 1s);
+  EXPECT_EQ(exchange.news.scans.size(), 1U);
+}
+
+TEST(LiveFeed, namesALidarWhoseWindowGivesFewReturns)
+{
+  LiveExchange exchange;
+  LiveFeed feed(exchange, {"record", true, false});
+  RecordingHeader header = twoLidars();
+  header.lidars[0].beams = header.lidars[1].beams = 10;
+  auto now = LiveFeed::Clock::now();
+  for (int i = 0; i < 200; ++i, now += 100ms)
+  {
+    Scan scan = scanOf(i, 2);
+    scan.columns[0].count = 8;
+    scan.columns[1].count = i < 150 ? 8 : 2;  // mud on the right one's window
+    feed.add(scan, header);
+    feed.update({}, {}, now);
+    feed.offer(now);
+  }
+  const auto& lidars = exchange.status.lidars;
+  EXPECT_NEAR(lidars[0].returns / lidars[0].usual_returns, 1, 0.01);
+  EXPECT_LT(lidars[1].returns / lidars[1].usual_returns, 0.6);
+}
+
 TEST(LiveFeed, aMarkHasTheTimeOfTheNewestScan)
 {
   LiveExchange exchange;
   LiveFeed feed(exchange, {"record", true, false});
-  exchange.marks.push_back({"a deer", {}});
+  exchange.marks.push_back("a deer");
   feed.offer(LiveFeed::Clock::now() + 1s);
-  EXPECT_TRUE(feed.takeMarks().empty()) << "there is no scan yet";
+  EXPECT_FALSE(feed.takeMark()) << "there is no scan yet";
   feed.add(scanOf(7, 2), twoLidars());
-  const std::vector<EventMark> marks = feed.takeMarks();
-  ASSERT_EQ(marks.size(), 1U);
-  EXPECT_EQ(marks[0].stamp, scanOf(7, 2).end());
-  EXPECT_TRUE(feed.takeMarks().empty());
+  const std::optional<EventMark> mark = feed.takeMark();
+  ASSERT_TRUE(mark);
+  EXPECT_EQ(mark->stamp, scanOf(7, 2).end());
+  EXPECT_EQ(mark->text, "a deer");
+  EXPECT_FALSE(feed.takeMark());
 }
 
 TEST(ViewStatusJson, takesTextThatIsNoUtf8)

@@ -4,6 +4,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <cstring>
+
 namespace scanloom
 {
 namespace
@@ -68,6 +71,33 @@ TEST(LiveMap, aPageThatComesLateGetsAllOfIt)
   EXPECT_EQ(got.map_points, map.points());
   EXPECT_EQ(got.map_points, 5000U);
   EXPECT_EQ(got.path_points, 2U);
+}
+
+TEST(LiveMap, theFirstPointsOfAMessageAreAFairSample)
+{
+  constexpr std::size_t kPoints = 10000, kFirst = 500, kWide = 100;
+  PlacedCloud placed;
+  for (std::size_t i = 0; i < kPoints; ++i)
+  {
+    placed.points.positions.emplace_back(static_cast<float>(i / kWide), static_cast<float>(i % kWide), 0.0F);
+    placed.points.t.push_back(0);
+    placed.points.reflectivity.push_back(0);
+    placed.points.lidar.push_back(0);
+  }
+  LiveMap map;
+  map.add(keyframe(std::move(placed)));
+  SeenByPage seen;
+  const std::string messages = map.lackedBy(seen, 1 << 20);
+  // The last message is the map's; of its first points as many are on the left as on the right.
+  const std::size_t first = messages.size() - 8 * kPoints;
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < kFirst; ++i)
+  {
+    std::int16_t cm = 0;
+    std::memcpy(&cm, messages.data() + first + 8 * i, sizeof cm);
+    left += cm < 100 * static_cast<int>(kPoints / kWide / 2);
+  }
+  EXPECT_NEAR(static_cast<double>(left), kFirst / 2.0, 5 * std::sqrt(kFirst) / 2);
 }
 
 TEST(LiveMap, aPageGetsEachPointOnce)

@@ -43,6 +43,15 @@ struct Served
   }
 };
 
+/** Whether somebody listens there. */
+bool isReached(const std::string& address)
+{
+  const SensorAddress asked = SensorAddress::parse(address);
+  const SocketAddress where = SocketAddress::of(asked.ip, asked.port);
+  const FileDescriptor socket(::socket(AF_INET, SOCK_STREAM, 0));
+  return ::connect(socket.number(), where.get(), where.length) == 0;
+}
+
 class Browser
 {
  public:
@@ -88,6 +97,35 @@ TEST(LiveServer, servesThePageAndItsFilesOnly)
     EXPECT_THAT(answerTo(served, served.get(path)), StartsWith("HTTP/1.1 404")) << path;
 }
 
+TEST(LiveServer, listensAtItsAddressOnly)
+{
+  SCANLOOM_NEEDS_THREE;
+  const Served served;
+  const std::string port = served.host().substr(served.host().find(':'));
+  EXPECT_TRUE(isReached("127.0.0.1" + port));
+  EXPECT_FALSE(isReached("127.0.0.2" + port)) << "another address of this computer";
+}
+
+TEST(LiveServer, answersNoHostThatIsAName)
+{
+  SCANLOOM_NEEDS_THREE;
+  const Served served;
+  for (const char* path : {"/", "/status", "/points"})
+    EXPECT_THAT(answerTo(served, fmt::format("GET {} HTTP/1.1\r\nHost: evil.example\r\n\r\n", path)),
+                StartsWith("HTTP/1.1 403"))
+        << path;
+}
+
+TEST(LiveServer, letsNoOtherPageShowItOrLoadFromElsewhere)
+{
+  SCANLOOM_NEEDS_THREE;
+  const Served served;
+  const std::string answer = answerTo(served, served.get("/"));
+  for (const char* said : {"default-src 'self'", "frame-ancestors 'none'", "X-Content-Type-Options: nosniff"})
+    EXPECT_THAT(answer, HasSubstr(said));
+  EXPECT_THAT(answer, testing::Not(HasSubstr("Access-Control-Allow")));
+}
+
 TEST(LiveServer, onlyItsOwnPageMarksEvents)
 {
   SCANLOOM_NEEDS_THREE;
@@ -99,7 +137,7 @@ TEST(LiveServer, onlyItsOwnPageMarksEvents)
   EXPECT_TRUE(served.exchange.marks.empty());
   EXPECT_THAT(answerTo(served, served.post("/mark", "here\n", "http://" + served.host())), StartsWith("HTTP/1.1 200"));
   ASSERT_EQ(served.exchange.marks.size(), 1U);
-  EXPECT_EQ(served.exchange.marks[0].text, "here?");
+  EXPECT_EQ(served.exchange.marks[0], "here?");
 }
 
 TEST(LiveServer, statusComesAsEvents)
@@ -132,6 +170,42 @@ TEST(LiveServer, aNinthPageIsToldSo)
   for (int i = 0; i < 400 && answer.rfind("HTTP/1.1 200", 0) != 0; ++i, std::this_thread::sleep_for(50ms))
     answer = Browser(served, served.get("/points")).read(20s, "\r\n\r\n");
   EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
+}
+
+TEST(LiveServer, refusesFurtherConnections)
+{
+  SCANLOOM_NEEDS_THREE;
+  const Served served;
+  std::vector<std::unique_ptr<Browser>> silent;
+  for (std::size_t i = 0; i < HttpServer::kMostConnections; ++i)
+    silent.push_back(std::make_unique<Browser>(served, ""));
+  EXPECT_THAT(answerTo(served, served.get("/")), testing::AnyOf(StartsWith("HTTP/1.1 503"), ""));
+}
+
+TEST(LiveServer, whoDoesNotReadIsLeft)
+{
+  int ends[2];
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+  const FileDescriptor own(ends[0]), not_reading(ends[1]);
+  const std::atomic<bool> stopping{false};
+  HttpReply reply(own.number(), stopping);
+  const Clock::time_point begin = Clock::now();
+  EXPECT_FALSE(reply.write(std::string(10'000'000, 'x')));
+  EXPECT_GE(Clock::now() - begin, HttpReply::kLongest);
+  EXPECT_LT(Clock::now() - begin, HttpReply::kLongest + 20s);
+}
+
+TEST(LiveServer, marksAreBoundedInSizeAndNumber)
+{
+  SCANLOOM_NEEDS_THREE;
+  Served served;
+  const auto mark = [&](const std::string& text)
+  { return answerTo(served, served.post("/mark", text, "http://" + served.host())).substr(0, 12); };
+  EXPECT_EQ(mark(std::string(LiveServer::kMostMarkBytes + 1, 'x')), "HTTP/1.1 400");
+  EXPECT_EQ(mark(std::string(HttpRequest::kMostBodyBytes + 1, 'x')), "HTTP/1.1 413");
+  served.exchange.marks.assign(100, "not taken yet");
+  EXPECT_EQ(mark("one more"), "HTTP/1.1 503");
+  EXPECT_EQ(served.exchange.marks.size(), 100U);
 }
 
 TEST(LiveServer, whoAsksTooSlowlyIsLeft)

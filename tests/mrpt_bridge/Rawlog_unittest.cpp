@@ -111,6 +111,23 @@ int scansIn(RawlogReader& reader)
 }
 }  // namespace
 
+TEST_F(Rawlog, givesBackWhatAPersonMarked)
+{
+  {
+    RawlogWriter writer(path_, someHeader(), {});
+    writer.write(*toObservation(someScan(fromNanoseconds(kStart)), CloudClass::CGenericPointsMap));
+    writer.write(*toObservation(EventMark{fromNanoseconds(kStart) + 100ms, "a deer"}));
+    writer.close();
+  }
+  RawlogInput input(path_);
+  std::vector<EventMark> marks;
+  while (const auto event = input.next())
+    if (const auto* mark = std::get_if<EventMark>(&*event)) marks.push_back(*mark);
+  ASSERT_EQ(marks.size(), 1U);
+  EXPECT_EQ(marks[0].text, "a deer");
+  EXPECT_LE(std::abs(nanoseconds(marks[0].stamp) - (kStart + 100'000'000)), 100) << "MRPT's clock counts in 100 ns";
+}
+
 TEST_F(Rawlog, givesBackScansAndSamplesWholeAndInOrder)
 {
   RawlogReader reader(written(3));

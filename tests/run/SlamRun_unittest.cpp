@@ -14,6 +14,7 @@
 #include <cmath>
 #include <deque>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 
 namespace scanloom
@@ -28,7 +29,7 @@ constexpr int kEnough = 40;  // scans: the start takes 20
 class BrokenInput : public SensorInput
 {
  public:
-  BrokenInput(int scans, std::function<void()> fail) : fail_(std::move(fail))
+  BrokenInput(int scans, std::function<void()> fail, int marked_scan = -1) : fail_(std::move(fail))
   {
     setup_.header.lidars.resize(1);
     setup_.header.lidars[0].name = "left";
@@ -44,6 +45,7 @@ class BrokenInput : public SensorInput
         events_.push_back(SensorImu{SensorImu::kBody, {start + t, {noise, 0, 0}, {0, noise, 9.80665}}});
       }
       events_.push_back(shifted(scan, start));
+      if (i == marked_scan) events_.push_back(EventMark{start + 100ms, "a deer, left"});
     }
   }
 
@@ -75,13 +77,13 @@ struct BrokenRun : testing::Test
 {
   TemporaryFolder folder;
 
-  SlamRunResult run(int scans, const std::function<void()>& fail) const
+  SlamRunResult run(int scans, const std::function<void()>& fail, int marked_scan = -1) const
   {
-    BrokenInput input(scans, fail);
+    BrokenInput input(scans, fail, marked_scan);
     SlamFiles files(folder.path(), input.setup().header.lidars, OutputOptions{false, "", 0}, {});
     SlamRunResult result = runSlam(
         input, {}, [&](const StateEstimate& estimate) { files.add(estimate); }, [](const RunProgress&) { return true; },
-        [](const std::string&) {});
+        [](const std::string&) {}, [&](const EventMark& mark) { files.add(mark); });
     result.summary = files.close(result.summary);
     return result;
   }
@@ -98,6 +100,25 @@ TEST_F(BrokenRun, keepsThePosesSoFarAndTellsWhatEndedIt)
   EXPECT_EQ(summary["outcome"], "FAILED");
   EXPECT_EQ(summary["error"], "the disk is gone");
   EXPECT_EQ(summary["counts"]["poses"], poses);
+}
+
+TEST_F(BrokenRun, hasTheMarksOfThePersonAtTheirTimes)
+{
+  run(
+      kEnough, [] { throw std::runtime_error("the end"); }, 30);
+  const std::string csv = contentOf(folder / "trajectory.csv");
+  std::istringstream lines(csv);
+  std::vector<std::string> marked;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("deer") != std::string::npos) marked.push_back(line);
+  ASSERT_EQ(marked.size(), 1U) << csv;
+  EXPECT_THAT(marked[0], testing::StartsWith("3100000000,"));
+  EXPECT_THAT(marked[0], testing::EndsWith(",a deer  left")) << "without the comma, which would end the column";
+
+  const auto summary = nlohmann::json::parse(contentOf(folder / "summary.json"));
+  ASSERT_EQ(summary["marks"].size(), 1U);
+  EXPECT_NEAR(summary["marks"][0]["after_s"], 3.1, 1e-9);
+  EXPECT_EQ(summary["marks"][0]["text"], "a deer, left");
 }
 
 TEST_F(BrokenRun, saysThatMemoryDidNotSuffice)

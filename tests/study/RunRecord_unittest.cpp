@@ -37,12 +37,14 @@ TEST(RunRecord, isTheSameAfterJson)
   RunRecord record = runWithDrift(0.25, "left,right", 5, 3);
   record.run.settings = {{"slam.imu", "left"}};
   record.figures->imu_rate_drift = 0.125;
+  record.marks = {{12.5, "a deer"}};
 
   for (const RunRecord& original : {record, failedRun("status 1, \"no\" memory")})
   {
     const nlohmann::json json = original;
     EXPECT_EQ(nlohmann::json(json.get<RunRecord>()), json);
   }
+  EXPECT_EQ(nlohmann::json(record).get<RunRecord>().marks.at(0).text, "a deer");
   EXPECT_EQ(*nlohmann::json(record).get<RunRecord>().figures->imu_rate_drift, 0.125);
 }
 

@@ -47,15 +47,24 @@ function connectStatus() {
   };
 }
 
-const scene = new Scene(element("canvas"));
+/** Null where nothing can be drawn: a driver still wants to read LOST. */
+function openScene() {
+  try { return new Scene(element("canvas")); } catch (error) {
+    console.log("map:", error.message);
+    element("no_map").hidden = false;
+    return null;
+  }
+}
+
+const scene = openScene();
 const dark = matchMedia("(prefers-color-scheme: dark)").matches;
 connectChoice("theme", dark ? "dark" : "light", (theme) => {
   document.documentElement.dataset.theme = theme;
-  scene.setTheme(theme);
+  if (scene) scene.setTheme(theme);
 });
-connectChoice("camera", "follow", (mode) => scene.setCamera(mode));
-connectChoice("colour", "height", (mode) => scene.setColour(mode));
+connectChoice("camera", "follow", (mode) => { if (scene) scene.setCamera(mode); });
+connectChoice("colour", "height", (mode) => { if (scene) scene.setColour(mode); });
 connectMark();
 connectPlayer();
 connectStatus();
-readForEver(scene);
+if (scene) readForEver(scene);

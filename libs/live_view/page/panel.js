@@ -1,5 +1,5 @@
 // The words and numbers at the side.
-import { kLidarColours } from "./scene.js";
+import { kLidarColours } from "./map.js";
 
 const element = (id) => document.getElementById(id);
 
@@ -25,8 +25,9 @@ function windowOf(lidar) {
   if (lidar.usual_returns <= 0) return null;
   const share = lidar.returns / lidar.usual_returns;
   const text = "returns " + Math.round(100 * lidar.returns) + " %";
-  return share < 0.6 ? make("span", text + ", usually " + Math.round(100 * lidar.usual_returns) + " %: window dirty or covered?", "fault")
-                     : make("div", text);
+  if (share >= 0.6) return make("div", text);
+  const usually = ", usually " + Math.round(100 * lidar.usual_returns) + " %";
+  return make("div", "window dirty or covered? " + text + usually, "fault");
 }
 
 function lidarCard(lidar, index, played) {
@@ -40,7 +41,7 @@ function lidarCard(lidar, index, played) {
   columns.append(lidar.lost + " columns lost" + (lidar.left_out ? ", " + lidar.left_out + " too late" : ""));
   card.append(head, heard, columns);
   if (returns) card.append(returns);
-  if (lidar.clock_offset) card.append(make("div", "clock " + offsetText(lidar.clock_offset)));
+  if (lidar.clock_offset !== null) card.append(make("div", "clock offset " + offsetText(lidar.clock_offset)));
   return card;
 }
 
@@ -68,7 +69,6 @@ function runRows(status) {
     if (status.keyframes_left_out) rows.push(["keyframes not drawn", status.keyframes_left_out]);
   }
   rows.push(["recorded", timeText(status.recorded)], ["scans", status.scans]);
-  if (status.marks) rows.push(["marks", status.marks]);
   rows.push(["disk left", bytesText(status.disk_free)], ["memory", bytesText(status.memory)]);
   return rows;
 }
@@ -85,6 +85,12 @@ function warningRow(warning) {
   return row;
 }
 
+function markRow(mark) {
+  const row = make("li", mark.text + " ");
+  row.append(make("small", "(at " + timeText(mark.after) + ")"));
+  return row;
+}
+
 export function showWord(word, reason) {
   element("health").dataset.word = word;
   element("word").textContent = word;
@@ -98,5 +104,7 @@ export function show(status) {
   element("imus").replaceChildren(...(status.imus.length ? status.imus.map(imuCard) : [make("span", "none")]));
   element("run").replaceChildren(...runRows(status).flatMap(([name, value]) => [make("dt", name), make("dd", value)]));
   element("warnings").replaceChildren(...(status.warnings.length ? status.warnings.map(warningRow) : [make("li", "none")]));
+  element("marked").hidden = status.marks === 0;
+  element("marks").replaceChildren(...status.newest_marks.map(markRow));
   element("mark").hidden = Boolean(status.player) || status.word === "ENDED";
 }

@@ -1,44 +1,13 @@
 // What is drawn: map, scan, path and machine.
-import { metres } from "./stream.js";
+import { kColourModes, MapClouds, pointCloud, pointMaterial } from "./map.js";
 
-export const kLidarColours = ["#0a7cff", "#ff7a00", "#00a651", "#d400c8", "#00b3b3", "#b58900", "#7f5fff", "#e0004d"];
-const kMostPoints = 1 << 20, kMostScanPoints = 1 << 14, kMostPath = 1 << 17;
+const kMostPath = 1 << 17;
+// Time to draw a frame, in ms: while a finger moves the picture there are 30 a second, else a scan is drawn in time.
+const kTouchedFrame = 22, kFrame = 60;
+const kRest = 400;  // ms without a change, after which all points are drawn
+const kFewest = 40000, kSmoothing = 0.2;
 const kHealthColours = ["#555555", "#c800c8", "#ff9500", "#e00000"];  // of enum Health
 const kPathBreak = 255;
-
-const kVertex = `
-  uniform int mode; uniform float low, high, size, shade; uniform vec3 colours[8];
-  attribute float reflectivity, lidar;
-  varying vec3 colour;
-  vec3 ramp(float s) {  // blue, green, yellow, red
-    return clamp(vec3(1.5 - abs(4.0 * s - 3.3), 1.4 - abs(4.0 * s - 2.0), 1.5 - abs(4.0 * s - 0.7)), 0.0, 1.0);
-  }
-  void main() {
-    vec4 in_world = modelMatrix * vec4(position, 1.0);
-    if (mode == 2) { for (int i = 0; i < 8; ++i) if (float(i) == mod(lidar, 8.0)) colour = colours[i]; }
-    else {
-      float s = mode == 0 ? (in_world.z - low) / max(high - low, 0.5) : sqrt(reflectivity);
-      colour = shade * ramp(clamp(s, 0.0, 1.0));
-    }
-    gl_Position = projectionMatrix * viewMatrix * in_world;
-    gl_PointSize = size;
-  }`;
-const kFragment = "varying vec3 colour; void main() { gl_FragColor = vec4(colour, 1.0); }";
-
-function pointCloud(most, size) {
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * most), 3));
-  geometry.setAttribute("reflectivity", new THREE.BufferAttribute(new Uint8Array(most), 1, true));
-  geometry.setAttribute("lidar", new THREE.BufferAttribute(new Uint8Array(most), 1));
-  geometry.setDrawRange(0, 0);
-  const material = new THREE.ShaderMaterial({
-    uniforms: { mode: { value: 0 }, low: { value: 0 }, high: { value: 10 }, size: { value: size }, shade: { value: 1 },
-                colours: { value: kLidarColours.map((colour) => new THREE.Color(colour)) } },
-    vertexShader: kVertex, fragmentShader: kFragment });
-  const points = new THREE.Points(geometry, material);
-  points.frustumCulled = false;
-  return points;
-}
 
 /** Only what is new goes to the graphics memory. */
 function markNew(attribute, begin, end) {
@@ -47,18 +16,6 @@ function markNew(attribute, begin, end) {
   const last = range.count > 0 ? Math.max(range.offset + range.count, to) : to;
   attribute.updateRange = { offset: first, count: last - first };
   attribute.needsUpdate = true;
-}
-
-function append(cloud, points, origin) {
-  const { position, reflectivity, lidar } = cloud.geometry.attributes;
-  const begin = cloud.geometry.drawRange.count, end = Math.min(begin + points.count, position.count);
-  for (let i = begin, j = 0; i < end; ++i, ++j) {
-    for (let k = 0; k < 3; ++k) position.array[3 * i + k] = origin[k] + metres(points, j, k);
-    reflectivity.array[i] = points.reflectivity[j];
-    lidar.array[i] = points.lidar[j];
-  }
-  for (const attribute of [position, reflectivity, lidar]) markNew(attribute, begin, end);
-  cloud.geometry.setDrawRange(0, end);
 }
 
 function machine() {
@@ -84,6 +41,27 @@ function pathPoints() {
 
 const yawOf = (q) => Math.atan2(2 * (q.w * q.z + q.x * q.y), 1 - 2 * (q.y * q.y + q.z * q.z));
 
+/** How many points can be drawn in time, by how long it took for those before. */
+class Pace {
+  constructor(canvas) {
+    this.per_point = 1e-4;  // ms
+    this.touched = -Infinity;
+    const touch = (event) => { if (event.buttons !== 0 || event.type === "wheel") this.touched = performance.now(); };
+    for (const kind of ["mousemove", "touchmove", "wheel"]) canvas.addEventListener(kind, touch, { passive: true });
+  }
+
+  points(now) {
+    return Math.max(kFewest, (now - this.touched < kRest ? kTouchedFrame : kFrame) / this.per_point);
+  }
+
+  measure(points, draw) {
+    const begin = performance.now();
+    draw();
+    const taken = (performance.now() - begin) / Math.max(points, 1);
+    this.per_point += (taken - this.per_point) * kSmoothing;
+  }
+}
+
 /** A sink for stream.js. */
 export class Scene {
   constructor(canvas) {
@@ -93,13 +71,15 @@ export class Scene {
     this.camera = new THREE.PerspectiveCamera(60, 1, 0.5, 5000);
     this.camera.up.set(0, 0, 1);
     this.controls = new THREE.OrbitControls(this.camera, canvas);
+    this.controls.minDistance = 2;
+    this.controls.maxDistance = 1500;  // m
     this.controls.addEventListener("change", () => { this.changed = true; });
-    this.cloud = pointCloud(kMostPoints, 2);
-    this.now = pointCloud(kMostScanPoints, 3);
-    this.now.material.uniforms.mode.value = 2;
+    this.clouds = new MapClouds();
+    this.now_material = pointMaterial(3, "lidar");
     this.track = pathPoints();
     this.body = machine();
-    this.scene.add(this.cloud, this.now, this.track, this.body);
+    this.scene.add(this.clouds, this.track, this.body);
+    this.pace = new Pace(canvas);
     this.frames = 0;
     this.begin();
     this.draw();
@@ -111,12 +91,12 @@ export class Scene {
 
   setTheme(theme) {
     this.scene.background = new THREE.Color(theme === "dark" ? "#000000" : "#ffffff");
-    this.cloud.material.uniforms.shade.value = theme === "dark" ? 1 : 0.72;
+    this.clouds.material.uniforms.shade.value = theme === "dark" ? 1 : 0.72;
     this.changed = true;
   }
 
   setColour(mode) {
-    this.cloud.material.uniforms.mode.value = ["height", "reflectivity", "lidar"].indexOf(mode);
+    this.clouds.material.uniforms.mode.value = kColourModes.indexOf(mode);
     this.changed = true;
   }
 
@@ -132,17 +112,16 @@ export class Scene {
   }
 
   map(epoch, origin, points) {
-    if (epoch !== this.map_epoch) this.cloud.geometry.setDrawRange(0, 0);
+    if (epoch !== this.map_epoch) this.clouds.clear();
     this.map_epoch = epoch;
-    append(this.cloud, points, origin);
-    this.heights_old = true;
+    this.clouds.append(points, origin);
     this.changed = true;
   }
 
   scan(origin, quaternion, points) {
-    this.now.geometry.setDrawRange(0, 0);
-    append(this.now, points, [0, 0, 0]);
-    this.now.position.set(...origin);
+    if (this.now) { this.scene.remove(this.now); this.now.geometry.dispose(); }
+    this.now = pointCloud(points, origin, this.now_material);
+    this.scene.add(this.now);
     this.moveTo(new THREE.Vector3(...origin), new THREE.Quaternion(...quaternion));
     this.changed = true;
   }
@@ -178,17 +157,6 @@ export class Scene {
     this.controls.update();
   }
 
-  /** Most of the points have a colour of their own: a few very high ones do not make all others alike. */
-  measureHeights() {
-    const count = this.cloud.geometry.drawRange.count, heights = [];
-    const step = Math.max(1, Math.floor(count / 2000));
-    for (let i = 0; i < count; i += step) heights.push(this.cloud.geometry.attributes.position.array[3 * i + 2]);
-    heights.sort((a, b) => a - b);
-    if (heights.length === 0) return;
-    this.cloud.material.uniforms.low.value = heights[Math.floor(0.02 * (heights.length - 1))];
-    this.cloud.material.uniforms.high.value = heights[Math.floor(0.98 * (heights.length - 1))];
-  }
-
   fit() {
     const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
     if (this.width === width && this.height === height) return;
@@ -203,15 +171,25 @@ export class Scene {
   draw() {
     requestAnimationFrame(() => this.draw());
     this.fit();
-    if (!this.changed) return;
+    const now = performance.now();
+    if (this.changed) this.moved = now;
+    const rests = now - this.moved > kRest;
+    if (!this.changed && !(rests && this.thinned)) return;
     this.changed = false;
-    if (this.heights_old) this.measureHeights();
-    this.heights_old = false;
-    this.renderer.render(this.scene, this.camera);
-    for (const cloud of [this.cloud, this.now, this.track])
-      for (const attribute of Object.values(cloud.geometry.attributes)) attribute.updateRange = { offset: 0, count: -1 };
+    this.clouds.measureHeights();
+    this.camera.updateMatrixWorld();
+    this.thinned = this.clouds.thin(this.camera, rests ? Infinity : this.pace.points(now));
+    this.pace.measure(this.clouds.drawn, () => this.renderAndWait());
+    for (const attribute of Object.values(this.track.geometry.attributes))
+      attribute.updateRange = { offset: 0, count: -1 };
     // For whoever measures: how often was drawn, and how much.
-    document.body.dataset.frames = ++this.frames;
-    document.body.dataset.points = this.cloud.geometry.drawRange.count;
+    const { points, drawn } = this.clouds;
+    Object.assign(document.body.dataset, { frames: ++this.frames, points, drawn });
+  }
+
+  renderAndWait() {
+    this.renderer.render(this.scene, this.camera);
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));  // comes when the picture is done
   }
 }

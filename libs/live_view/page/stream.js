@@ -1,5 +1,6 @@
 // Reads the endless answer of /points, message by message; LiveMap.h says what they hold.
-const kHead = 8, kPoint = 8, kPerMetre = 100;
+const kHead = 8, kPoint = 8;
+export const kPerMetre = 100;
 
 function readPoints(view, at, count) {
   const cm = new Int16Array(count * 3), reflectivity = new Uint8Array(count), lidar = new Uint8Array(count);
@@ -31,9 +32,6 @@ function give(kind, bytes, sink) {
   if (kind === 2) sink.scan(readFloats(view, 8, 3), readFloats(view, 32, 4), readPoints(view, 64, count));
   if (kind === 3) sink.path(first, readPath(view, count));
 }
-
-/** Metres of coordinate k of point i. */
-export const metres = (points, i, k) => points.cm[3 * i + k] / kPerMetre;
 
 async function readOnce(sink) {
   const answer = await fetch("points");

@@ -1,0 +1,21 @@
+#include "study/StudyReport.h"
+
+#include <gmock/gmock.h>
+
+#include "study/StudyRecords.h"
+
+namespace scanloom
+{
+TEST(StudyReport, namesTheMarkedEventsOfARecordingOnce)
+{
+  Study study;
+  study.records = {runWithDrift(0.1, "left"), runWithDrift(0.2, "left,right"), runWithDrift(0.3, "right")};
+  EXPECT_THAT(htmlReport(study, "", [](const std::string&) { return ""; }),
+              testing::Not(testing::HasSubstr("Marked events")));
+  for (RunRecord& record : study.records) record.marks = {{12.34, "a <deer>"}};
+  const std::string html = htmlReport(study, "", [](const std::string&) { return ""; });
+  const std::string row = "<tr><td>easy</td><td>12.3</td><td>a &lt;deer&gt;</td></tr>";
+  ASSERT_THAT(html, testing::HasSubstr(row));
+  EXPECT_EQ(html.find(row), html.rfind(row));
+}
+}  // namespace scanloom
