@@ -23,6 +23,8 @@ namespace scanloom
 {
 namespace
 {
+const std::string kMarkBegin = "mark: ";
+
 using mrpt::maps::CGenericPointsMap;
 using mrpt::maps::CPointsMap;
 
@@ -244,17 +246,16 @@ void removeImpossible(PointCloud& points)
 mrpt::obs::CObservationComment::Ptr toObservation(const EventMark& mark)
 {
   auto comment = std::make_shared<CommentReadByAll>();
-  comment->sensorLabel = kMarkLabel;
   comment->timestamp = toMrpt(mark.stamp);
-  comment->text = mark.text;
+  comment->text = kMarkBegin + mark.text;
   return comment;
 }
 
 std::optional<EventMark> markIn(const mrpt::obs::CObservation& observation)
 {
   const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&observation);
-  if (!comment || comment->sensorLabel != kMarkLabel) return std::nullopt;
-  return EventMark{fromMrpt(comment->timestamp), printable(comment->text)};
+  if (!comment || comment->text.rfind(kMarkBegin, 0) != 0) return std::nullopt;
+  return EventMark{fromMrpt(comment->timestamp), printable(comment->text.substr(kMarkBegin.size()))};
 }
 
 mrpt::obs::CObservationComment::Ptr toObservation(const RecordingHeader& header, Timestamp stamp)

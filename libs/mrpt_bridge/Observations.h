@@ -16,7 +16,6 @@ namespace scanloom
 inline constexpr const char* kLidarLabel = "lidar";    // MOLA's default, so that its pipelines work without changes
 inline constexpr const char* kSliceSuffix = "_slice";  // of the label of slices; a scan contains its slices again
 inline constexpr const char* kHeaderLabel = "scanloom";
-inline constexpr const char* kMarkLabel = "mark";
 
 /** By its label. */
 bool isSlice(const mrpt::obs::CObservation&);
@@ -55,7 +54,7 @@ Scan measuredScan(const mrpt::obs::CObservationPointCloud&, const std::optional<
 /** Removes points that no lidar measures: not finite, or 100 km or more from the body along an axis. */
 void removeImpossible(PointCloud& points_in_body);
 
-/** A comment with the label kMarkLabel, at any place of a rawlog. */
+/** A comment "mark: TEXT", at any place of a rawlog. Comments have no labels in a file that every MRPT reads. */
 mrpt::obs::CObservationComment::Ptr toObservation(const EventMark&);
 
 /** Nothing if the observation is no such comment. */

@@ -117,6 +117,9 @@ TEST_F(Rawlog, givesBackWhatAPersonMarked)
     RawlogWriter writer(path_, someHeader(), {});
     writer.write(*toObservation(someScan(fromNanoseconds(kStart)), CloudClass::CGenericPointsMap));
     writer.write(*toObservation(EventMark{fromNanoseconds(kStart) + 100ms, "a deer"}));
+    mrpt::obs::CObservationComment other;
+    other.text = "remark: no event";
+    writer.write(other);
     writer.close();
   }
   RawlogInput input(path_);
