@@ -4,7 +4,7 @@ import { kPerMetre } from "./stream.js";
 export const kLidarColours = ["#0a7cff", "#ff7a00", "#00a651", "#d400c8", "#00b3b3", "#b58900", "#7f5fff", "#e0004d"];
 
 const kVertex = `
-  uniform int mode; uniform float low, high, size, shade; uniform vec3 colours[8];
+  uniform int mode; uniform float low, high, size, shade, lift; uniform vec3 colours[8];
   attribute float reflectivity, lidar;
   varying vec3 colour;
   vec3 ramp(float s) {  // blue, green, yellow, red
@@ -15,7 +15,7 @@ const kVertex = `
     if (mode == 2) { for (int i = 0; i < 8; ++i) if (float(i) == mod(lidar, 8.0)) colour = colours[i]; }
     else {
       float s = mode == 0 ? (in_world.z - low) / max(high - low, 0.5) : sqrt(reflectivity);
-      colour = shade * ramp(clamp(s, 0.0, 1.0));
+      colour = lift + shade * ramp(clamp(s, 0.0, 1.0));
     }
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     gl_PointSize = size;
@@ -29,7 +29,7 @@ export const kColourModes = ["height", "reflectivity", "lidar"];
 export function pointMaterial(size, mode) {
   return new THREE.ShaderMaterial({
     uniforms: { mode: { value: kColourModes.indexOf(mode) }, low: { value: 0 }, high: { value: 10 },
-                size: { value: size }, shade: { value: 1 },
+                size: { value: size }, shade: { value: 1 }, lift: { value: 0 },
                 colours: { value: kLidarColours.map((colour) => new THREE.Color(colour)) } },
     vertexShader: kVertex, fragmentShader: kFragment });
 }
@@ -52,6 +52,12 @@ export class MapClouds extends THREE.Group {
     super();
     this.material = pointMaterial(kSize, "height");
     this.points = this.drawn = 0;
+  }
+
+  /** Yellow is darker on white, and blue lighter on black. */
+  setTheme(theme) {
+    this.material.uniforms.shade.value = theme === "dark" ? 0.8 : 0.72;
+    this.material.uniforms.lift.value = theme === "dark" ? 0.2 : 0;
   }
 
   append(points, origin) {

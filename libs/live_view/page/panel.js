@@ -21,26 +21,25 @@ function timeText(seconds) {
   return Math.floor(whole / 60) + ":" + String(whole % 60).padStart(2, "0") + " min";
 }
 
-function windowOf(lidar) {
-  if (lidar.usual_returns <= 0) return null;
-  const share = lidar.returns / lidar.usual_returns;
-  const text = "returns " + Math.round(100 * lidar.returns) + " %";
-  if (share >= 0.6) return make("div", text);
-  const usually = ", usually " + Math.round(100 * lidar.usual_returns) + " %";
-  return make("div", "window dirty or covered? " + text + usually, "fault");
+/** Null as long as nothing is wrong with the lidar's window. */
+function windowFault(lidar) {
+  if (!(lidar.returns < 0.6 * lidar.usual_returns)) return null;
+  const usually = Math.round(100 * lidar.usual_returns);
+  return make("div", "window dirty or covered? usually " + usually + " % return", "fault");
 }
 
 function lidarCard(lidar, index, played) {
   const card = make("div", undefined, "sensor"), head = make("header"), dot = make("span", "", "dot");
   dot.style.background = kLidarColours[index % kLidarColours.length];
   head.append(dot, make("b", lidar.name), make("span", lidar.model, "model"));
-  const heard = make("div"), columns = make("div"), returns = windowOf(lidar);
+  const heard = make("div"), columns = make("div"), fault = windowFault(lidar);
   heard.append(lidar.silent ? make("span", "silent for " + timeText(lidar.silence), "fault")
                             : "seen " + timeText(lidar.silence) + " ago");
   if (!played) heard.append(", " + Math.round(lidar.rate) + " packets/s");
   columns.append(lidar.lost + " columns lost" + (lidar.left_out ? ", " + lidar.left_out + " too late" : ""));
+  if (lidar.usual_returns > 0) columns.append(", " + Math.round(100 * lidar.returns) + " % return");
   card.append(head, heard, columns);
-  if (returns) card.append(returns);
+  if (fault) card.append(fault);
   if (lidar.clock_offset !== null) card.append(make("div", "clock offset " + offsetText(lidar.clock_offset)));
   return card;
 }
@@ -52,12 +51,18 @@ function offsetText(seconds) {
   return sign + size.toFixed(3) + " s";
 }
 
-function imuCard(imu) {
-  const card = make("div", undefined, "sensor"), head = make("header");
-  head.append(make("b", imu.name), make("span", Math.round(imu.rate) + "/s", "model"));
-  card.append(head);
-  if (imu.silence > 1) card.append(make("span", "silent for " + timeText(imu.silence), "fault"));
-  return card;
+function imuRow(imu) {
+  const said = imu.silence > 1 ? make("span", "silent for " + timeText(imu.silence), "fault")
+                               : Math.round(imu.rate) + " samples/s";
+  return [imu.name, said];
+}
+
+function rowsOf(pairs) {
+  return pairs.flatMap(([name, value]) => {
+    const term = make("dt", name), said = make("dd");
+    said.append(value);
+    return [term, said];
+  });
 }
 
 function runRows(status) {
@@ -101,9 +106,10 @@ export function showWord(word, reason) {
 export function show(status) {
   showWord(status.word, why(status));
   element("lidars").replaceChildren(...status.lidars.map((lidar, i) => lidarCard(lidar, i, Boolean(status.player))));
-  element("imus").replaceChildren(...(status.imus.length ? status.imus.map(imuCard) : [make("span", "none")]));
-  element("run").replaceChildren(...runRows(status).flatMap(([name, value]) => [make("dt", name), make("dd", value)]));
-  element("warnings").replaceChildren(...(status.warnings.length ? status.warnings.map(warningRow) : [make("li", "none")]));
+  element("imus").replaceChildren(...(status.imus.length ? rowsOf(status.imus.map(imuRow)) : [make("dt", "none")]));
+  element("run").replaceChildren(...rowsOf(runRows(status)));
+  const warnings = status.warnings.map(warningRow);
+  element("warnings").replaceChildren(...(warnings.length ? warnings : [make("li", "none")]));
   element("marked").hidden = status.marks === 0;
   element("marks").replaceChildren(...status.newest_marks.map(markRow));
   element("mark").hidden = Boolean(status.player) || status.word === "ENDED";

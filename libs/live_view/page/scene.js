@@ -91,7 +91,7 @@ export class Scene {
 
   setTheme(theme) {
     this.scene.background = new THREE.Color(theme === "dark" ? "#000000" : "#ffffff");
-    this.clouds.material.uniforms.shade.value = theme === "dark" ? 1 : 0.72;
+    this.clouds.setTheme(theme);
     this.changed = true;
   }
 
