@@ -20,18 +20,28 @@ namespace
 constexpr auto kDrawEvery = 100ms;
 constexpr std::size_t kBytesAtOnce = 1 << 20;
 constexpr double kSkip = 5;  // s
-constexpr const char* kKeys =
-    "F: follow or not   M: mark an event   Q: close   of a player: Space, S: step, + -: speed, left right: 5 s";
+constexpr const char* kKeysOfARun = "F: follow or not   M: mark an event   Q: close";
+constexpr const char* kKeysOfAPlayer =
+    "Space: play or pause   S: step   + -: speed   left right: 5 s   F: follow or not   Q: close";
+
+/** As on the page. */
+mrpt::img::TColorf colourOf(const std::string& word)
+{
+  if (word == "OK" || word == "RUNNING" || word == "PLAYING") return {0.3F, 1.0F, 0.4F};
+  if (word == "DEGENERATE" || word == "INITIALISING") return {1.0F, 0.7F, 0.1F};
+  if (word == "LOST" || word == "SILENT") return {1.0F, 0.35F, 0.35F};
+  return {1.0F, 1.0F, 1.0F};
+}
 
 std::vector<std::string> linesOf(const ViewStatus& status)
 {
   const auto now = std::chrono::steady_clock::now();
-  std::vector<std::string> lines{wordFor(status, now)};
-  if (!status.why.empty()) lines.front() += ": " + status.why;
+  std::vector<std::string> lines{status.why};
   for (const ViewedLidar& lidar : status.lidars)
   {
     const double silence = silenceOf(lidar, status, now);
-    lines.push_back(fmt::format("{}: {:.0f}/s, {} lost{}", lidar.name, lidar.rate, lidar.lost,
+    lines.push_back(fmt::format("{}: {}{} lost{}", lidar.name,
+                                status.player ? "" : fmt::format("{:.0f}/s, ", lidar.rate), lidar.lost,
                                 silence > kSilent ? fmt::format(", silent for {:.1f} s", silence) : ""));
   }
   if (status.poses > 0) lines.push_back(fmt::format("{:.1f} m, {:.1f} m/s", status.distance, status.speed));
@@ -92,24 +102,34 @@ class LiveWindow::Drawing
       status = exchange_.status;
     }
     map_.add(news);
-    draw(map_.lackedBy(seen_, kBytesAtOnce), linesOf(status));
+    draw(map_.lackedBy(seen_, kBytesAtOnce), status);
     return window_.isOpen() && obeyKeys(status);
   }
 
  private:
-  void draw(const std::string& messages, const std::vector<std::string>& lines)
+  void draw(const std::string& messages, const ViewStatus& status)
   {
-    constexpr int kLine = 18;  // pixels
     window_.get3DSceneAndLock();
     scene_.apply({reinterpret_cast<const std::uint8_t*>(messages.data()), messages.size()});
     window_.clearTextMessages();
-    for (std::size_t i = 0; i < lines.size(); ++i)
-      window_.addTextMessage(8, -kLine * static_cast<int>(i + 1), lines[i], i);
-    window_.addTextMessage(8, 8, kKeys, lines.size());
+    write(wordFor(status, std::chrono::steady_clock::now()), linesOf(status));
+    window_.addTextMessage(8, 8, status.player ? kKeysOfAPlayer : kKeysOfARun);
     window_.unlockAccess3DScene();
     const Eigen::Vector3f& p = scene_.position();
     if (follow_) window_.setCameraPointingToPoint(p.x(), p.y(), p.z());
     window_.repaint();
+  }
+
+  /** The word large and in its colour, the lines below it. */
+  void write(const std::string& word, const std::vector<std::string>& lines)
+  {
+    constexpr int kWord = 34, kLine = 18, kFirstLine = kWord + 6;  // pixels
+    mrpt::opengl::TFontParams large;
+    large.vfont_scale = 24;
+    large.color = colourOf(word);
+    window_.addTextMessage(8, -kWord, word, 1, large);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      window_.addTextMessage(8, -kFirstLine - kLine * static_cast<int>(i + 1), lines[i], i + 2);
   }
 
   bool obeyKeys(const ViewStatus& status)
@@ -121,7 +141,7 @@ class LiveWindow::Drawing
     const std::string command = status.player ? commandOf(letter, *status.player) : "";
     const std::lock_guard lock(exchange_.mutex);
     if (!command.empty()) exchange_.commands.push_back(command);
-    if (letter == 'M') exchange_.marks.push_back("marked in the window");
+    if (letter == 'M' && !status.player) exchange_.marks.push_back("marked in the window");
     return letter != 'Q';
   }
 
@@ -132,12 +152,13 @@ class LiveWindow::Drawing
   SeenByPage seen_;
   bool follow_ = true;
 };
-LiveWindow::LiveWindow(const std::string& title, LiveExchange& exchange)
+
+LiveWindow::LiveWindow(const std::string& title, LiveExchange& exchange, Priority priority)
 {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
     throw std::runtime_error("there is no display for a window: use --web");
   drawing_ = std::make_unique<Drawing>(title, exchange);  // by this thread: one that yields may be too late for MRPT
-  thread_ = std::thread([this] { show(); });
+  thread_ = std::thread([this, priority] { show(priority); });
 }
 
 LiveWindow::~LiveWindow()
@@ -146,9 +167,9 @@ LiveWindow::~LiveWindow()
   thread_.join();
 }
 
-void LiveWindow::show()
+void LiveWindow::show(Priority priority)
 {
-  yieldToAll();
+  if (priority == Priority::BelowAll) yieldToAll();
   while (!stopping_ && drawing_->update()) std::this_thread::sleep_for(kDrawEvery);
   open_ = false;
 }

@@ -10,8 +10,8 @@ namespace scanloom
 {
 /**
  * A window that shows what a LiveFeed hands over: the path, the newest scan in the lidars' colours, the map by height,
- * and the health. The working thread waits for nothing; the scene is made by a thread that yields to all others, and
- * drawn by MRPT's at the usual priority.
+ * and the health. The working thread waits for nothing; the scene is made by a thread of its own, and drawn by MRPT's
+ * at the usual priority.
  *
  * Keys: Space plays or pauses, S steps, + and - change the speed, the arrows left and right go back and on by 5 s
  * (where a recording is played), F follows the machine or not, M marks an event, Q closes the window.
@@ -19,8 +19,14 @@ namespace scanloom
 class LiveWindow
 {
  public:
+  enum class Priority
+  {
+    BelowAll,  // of the thread that makes the scene: beside work that must not be delayed
+    Usual      // of a player, which has nothing else to do
+  };
+
   /** The exchange must outlive it, and is this window's alone. Throws std::runtime_error if there is no display. */
-  LiveWindow(const std::string& title, LiveExchange&);
+  LiveWindow(const std::string& title, LiveExchange&, Priority);
   ~LiveWindow();
   LiveWindow(const LiveWindow&) = delete;
   LiveWindow& operator=(const LiveWindow&) = delete;
@@ -31,7 +37,7 @@ class LiveWindow
  private:
   class Drawing;
 
-  void show();
+  void show(Priority);
 
   std::unique_ptr<Drawing> drawing_;
   std::atomic<bool> open_{true}, stopping_{false};

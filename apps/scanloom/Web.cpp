@@ -65,7 +65,7 @@ Web::Web(const WebArguments& arguments, const ViewedWork& work, SensorInput& inp
 {
   if (arguments.window)
   {
-    window_ = std::make_unique<LiveWindow>("scanloom " + work.verb, exchange_);
+    window_ = std::make_unique<LiveWindow>("scanloom " + work.verb, exchange_, LiveWindow::Priority::BelowAll);
     return;
   }
   const SensorAddress address = webAddress(arguments);

@@ -104,10 +104,7 @@ void addKeyframes(SceneBuilder& scene, const Path& path)
 }
 
 /** A rawlog with packets is one, too. */
-bool isOfPackets(const Path& file)
-{
-  return std::filesystem::is_directory(file) || isCapture(file) || isBag(file);
-}
+bool isOfPackets(const Path& file) { return std::filesystem::is_directory(file) || isCapture(file) || isBag(file); }
 
 SceneBuilder sceneOf(const ViewArguments& arguments)
 {
@@ -155,14 +152,11 @@ Player::Open openerOf(const Path& file)
 {
   if (isOfPackets(file)) return [rig = rigOf(capturesOf(file))] { return openRig(rig); };
   if (file.extension() == ".rawlog") return [file] { return std::make_unique<RawlogInput>(file); };
-  throw UsageError(
-      fmt::format("{}: --web plays a capture, a bag, a folder of these or a .rawlog; others are shown without it", file.string()));
+  throw UsageError(fmt::format(
+      "{}: --web plays a capture, a bag, a folder of these or a .rawlog; others are shown without it", file.string()));
 }
 
-bool isRecording(const Path& file)
-{
-  return file.extension() == ".rawlog" || isOfPackets(file);
-}
+bool isRecording(const Path& file) { return file.extension() == ".rawlog" || isOfPackets(file); }
 
 int play(const ViewArguments& arguments)
 {
@@ -172,7 +166,8 @@ int play(const ViewArguments& arguments)
   Player player(openerOf(arguments.file), std::move(poses), exchange);
   if (!arguments.web.given())
   {
-    const LiveWindow window("scanloom view " + arguments.file.filename().string(), exchange);
+    const LiveWindow window("scanloom view " + arguments.file.filename().string(), exchange,
+                            LiveWindow::Priority::Usual);
     player.run([&] { return window.isOpen() && !interrupted(); });
     return kDone;
   }

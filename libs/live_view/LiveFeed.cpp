@@ -70,8 +70,9 @@ void LiveFeed::add(const SensorImu& read, const RecordingHeader& header)
   const auto of = static_cast<std::size_t>(read.sensor);
   const bool own = read.sensor >= 0 && of < header.lidars.size();
   const std::string& name = own ? header.lidars[of].name : kBodyImu;
-  auto shown = std::find_if(status_.imus.begin(), status_.imus.end(), [&](auto& imu) { return imu.name == name; });
-  if (shown == status_.imus.end()) shown = status_.imus.insert(shown, {name, 0, stamp});
+  const auto before = [](const ViewedImu& imu, const std::string& of) { return imu.name < of; };
+  auto shown = std::lower_bound(status_.imus.begin(), status_.imus.end(), name, before);
+  if (shown == status_.imus.end() || shown->name != name) shown = status_.imus.insert(shown, {name, 0, stamp});
   shown->seen = stamp;
   const double since = seconds(stamp - heard.since);
   if (since < 1) return;
