@@ -33,4 +33,10 @@ Timestamp startAfter(Timestamp latest_first_stamp, Duration period, Duration pha
   const Duration past_grid = (latest_first_stamp.time_since_epoch() - phase) % period;
   return latest_first_stamp - (past_grid + period) % period + period;
 }
+
+Timestamp startOfOne(Timestamp first_stamp, Duration period, Duration phase, Duration block)
+{
+  const Timestamp next = startAfter(first_stamp, period, phase);
+  return first_stamp - (next - period) < block ? next - period : next;
+}
 }  // namespace scanloom

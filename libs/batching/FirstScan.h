@@ -25,4 +25,10 @@ std::optional<Timestamp> latestFirstStamp(const std::vector<LidarBeforeStart>&, 
 
 /** t_init of eq. (1): the next multiple of the period, plus the phase, after t_0,max. */
 Timestamp startAfter(Timestamp latest_first_stamp, Duration period, Duration phase);
+
+/**
+ * The start for a lidar that is alone: as startAfter(), but at the multiple before where its first block begins less
+ * than a block later. That scan is whole: a recording of one turn gives all its columns.
+ */
+Timestamp startOfOne(Timestamp first_stamp, Duration period, Duration phase, Duration block);
 }  // namespace scanloom

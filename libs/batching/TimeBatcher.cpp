@@ -218,8 +218,14 @@ void TimeBatcher::startScans()
   if (!latest) return;
 
   settleClocksAtStart(*believed);
+  scan_.emplace(firstStart(*latest), period_, options_.slices, inputs_.size());
+}
+
+Timestamp TimeBatcher::firstStart(Timestamp latest_first_stamp) const
+{
   const Duration phase = fromSeconds(1e-3 * options_.scan_phase_ms);
-  scan_.emplace(startAfter(*latest, period_, phase), period_, options_.slices, inputs_.size());
+  if (lidars_.size() > 1) return startAfter(latest_first_stamp, period_, phase);
+  return startOfOne(latest_first_stamp, period_, phase, lidars_.front().decoder->description().blockPeriod());
 }
 
 void TimeBatcher::settleClocksAtStart(const std::vector<bool>& believed)

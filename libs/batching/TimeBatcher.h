@@ -73,6 +73,7 @@ class TimeBatcher : public Batcher
 
   std::vector<Scan> merge();
   void startScans();
+  Timestamp firstStart(Timestamp latest_first_stamp) const;
   std::optional<std::vector<bool>> believedLidars();
   void settleClocksAtStart(const std::vector<bool>& believed);
   void raiseHorizon();

@@ -124,6 +124,20 @@ std::string whyNot(const MetadataCandidate& candidate, const std::vector<Sampled
   return fmt::format("{}: no packet has the format, size or pace of its packets", described);
 }
 
+std::optional<Timestamp> firstStampIn(const SampledStream& stream, const PacketDecoder& decoder)
+{
+  std::optional<Timestamp> first;
+  std::vector<MeasurementBlock> blocks;
+  for (const SampledStream::Packet& packet : stream.samples)
+  {
+    if (decoder.kind(packet) != PacketKind::Lidar) continue;
+    decoder.readBlocks(packet, blocks);
+    for (const MeasurementBlock& block : blocks)
+      if (block.valid && (!first || block.stamp < *first)) first = block.stamp;
+  }
+  return first;
+}
+
 std::string describe(const SampledStream& stream)
 {
   std::set<std::size_t> sizes;
@@ -206,6 +220,7 @@ class Search
     lidar.source = stream.source;
     lidar.port = stream.port;
     lidar.topic = stream.topic;
+    lidar.first_stamp = firstStampIn(stream, *candidates_[candidate].decoder);
     return lidar;
   }
 

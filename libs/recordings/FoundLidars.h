@@ -3,6 +3,7 @@
 #include "lidar/PacketDecoder.h"
 #include "recordings/SampledStreams.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,9 +34,10 @@ struct FoundLidar
   LidarDescription description;
   IpAddress source;
   std::uint16_t port = 0;
-  std::uint16_t imu_port = 0;    // 0: no IMU packet came
-  std::string topic, imu_topic;  // of a bag, which the ports stand for; empty in a capture
-  bool source_matters = false;   // another lidar sends to the same port
+  std::uint16_t imu_port = 0;            // 0: no IMU packet came
+  std::string topic, imu_topic;          // of a bag, which the ports stand for; empty in a capture
+  bool source_matters = false;           // another lidar sends to the same port
+  std::optional<Timestamp> first_stamp;  // of its valid blocks, by its own clock
 };
 
 struct LidarsFound

@@ -152,13 +152,19 @@ void addImu(const std::string& key, const std::string& imu, const Poses& poses, 
                   imu));
 }
 
-/** So that one scan is one turn, where all lidars turn alike. */
-void addScanRate(const std::vector<FoundLidar>& lidars, Ini& ini)
+/** So that one scan is one turn, where all lidars turn alike; with one lidar, from the recording's first column on. */
+void addScanTimes(const std::vector<FoundLidar>& lidars, Ini& ini)
 {
-  const double rate = lidars.front().description.frame_rate;
-  if (std::all_of(lidars.begin(), lidars.end(),
-                  [&](const FoundLidar& lidar) { return lidar.description.frame_rate == rate; }))
-    ini.set("scan_rate", fmt::format("{:g}", rate));
+  const FoundLidar& first = lidars.front();
+  const double rate = first.description.frame_rate;
+  if (!std::all_of(lidars.begin(), lidars.end(),
+                   [&](const FoundLidar& lidar) { return lidar.description.frame_rate == rate; }))
+    return;
+  ini.set("scan_rate", fmt::format("{:g}", rate));
+  if (lidars.size() > 1 || !first.first_stamp) return;
+  const Duration phase = first.first_stamp->time_since_epoch() % fromSeconds(1 / rate);
+  ini.comment("scans begin with the first column of this recording");
+  ini.set("scan_phase_ms", fmt::format("{:.6f}", 1e3 * seconds(phase)));
 }
 
 /** A bag whose topics are of other kinds should at least tell them. */
@@ -211,7 +217,7 @@ RecognisedRig recogniseRig(const RecordingFiles& files)
   rig.poses_known = !poses.empty() && rig.unknown_poses.empty();
   addImu("imu_csv", imu, poses, rig, ini);
   addImu("imu_topic", imu_topic, poses, rig, ini);
-  addScanRate(found.lidars, ini);
+  addScanTimes(found.lidars, ini);
   rig.ini = ini.text();
   return rig;
 }

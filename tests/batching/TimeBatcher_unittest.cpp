@@ -106,6 +106,17 @@ TEST(TimeBatcher, thePhaseShiftsTheGrid)
   EXPECT_EQ(feed(batcher, twoLidars(30ms, 70ms, 300ms)).front().start, Timestamp{137ms});
 }
 
+TEST(TimeBatcher, oneTurnOfALidarAloneIsAWholeScanWhereThePhaseIsThatOfItsFirstBlock)
+{
+  BatcherOptions options;
+  options.scan_phase_ms = 37;
+  TimeBatcher batcher = fakeLidars({{}}, options);
+  const auto scans = feed(batcher, arrivalsOf(0, FakeLidar().drive(Timestamp{137ms}, 100ms)));
+  ASSERT_EQ(scans.size(), 1u);
+  EXPECT_EQ(scans[0].columns.size(), 64u);
+  EXPECT_EQ(batcher.counters(0).before_start, 0u);
+}
+
 TEST(TimeBatcher, columnsNeverGoBackInTimeWithinAndAcrossScans)
 {
   TimeBatcher batcher = fakeLidars({{}, {}});
