@@ -34,9 +34,9 @@ Timestamp startAfter(Timestamp latest_first_stamp, Duration period, Duration pha
   return latest_first_stamp - (past_grid + period) % period + period;
 }
 
-Timestamp startOfOne(Timestamp first_stamp, Duration period, Duration phase, Duration block)
+Timestamp startOfWholeScan(Timestamp latest_first_stamp, Duration period, Duration phase, Duration room)
 {
-  const Timestamp next = startAfter(first_stamp, period, phase);
-  return first_stamp - (next - period) < block ? next - period : next;
+  const Timestamp next = startAfter(latest_first_stamp, period, phase);
+  return latest_first_stamp - (next - period) < room ? next - period : next;
 }
 }  // namespace scanloom

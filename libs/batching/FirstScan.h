@@ -26,9 +26,7 @@ std::optional<Timestamp> latestFirstStamp(const std::vector<LidarBeforeStart>&, 
 /** t_init of eq. (1): the next multiple of the period, plus the phase, after t_0,max. */
 Timestamp startAfter(Timestamp latest_first_stamp, Duration period, Duration phase);
 
-/**
- * The start for a lidar that is alone: as startAfter(), but at the multiple before where its first block begins less
- * than a block later. That scan is whole: a recording of one turn gives all its columns.
+/** As startAfter(), but a period earlier where the latest lidar begins less than `room` after that: the scan is whole.
  */
-Timestamp startOfOne(Timestamp first_stamp, Duration period, Duration phase, Duration block);
+Timestamp startOfWholeScan(Timestamp latest_first_stamp, Duration period, Duration phase, Duration room);
 }  // namespace scanloom

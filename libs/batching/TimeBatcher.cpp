@@ -221,11 +221,23 @@ void TimeBatcher::startScans()
   scan_.emplace(firstStart(*latest), period_, options_.slices, inputs_.size());
 }
 
+/**
+ * Eq. (1), but a recording of one turn gives all its columns where there is one lidar, and where packets are turns that
+ * a program has cut: clouds of a driver.
+ */
 Timestamp TimeBatcher::firstStart(Timestamp latest_first_stamp) const
 {
-  const Duration phase = fromSeconds(1e-3 * options_.scan_phase_ms);
-  if (lidars_.size() > 1) return startAfter(latest_first_stamp, period_, phase);
-  return startOfOne(latest_first_stamp, period_, phase, lidars_.front().decoder->description().blockPeriod());
+  const auto sendsTurns = [](const BatchedLidar& lidar)
+  {
+    return lidar.decoder &&
+           lidar.decoder->description().columns_per_packet == lidar.decoder->description().columns_per_frame;
+  };
+  Duration room{0};
+  if (std::all_of(lidars_.begin(), lidars_.end(), sendsTurns))
+    room = period_ / 100;
+  else if (lidars_.size() == 1)
+    room = lidars_.front().decoder->description().blockPeriod();
+  return startOfWholeScan(latest_first_stamp, period_, fromSeconds(1e-3 * options_.scan_phase_ms), room);
 }
 
 void TimeBatcher::settleClocksAtStart(const std::vector<bool>& believed)

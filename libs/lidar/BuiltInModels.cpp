@@ -8,6 +8,7 @@
 #include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <stdexcept>
 
 namespace scanloom
@@ -15,6 +16,17 @@ namespace scanloom
 namespace
 {
 const std::string kDual = " dual";
+
+/** Cuts " 1200 rpm" off the end of a name in lower case. */
+std::optional<int> takeRpm(std::string& name)
+{
+  static const std::regex kRpm(" +([0-9]{3,4}) ?rpm$");
+  std::smatch found;
+  if (!std::regex_search(name, found, kRpm)) return std::nullopt;
+  const int rpm = std::stoi(found[1]);
+  name.resize(static_cast<std::size_t>(found.position()));
+  return rpm;
+}
 
 bool endsWith(std::string_view text, std::string_view end)
 {
@@ -40,14 +52,16 @@ std::string namesOfBuiltInModels()
 std::optional<std::string> builtInMetadata(const std::string& name)
 {
   std::string wanted = inLowerCase(name);
+  const std::optional<int> rpm = takeRpm(wanted);
   const bool dual = endsWith(wanted, kDual);
   if (dual) wanted.resize(wanted.size() - kDual.size());
   for (const BuiltInModel& model : builtInModels())
   {
     if (inLowerCase(model.name) != wanted) continue;
-    if (!dual) return std::string(model.metadata);
+    if (!dual && !rpm) return std::string(model.metadata);
     nlohmann::json metadata = nlohmann::json::parse(model.metadata);
-    metadata["returns"] = 2;
+    if (dual) metadata["returns"] = 2;
+    if (rpm) metadata["rpm"] = *rpm;
     return metadata.dump();
   }
   return std::nullopt;
@@ -60,7 +74,7 @@ std::string metadataText(const std::string& file_or_model)
   if (const auto text = builtInMetadata(file_or_model)) return *text;
   throw std::invalid_argument(
       fmt::format("{}: there is no such metadata file, and no such model; known are {}, with \" dual\" behind them for "
-                  "two returns",
+                  "two returns, then \" 1200 rpm\" for another rotor than that of 600",
                   file_or_model, namesOfBuiltInModels()));
 }
 }  // namespace scanloom

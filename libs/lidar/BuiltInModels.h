@@ -20,8 +20,9 @@ std::vector<BuiltInModel> builtInModels();
 std::string namesOfBuiltInModels();
 
 /**
- * The metadata of a built-in model, compared without case; "XT32 dual" is one that is set to two returns. Nothing if
- * there is none of that name.
+ * The metadata of a built-in model, compared without case; "XT32 dual" is one that is set to two returns, "VLP-16 1200
+ * rpm" and "XT32 dual 1200 rpm" one whose rotor is set to 1200 revolutions per minute. Nothing if there is none of that
+ * name.
  */
 std::optional<std::string> builtInMetadata(const std::string& name);
 

@@ -1,5 +1,7 @@
 #include "lidar/HesaiPacket.h"
 
+#include "lidar/calendarTime.h"
+
 #include <algorithm>
 
 namespace scanloom
@@ -30,18 +32,8 @@ int returnsOf(std::uint8_t mode)
   }
 }
 
-/** Days from 1970-01-01, of the Gregorian calendar (Howard Hinnant, chrono-compatible low-level date algorithms). */
-std::int64_t daysSince1970(int year, int month, int day)
-{
-  year -= month <= 2 ? 1 : 0;
-  const int era = year / 400, of_era = year - era * 400;  // years of packets are positive
-  const int of_year = (153 * (month + (month > 2 ? -3 : 9)) + 2) / 5 + day - 1;
-  return era * 146097LL + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
-}
 /** Sensors count years from 1900 or, some firmware of the 40P, from 2000. */
 int yearOf(std::uint8_t byte) { return byte + (byte < 100 ? 2000 : 1900); }
-
-constexpr int kLastYear = 2115;  // stamps have 62 bits
 }  // namespace
 
 HesaiPacket::HesaiPacket(Bytes packet, const HesaiModel& model)
@@ -78,12 +70,9 @@ std::optional<Timestamp> HesaiPacket::stamp() const
 {
   const Bytes tail = this->tail(), date = tail.slice(model_.tail.date, 6);
   const auto microseconds = load<std::uint32_t>(tail, model_.tail.microseconds);
-  if (date[1] < 1 || date[1] > 12 || date[2] < 1 || date[2] > 31) return std::nullopt;
-  if (date[3] > 23 || date[4] > 59 || date[5] > 60 || microseconds > 1'000'000) return std::nullopt;
-  if (yearOf(date[0]) > kLastYear) return std::nullopt;
-  const std::int64_t days = daysSince1970(yearOf(date[0]), date[1], date[2]);
-  const std::int64_t seconds = days * 86400 + date[3] * 3600 + date[4] * 60 + date[5];
-  return Timestamp{std::chrono::seconds{seconds} + std::chrono::microseconds{microseconds}};
+  const std::optional<Timestamp> second = timestampOf({yearOf(date[0]), date[1], date[2], date[3], date[4], date[5]});
+  if (!second || microseconds > 1'000'000) return std::nullopt;
+  return *second + std::chrono::microseconds{microseconds};
 }
 
 HesaiFiring HesaiPacket::firing(std::size_t index) const

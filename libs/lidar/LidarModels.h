@@ -24,11 +24,19 @@ std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_text, con
 bool isLidarMetadata(const std::string& text);
 
 /**
- * Names of the built-in models whose packets look like this one, by size, markers, model and number of returns: "XT32",
- * "XT32 dual". Empty if there are none, several where packets do not tell (an early VLP-16 says that it is an HDL-32E).
- * Takes about a millisecond: ask once per stream.
+ * Names of the built-in models whose packets look like the first one, by size, markers, model and number of returns:
+ * "XT32", "XT32 dual"; if the packets, which follow each other, turn at another rate than the model's file has:
+ * "VLP-16 1200 rpm". Empty if there are none, several where packets do not tell (an early VLP-16 says that it is an
+ * HDL-32E). Takes a millisecond or more: ask once per stream.
  */
-std::vector<std::string> modelsThatSend(Bytes packet);
+std::vector<std::string> modelsThatSend(const std::vector<std::vector<std::uint8_t>>& packets);
+
+/**
+ * Of models that are not built in, since every unit has angles of its own: the texts of metadata files that packets
+ * like this one need, to be completed by the name of the file with the angles. Two where packets do not tell the number
+ * of returns; mostly none.
+ */
+std::vector<std::string> metadataToComplete(Bytes packet);
 
 /** UDP ports of a sensor's packets. */
 struct SensorPorts

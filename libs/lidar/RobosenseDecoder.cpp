@@ -17,7 +17,7 @@ std::vector<Beam> robosenseBeams(const RobosenseMetadata& m)
   std::vector<Beam> beams;
   for (std::size_t i = 0; i < m.angles.vertical.size(); ++i)
     beams.push_back(Beam{-m.angles.azimuth[i] * kDegree, m.angles.vertical[i] * kDegree,
-                         Eigen::Vector3d(m.model->lens_m, 0, 0), 0});
+                         Eigen::Vector3d(m.model->lens_m, 0, m.model->lens_z_m), 0});
   return beams;
 }
 

@@ -1,5 +1,7 @@
 #include "lidar/RobosensePacket.h"
 
+#include "lidar/calendarTime.h"
+
 #include <cmath>
 
 namespace scanloom
@@ -9,6 +11,7 @@ namespace
 constexpr std::size_t kHeaderBytes = 42, kSizeOfBlock = 100, kReadingsOfBlock = 32;
 constexpr int kLargestStep = 100;                       // of azimuths; more is a gap in the field of view
 constexpr std::uint64_t kSecondsOf62Bits = 4611686018;  // stamps have 62 bits
+constexpr int kCentury = 2000;                          // years count from it
 
 std::uint64_t loadBigEndian(Bytes bytes, std::size_t offset, std::size_t count)
 {
@@ -52,7 +55,7 @@ bool RobosensePacket::isOfModel() const
 
 bool RobosensePacket::isSound() const
 {
-  if (loadBigEndian(packet_, 0, 4) != 0x55AA055A || packet_[17] > 1) return false;
+  if (loadBigEndian(packet_, 0, 4) != model_.marker || (model_.unit_mm == 0 && packet_[17] > 1)) return false;
   std::size_t pairs = 0;
   for (std::size_t i = 0; i < kRobosenseBlocks; ++i)
   {
@@ -63,6 +66,21 @@ bool RobosensePacket::isSound() const
 }
 
 std::optional<Timestamp> RobosensePacket::stamp() const
+{
+  return model_.clock == RobosenseClock::Calendar ? calendarStamp() : secondsStamp();
+}
+
+std::optional<Timestamp> RobosensePacket::calendarStamp() const
+{
+  const Bytes date = packet_.slice(20, 6);
+  const auto milliseconds = loadBigEndian(packet_, 26, 2), microseconds = loadBigEndian(packet_, 28, 2);
+  const std::optional<Timestamp> second =
+      timestampOf({kCentury + date[0], date[1], date[2], date[3], date[4], date[5]});
+  if (!second || milliseconds >= 1000 || microseconds >= 1000) return std::nullopt;
+  return *second + std::chrono::milliseconds{milliseconds} + std::chrono::microseconds{microseconds};
+}
+
+std::optional<Timestamp> RobosensePacket::secondsStamp() const
 {
   const std::uint64_t seconds = loadBigEndian(packet_, 20, 6), microseconds = loadBigEndian(packet_, 26, 4);
   if (seconds >= kSecondsOf62Bits || microseconds >= 1'000'000) return std::nullopt;

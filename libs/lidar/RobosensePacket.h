@@ -42,7 +42,11 @@ class RobosensePacket
   /** By the sensor's clock; nothing if there is no such time. */
   std::optional<Timestamp> stamp() const;
 
-  double unitMm() const { return packet_[17] == 1 ? 2.5 : 5; }
+  double unitMm() const
+  {
+    if (model_.unit_mm > 0) return model_.unit_mm;
+    return packet_[17] == 1 ? 2.5 : 5;
+  }
 
   std::size_t firings() const { return kRobosenseReadings / (channels_ * returns_); }
   RobosenseFiring firing(std::size_t index) const;
@@ -54,6 +58,8 @@ class RobosensePacket
   RobosenseReading reading(std::size_t firing, std::size_t channel, std::size_t which) const;
 
  private:
+  std::optional<Timestamp> secondsStamp() const;
+  std::optional<Timestamp> calendarStamp() const;
   Bytes block(std::size_t index) const;
   int azimuth(std::size_t block) const;
   std::size_t blocksPerAzimuth() const { return channels_ == 32 ? returns_ : 1; }

@@ -60,6 +60,20 @@ std::optional<std::vector<Timestamp>> stampsOfNames(const Paths& clouds)
   return stamps;
 }
 
+/** Of some of the clouds: the file has a line for each number, 000000 is the first. */
+std::optional<std::vector<Timestamp>> stampsOfNumbers(const Paths& clouds, const std::vector<Timestamp>& lines)
+{
+  std::vector<Timestamp> stamps;
+  for (const auto& cloud : clouds)
+  {
+    const std::string name = stemOf(cloud);
+    const bool is_number = !name.empty() && name.size() < 9 && name.find_first_not_of("0123456789") == name.npos;
+    if (!is_number || std::stoul(name) >= lines.size()) return std::nullopt;
+    stamps.push_back(lines[std::stoul(name)]);
+  }
+  return stamps;
+}
+
 CloudTimes timesAnywhere(const Paths& clouds)
 {
   const std::filesystem::path folder = std::filesystem::absolute(clouds.front()).parent_path();
@@ -67,11 +81,12 @@ CloudTimes timesAnywhere(const Paths& clouds)
     if (auto stamps = stampsOfFile(file))
     {
       if (stamps->size() == clouds.size()) return {std::move(*stamps), file.string()};
+      if (auto of_numbers = stampsOfNumbers(clouds, *stamps)) return {std::move(*of_numbers), file.string()};
       throw std::runtime_error(
           fmt::format("{} has {} times for {} clouds", file.string(), stamps->size(), clouds.size()));
     }
   if (auto stamps = stampsOfNames(clouds)) return {std::move(*stamps), "the clouds' names"};
-  CloudTimes times{{}, "nothing: taken for 10 Hz"};
+  CloudTimes times{{}, "none, taken for 10 Hz"};
   for (std::size_t i = 0; i < clouds.size(); ++i)
     times.stamps.push_back(Timestamp{static_cast<std::int64_t>(i + 1) * kDefaultInterval});
   return times;

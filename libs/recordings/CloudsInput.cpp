@@ -119,7 +119,7 @@ CloudsInput::CloudsInput(std::vector<std::filesystem::path> clouds)
 {
   const CloudFile first = readCloud(clouds_.front());
   unit_ = unitOf(first.times);
-  note_ = fmt::format("{} clouds, {}; their times are from {}", clouds_.size(),
+  note_ = fmt::format("{} clouds, {}; their stamps: {}", clouds_.size(),
                       first.times.empty() ? "without times of points: each is taken for one instant"
                                           : fmt::format("with times of points in units of {:g} s", unit_),
                       times_.source);

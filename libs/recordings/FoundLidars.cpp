@@ -1,6 +1,7 @@
 #include "recordings/FoundLidars.h"
 
 #include "core/ConfigError.h"
+#include "lidar/BuiltInModels.h"
 #include "lidar/LidarModels.h"
 #include "rig/RigOptions.h"
 
@@ -106,7 +107,8 @@ std::string whyNot(const MetadataCandidate& candidate, const std::vector<Sampled
 {
   if (!candidate.decoder) return candidate.fault;
   const LidarDescription& lidar = candidate.decoder->description();
-  const std::string described = fmt::format("{}: a {} {}", candidate.file.string(), lidar.model, lidar.serial);
+  const std::string described =
+      fmt::format("{}: a {}{}{}", candidate.file.string(), lidar.model, lidar.serial.empty() ? "" : " ", lidar.serial);
   for (const SampledStream& stream : streams)
     for (const SampledStream::Packet& packet : stream.samples)
     {
@@ -147,6 +149,18 @@ std::string describe(const SampledStream& stream)
   return fmt::format("{} datagrams of {} bytes {}", stream.datagrams, bytes, whence(stream));
 }
 
+/** What to write for a stream whose sensor's angles the program cannot know; empty for others. */
+std::string wayOut(const SampledStream& stream)
+{
+  if (stream.samples.empty()) return "";
+  const std::vector<std::string> texts = metadataToComplete(stream.samples.front());
+  if (texts.empty()) return "";
+  return fmt::format(
+      "; their sensor has beam angles of its own: put the maker's file of them (here ANGLES.csv) beside the recording, "
+      "and a file lidar.json with {}",
+      fmt::join(texts, " or "));
+}
+
 [[noreturn]] void refuseNone(const std::vector<SampledStream>& streams,
                              const std::vector<MetadataCandidate>& candidates, const Paths& captures)
 {
@@ -154,9 +168,12 @@ std::string describe(const SampledStream& stream)
   std::vector<std::string> held;
   for (const SampledStream& stream : streams) held.push_back(describe(stream));
   message += held.empty() ? "; there is no datagram" : fmt::format("; there are {}", fmt::join(held, ", "));
+  std::string ways_out;
+  for (const SampledStream& stream : streams) ways_out += wayOut(stream);
   for (const MetadataCandidate& candidate : candidates) message += "\n  " + whyNot(candidate, streams);
-  if (candidates.empty()) message += "; an Ouster needs its metadata (JSON) beside the capture, or --metadata FILE";
-  throw UsageError(message);
+  if (candidates.empty() && ways_out.empty())
+    ways_out = "; an Ouster needs its metadata (JSON) beside the capture, or --metadata FILE";
+  throw UsageError(message + ways_out);
 }
 
 class Search
@@ -173,9 +190,9 @@ class Search
   {
     for (std::size_t s = 0; s < streams_.size(); ++s) chooseFor(s);
     for (const SampledStream& stream : streams_) addImu(stream);
-    for (FoundLidar& one : found_.lidars)
-      for (const FoundLidar& other : found_.lidars)
-        one.source_matters |= sharesPort(one, other) && one.source != other.source;
+    markSharedPorts(found_.lidars);
+    for (const MetadataCandidate& candidate : candidates_)
+      if (candidate.decoder && !isOfAFoundSensor(candidate)) found_.unheard.push_back(candidate);
     std::sort(found_.lidars.begin(), found_.lidars.end(),
               [](const FoundLidar& a, const FoundLidar& b)
               { return std::tie(a.port, a.source) < std::tie(b.port, b.source); });
@@ -257,11 +274,17 @@ class Search
     return distanceOf(port, lidar) < distanceOf(port, than);
   }
 
-  static bool sharesPort(const FoundLidar& a, const FoundLidar& b)
+  /** Models of the program, and files without a serial number, describe any sensor of their kind. */
+  bool isOfAFoundSensor(const MetadataCandidate& candidate) const
   {
-    const auto isOneOf = [](std::uint16_t port, const FoundLidar& lidar)
-    { return port != 0 && (port == lidar.port || port == lidar.imu_port); };
-    return isOneOf(a.port, b) || isOneOf(a.imu_port, b);
+    const LidarDescription& described = candidate.decoder->description();
+    return std::any_of(found_.lidars.begin(), found_.lidars.end(),
+                       [&](const FoundLidar& lidar)
+                       {
+                         return lidar.metadata == candidate.file || (lidar.description.model == described.model &&
+                                                                     lidar.description.serial == described.serial);
+                       }) ||
+           builtInMetadata(candidate.file.string());
   }
 
   const std::vector<SampledStream>& streams_;
@@ -277,7 +300,7 @@ void addBuiltInModels(const std::vector<SampledStream>& streams, std::vector<Met
   Paths models;
   for (const SampledStream& stream : streams)
     if (!stream.samples.empty() && fitsOf(stream, candidates).empty())
-      for (const std::string& model : modelsThatSend(stream.samples.front()))
+      for (const std::string& model : modelsThatSend(stream.samples))
         if (std::find(models.begin(), models.end(), model) == models.end()) models.emplace_back(model);
   for (MetadataCandidate& candidate : candidatesFrom(models)) candidates.push_back(std::move(candidate));
 }
@@ -324,6 +347,16 @@ std::vector<MetadataCandidate> candidatesFrom(const std::map<std::string, std::s
   return candidates;
 }
 
+void markSharedPorts(std::vector<FoundLidar>& lidars)
+{
+  const auto isOneOf = [](std::uint16_t port, const FoundLidar& lidar)
+  { return port != 0 && (port == lidar.port || port == lidar.imu_port); };
+  for (FoundLidar& one : lidars)
+    for (const FoundLidar& other : lidars)
+      if (one.source != other.source && (isOneOf(one.port, other) || isOneOf(one.imu_port, other)))
+        one.source_matters = true;
+}
+
 std::string nameSpaceOf(const std::string& topic) { return topic.substr(0, topic.rfind('/') + 1); }
 
 LidarsFound findLidars(const std::vector<SampledStream>& streams, std::vector<MetadataCandidate> candidates,
@@ -334,7 +367,8 @@ LidarsFound findLidars(const std::vector<SampledStream>& streams, std::vector<Me
   if (found.lidars.empty()) refuseNone(streams, candidates, captures);
   for (const SampledStream& stream : streams)
     if (stream.datagrams >= kWorthANote && !isOfALidar(stream, found.lidars))
-      found.notes.push_back(fmt::format("{} are of no lidar with known metadata: left out", describe(stream)));
+      found.notes.push_back(
+          fmt::format("{} are of no lidar with known metadata: left out{}", describe(stream), wayOut(stream)));
   return found;
 }
 }  // namespace scanloom

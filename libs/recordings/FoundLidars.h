@@ -42,9 +42,13 @@ struct FoundLidar
 
 struct LidarsFound
 {
-  std::vector<FoundLidar> lidars;  // by port, then source
-  std::vector<std::string> notes;  // what is left out, and why
+  std::vector<FoundLidar> lidars;          // by port, then source
+  std::vector<MetadataCandidate> unheard;  // of sensors that none of the packets are of
+  std::vector<std::string> notes;          // what is left out, and why
 };
+
+/** Which of them share a port, and must be told apart by their addresses. */
+void markSharedPorts(std::vector<FoundLidar>&);
 
 /**
  * A lidar is in a stream if its decoder understands packets of it: size, format, serial number and checksum fit, and

@@ -4,12 +4,14 @@
 #include "core/printable.h"
 #include "recordings/BagPoses.h"
 #include "rig/Extrinsics.h"
+#include "rig/RigOptions.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 
 namespace scanloom
 {
@@ -22,30 +24,47 @@ constexpr const char* kUnknownPose = "[0 0 0 0 0 0]";
 
 constexpr Duration kBagLookedAt = 10s;  // of a bag: its static transforms and metadata come first
 
-/** "left" of "/left/ouster/lidar_packets"; empty for "/packets", which stands alone. A label of a rawlog is a name. */
-std::string firstOf(const std::string& topic)
+/** The parts of a topic's name before its last one: "left", "ouster" of "/left/ouster/lidar_packets". */
+std::vector<std::string> nameSpacesOf(const std::string& topic)
 {
-  if (topic.find('/') == std::string::npos) return topic;
-  const std::size_t begin = topic.find_first_not_of('/');
-  const std::size_t end = begin == std::string::npos ? begin : topic.find('/', begin);
-  return end == std::string::npos ? "" : topic.substr(begin, end - begin);
+  std::vector<std::string> parts;
+  std::istringstream names(topic.substr(0, topic.rfind('/') + 1));
+  for (std::string part; std::getline(names, part, '/');)
+    if (!part.empty()) parts.push_back(part);
+  return parts;
 }
 
-std::string nameOf(const FoundLidar& lidar)
+/** The first part of the topic's name that not all topics share; of one topic alone the first. */
+std::string nameByTopic(const std::string& topic, const std::vector<FoundLidar>& lidars)
 {
-  if (!lidar.topic.empty()) return firstOf(lidar.topic);
+  if (topic.find('/') == std::string::npos) return topic;  // the label of a rawlog
+  const std::vector<std::string> parts = nameSpacesOf(topic);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (lidars.size() == 1 || std::any_of(lidars.begin(), lidars.end(),
+                                          [&](const FoundLidar& other)
+                                          {
+                                            const auto others = nameSpacesOf(other.topic);
+                                            return i >= others.size() || others[i] != parts[i];
+                                          }))
+      return parts[i];
+  return "";
+}
+
+std::string nameOf(const FoundLidar& lidar, const std::vector<FoundLidar>& lidars)
+{
+  if (!lidar.topic.empty()) return nameByTopic(lidar.topic, lidars);
   return lidar.metadata.has_extension() ? lidar.metadata.stem().string() : "";
 }
 
-/** The metadata file's name, of a bag the topic's first name, unless two lidars would share it. */
+/** The metadata file's name, of a bag a part of the topic's name, unless two lidars would share it. */
 std::vector<std::string> namesOf(const std::vector<FoundLidar>& lidars)
 {
   std::map<std::string, int> uses;
-  for (const FoundLidar& lidar : lidars) ++uses[nameOf(lidar)];
+  for (const FoundLidar& lidar : lidars) ++uses[nameOf(lidar, lidars)];
   std::vector<std::string> names;
   for (const FoundLidar& lidar : lidars)
   {
-    const std::string name = nameOf(lidar);
+    const std::string name = nameOf(lidar, lidars);
     names.push_back(!name.empty() && uses[name] == 1 ? name : fmt::format("lidar{}", names.size() + 1));
   }
   return names;
@@ -65,6 +84,8 @@ std::string listOf(const Paths& paths)
   for (const auto& path : paths) names.push_back(path.string());
   return fmt::format("{}", fmt::join(names, ", "));
 }
+
+bool isHeard(const FoundLidar& lidar) { return !lidar.topic.empty() || lidar.source != IpAddress{}; }
 
 std::string describe(const LidarDescription& lidar)
 {
@@ -98,9 +119,9 @@ void addLidar(const FoundLidar& lidar, const std::string& key, const std::string
     if (!lidar.imu_topic.empty()) ini.set(key + "_imu_topic", lidar.imu_topic);
     return;
   }
-  ini.set(key + "_port", std::to_string(lidar.port));
+  if (lidar.port != 0) ini.set(key + "_port", std::to_string(lidar.port));
   if (lidar.imu_port != 0) ini.set(key + "_imu_port", std::to_string(lidar.imu_port));
-  if (lidar.source_matters) ini.set(key + "_address", lidar.source.text());
+  if (lidar.source_matters && lidar.source != IpAddress{}) ini.set(key + "_address", lidar.source.text());
 }
 
 /** One lidar alone is the body's frame; of several it must be known how they stand to each other. */
@@ -167,6 +188,40 @@ void addScanTimes(const std::vector<FoundLidar>& lidars, Ini& ini)
   ini.set("scan_phase_ms", fmt::format("{:.6f}", 1e3 * seconds(phase)));
 }
 
+/**
+ * Sensors that sent nothing. One whose pose is given belongs to the rig: the run says at its end that it is missing.
+ * Other files may lie in the folder for other recordings; where only clouds were recorded, all sensors are silent.
+ */
+void addUnheard(LidarsFound& found, const Poses& poses)
+{
+  const auto isCloud = [](const FoundLidar& lidar)
+  { return !lidar.topic.empty() && topicNamedBy(lidar.metadata.string()) == lidar.topic; };
+  const bool clouds = std::any_of(found.lidars.begin(), found.lidars.end(), isCloud);
+  std::vector<std::string> others;
+  for (const MetadataCandidate& silent : found.unheard)
+  {
+    const bool is_topic = topicNamedBy(silent.file.string()).has_value();
+    const std::string described = fmt::format("{} ({})", silent.file.string(), describe(silent.decoder->description()));
+    if (!is_topic && poses.count("T_body_" + silent.file.stem().string()) > 0)
+    {
+      FoundLidar lidar;
+      lidar.metadata = silent.file;
+      lidar.description = silent.decoder->description();
+      lidar.port = lidar.description.lidar_port;
+      found.lidars.push_back(lidar);
+      found.notes.push_back(fmt::format("no packet is of {}", described));
+    }
+    else if (!is_topic || !clouds)
+      others.push_back(described);
+  }
+  markSharedPorts(found.lidars);
+  constexpr std::size_t kMostNamed = 3;
+  const std::string more =
+      others.size() > kMostNamed ? fmt::format(" and {} more", others.size() - kMostNamed) : std::string();
+  others.resize(std::min(others.size(), kMostNamed));
+  if (!others.empty()) found.notes.push_back(fmt::format("no packet is of {}{}", fmt::join(others, ", "), more));
+}
+
 /** A bag whose topics are of other kinds should at least tell them. */
 LidarsFound foundIn(const Paths& captures, std::vector<MetadataCandidate> candidates, const BagContents& bags)
 try
@@ -190,7 +245,11 @@ RecognisedRig recogniseRig(const RecordingFiles& files)
   const BagContents bags = contentsOf(files.captures, kBagLookedAt);
   std::vector<MetadataCandidate> candidates = candidatesFrom(files.metadata);
   for (MetadataCandidate& candidate : candidatesFrom(bags.metadata)) candidates.push_back(std::move(candidate));
-  const LidarsFound found = foundIn(files.captures, std::move(candidates), bags);
+  LidarsFound found = foundIn(files.captures, std::move(candidates), bags);
+  if (!extrinsics.empty())
+    addUnheard(found, readExtrinsics(extrinsics));
+  else
+    addUnheard(found, {});
   const std::vector<std::string> names = namesOf(found.lidars);
   const std::string imu_topic = imu.empty() ? bodyImuTopic(bags, found.lidars) : "";
 
@@ -208,6 +267,7 @@ RecognisedRig recogniseRig(const RecordingFiles& files)
     const std::string key = fmt::format("lidar{}", i + 1);
     addLidar(lidar, key, names[i], ini);
     addPose(key, names[i], poses, found.lidars.size(), rig, ini);
+    if (!isHeard(lidar)) continue;
     const std::string place = lidar.topic.empty() ? fmt::format("from {} to port {}", lidar.source.text(), lidar.port)
                                                   : "on topic " + lidar.topic;
     rig.found.push_back(

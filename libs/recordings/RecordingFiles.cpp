@@ -91,6 +91,16 @@ void addWhatLiesBeside(const std::filesystem::path& given, RecordingFiles& files
   if (files.extrinsics.empty()) files.extrinsics = beside.extrinsics;
 }
 
+/** Those that a person may have meant; empty for none. */
+std::string foldersIn(const std::filesystem::path& folder)
+{
+  if (!std::filesystem::is_directory(folder)) return "";
+  std::string names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.is_directory()) names += fmt::format("{}{}", names.empty() ? "" : ", ", entry.path().string());
+  return names.empty() ? "" : fmt::format("; folders within are not searched, name one: {}", names);
+}
+
 void sort(Paths& paths)
 {
   std::sort(paths.begin(), paths.end());
@@ -105,8 +115,8 @@ RecordingFiles filesOf(const std::vector<std::filesystem::path>& given)
   if (files.empty())
     throw UsageError(
         fmt::format("{}: holds no recording: expected captures (pcap, pcapng), bags (.db3, .mcap, .bag), a rawlog or "
-                    "clouds (PLY, PCD, KITTI)",
-                    given.empty() ? "" : given.front().string()));
+                    "clouds (PLY, PCD, KITTI){}",
+                    given.empty() ? "" : given.front().string(), given.empty() ? "" : foldersIn(given.front())));
   if (!std::filesystem::is_directory(given.front())) addWhatLiesBeside(given.front(), files);
   if (!files.captures.empty() || !files.rawlogs.empty()) files.clouds.clear();
   for (Paths* list : {&files.captures, &files.rawlogs, &files.clouds, &files.metadata, &files.imus, &files.extrinsics})

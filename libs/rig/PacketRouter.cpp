@@ -74,6 +74,7 @@ std::optional<RoutedPacket> PacketRouter::route(const DatagramView& datagram)
   {
     ++unmatched_[countedOrigin(datagram)];
     if (!lidar) noticeWrongPort(datagram);
+    if (!lidar) noticeOtherSensor(datagram);
     return std::nullopt;
   }
   Heard& heard = heard_[lidar->lidar];
@@ -185,20 +186,54 @@ void PacketRouter::noticeWrongPort(const DatagramView& datagram)
     const LidarAddress& address = lidars_[i].address;
     if (!lidars_[i].decoder || address.key.empty() || (address.source && *address.source != datagram.source)) continue;
     const PacketKind kind = lidars_[i].decoder->kindByHeader(datagram.payload);
+    // IMU packets tell no serial number: those of a sensor that is not there are another one's.
+    const bool is_there = heard_[i].lidar || isElsewhere(i);
     const bool is_sought =
-        (kind == PacketKind::Lidar && !heard_[i].lidar) || (kind == PacketKind::Imu && !heard_[i].imu);
+        (kind == PacketKind::Lidar && !heard_[i].lidar) || (kind == PacketKind::Imu && !heard_[i].imu && is_there);
     if (is_sought && lidars_[i].decoder->isIntact(datagram.payload)) unheard.push_back({i, kind});
   }
-  if (unheard.size() != 1 || elsewhere_.size() >= kMostPortsWatched) return;
+  if (unheard.size() != 1) return;
   const auto [lidar, kind] = unheard.front();
   const std::uint16_t port = datagram.destination_port;
-  if (++elsewhere_[{lidar, kind, port}] != kPacketsElsewhere) return;
+  if (!isToldNow(lidar, kind, port)) return;
   const LidarAddress& address = lidars_[lidar].address;
   const bool is_imu = kind == PacketKind::Imu;
   warnings_.push_back(fmt::format("lidar '{}': its {}packets come to port {}, not to {}: set {}_{} = {}",
                                   lidars_[lidar].label, is_imu ? "IMU " : "", port,
                                   is_imu ? address.imu_port : address.lidar_port, address.key,
                                   is_imu ? "imu_port" : "port", port));
+}
+
+/** At the port of a lidar that is not heard, by the serial number: the metadata are another sensor's. */
+void PacketRouter::noticeOtherSensor(const DatagramView& datagram)
+{
+  for (const Candidate& candidate : listenersTo(datagram))
+  {
+    const PacketDecoder& decoder = *lidars_[candidate.lidar].decoder;
+    if (candidate.kind != PacketKind::Foreign || heard_[candidate.lidar].lidar) continue;
+    const auto serial = decoder.header(datagram.payload).serial;
+    const std::uint16_t port = datagram.destination_port;
+    if (!serial || !decoder.isIntact(datagram.payload) || !isToldNow(candidate.lidar, candidate.kind, port)) continue;
+    warnings_.push_back(
+        fmt::format("lidar '{}': packets to port {} are of serial number {}, its metadata are of {}: give those of {}",
+                    lidars_[candidate.lidar].label, port, *serial, decoder.description().serial, *serial));
+  }
+}
+
+/** Once, after so many of these packets. */
+bool PacketRouter::isToldNow(LidarIndex lidar, PacketKind kind, std::uint16_t port)
+{
+  return elsewhere_.size() < kMostPortsWatched && ++elsewhere_[{lidar, kind, port}] == kPacketsElsewhere;
+}
+
+bool PacketRouter::isElsewhere(LidarIndex lidar) const
+{
+  return std::any_of(elsewhere_.begin(), elsewhere_.end(),
+                     [&](const auto& found)
+                     {
+                       const auto& [of, kind, port] = found.first;
+                       return of == lidar && kind == PacketKind::Lidar;
+                     });
 }
 
 /** One damaged packet must not end a run, and where all are ambiguous the lidars are silent: that is told at the end.

@@ -91,6 +91,9 @@ class PacketRouter
   Candidates fromKnownSource(const Candidates&, const IpAddress& source) const;
   std::optional<Candidate> decide(const DatagramView&);
   void noticeWrongPort(const DatagramView&);
+  void noticeOtherSensor(const DatagramView&);
+  bool isElsewhere(LidarIndex) const;
+  bool isToldNow(LidarIndex, PacketKind, std::uint16_t port);
   LidarSender::Verdict judgeSender(const Candidate&, const DatagramView&);
   Origin countedOrigin(const DatagramView&) const;
   void warnOfAmbiguity(const DatagramView&, const Candidates&);
@@ -102,7 +105,7 @@ class PacketRouter
   std::vector<std::uint64_t> of_other_senders_;  // of each lidar
   std::vector<Heard> heard_;                     // of each lidar
   std::map<std::tuple<LidarIndex, PacketKind, std::uint16_t>, int>
-      elsewhere_;                                         // packets at another port, up to a limit
+      elsewhere_;  // packets at another port, and those of another sensor (Foreign) at its port, up to a limit
   std::set<std::uint16_t> ambiguous_ports_;               // that were told
   std::set<std::pair<LidarIndex, IpAddress>> strangers_;  // that were told, up to a limit
   std::vector<std::string> warnings_;

@@ -19,12 +19,13 @@ TEST(FirstScan, startsAtTheNextMultipleOfThePeriodPlusThePhase)
   EXPECT_EQ(startAfter(Timestamp{20ms}, kPeriod, 37ms), Timestamp{37ms});
 }
 
-TEST(FirstScan, ofALidarAloneMayBeginWithItsFirstBlock)
+TEST(FirstScan, mayBeginWithTheFirstBlocksWhereItIsWhole)
 {
-  EXPECT_EQ(startOfOne(Timestamp{100ms}, kPeriod, 0ms, 2ms), Timestamp{100ms});
-  EXPECT_EQ(startOfOne(Timestamp{101ms}, kPeriod, 0ms, 2ms), Timestamp{100ms}) << "within a block";
-  EXPECT_EQ(startOfOne(Timestamp{102ms}, kPeriod, 0ms, 2ms), Timestamp{200ms}) << "a block was missed";
-  EXPECT_EQ(startOfOne(Timestamp{137ms}, kPeriod, 37ms, 2ms), Timestamp{137ms});
+  EXPECT_EQ(startOfWholeScan(Timestamp{100ms}, kPeriod, 0ms, 2ms), Timestamp{100ms});
+  EXPECT_EQ(startOfWholeScan(Timestamp{101ms}, kPeriod, 0ms, 2ms), Timestamp{100ms});
+  EXPECT_EQ(startOfWholeScan(Timestamp{102ms}, kPeriod, 0ms, 2ms), Timestamp{200ms}) << "a block was missed";
+  EXPECT_EQ(startOfWholeScan(Timestamp{137ms}, kPeriod, 37ms, 2ms), Timestamp{137ms});
+  EXPECT_EQ(startOfWholeScan(Timestamp{100ms}, kPeriod, 0ms, 0ms), Timestamp{200ms}) << "eq. (1)";
 }
 
 TEST(FirstScan, theLatestFirstStampIsCertainWhenNoEarlierPacketCanCome)

@@ -117,6 +117,18 @@ TEST(TimeBatcher, oneTurnOfALidarAloneIsAWholeScanWhereThePhaseIsThatOfItsFirstB
   EXPECT_EQ(batcher.counters(0).before_start, 0u);
 }
 
+TEST(TimeBatcher, turnsThatAProgramCutAreScansFromTheFirstOneOn)
+{
+  FakeLidarOptions cloud;
+  cloud.columns_per_packet = cloud.columns_per_frame;
+  TimeBatcher batcher = fakeLidars({cloud, cloud});
+  const auto left = FakeLidar(cloud).drive(Timestamp{100ms}, 300ms),
+             right = FakeLidar(cloud).drive(Timestamp{100200us}, 300ms);
+  const auto scans = feed(batcher, inOrderOfArrival(arrivalsOf(0, left), arrivalsOf(1, right)));
+  EXPECT_EQ(scans.front().start, Timestamp{100ms});
+  EXPECT_EQ(scans.front().columns.size(), 128u);
+}
+
 TEST(TimeBatcher, columnsNeverGoBackInTimeWithinAndAcrossScans)
 {
   TimeBatcher batcher = fakeLidars({{}, {}});

@@ -37,11 +37,16 @@ std::vector<RobosenseDecoder> everyDecoder()
   return decoders;
 }
 
+void mendMarker(std::vector<std::uint8_t>& packet, std::uint32_t marker)
+{
+  for (std::size_t i = 0; i < 4; ++i) packet[i] = static_cast<std::uint8_t>(marker >> 8 * (3 - i));
+}
+
 void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const RobosenseMetadata& metadata)
 {
   if (what & kSize) packet.resize(kRobosensePacketBytes);
   if (packet.size() < kRobosensePacketBytes) return;
-  if (what & kMarkers) store(packet, 0, std::uint32_t{0x5A05AA55});
+  if (what & kMarkers) mendMarker(packet, metadata.model->marker);
   if (what & kMarkers) packet[17] &= 1;
   if (what & kModel) packet[30] = metadata.model->type;
   if (what & kModel) packet[31] = metadata.model->version;

@@ -25,6 +25,15 @@ TEST(BuiltInModels, areSetToTwoReturnsByTheirName)
   EXPECT_EQ(makeDecoder("vlp-16 Dual", Rigid::identity())->description().returns, 2);
 }
 
+TEST(BuiltInModels, turnAtAnotherRateByTheirName)
+{
+  EXPECT_EQ(makeDecoder("VLP-16 1200 rpm", Rigid::identity())->description().frame_rate, 20);
+  const auto two_returns = makeDecoder("xt32 dual 300 RPM", Rigid::identity());
+  EXPECT_EQ(two_returns->description().frame_rate, 5);
+  EXPECT_EQ(two_returns->description().returns, 2);
+  EXPECT_THROW(makeDecoder("VLP-16 100 rpm", Rigid::identity()), std::invalid_argument);
+}
+
 TEST(BuiltInModels, areNamedWhereOneIsUnknown)
 {
   try
@@ -45,14 +54,14 @@ TEST(BuiltInModels, areFoundByAPacket)
   {
     const HesaiModel& model = *findHesaiModel(name);
     HesaiContent content;
-    EXPECT_THAT(modelsThatSend(hesaiPacket(model, content)), ElementsAre(std::string(model.name)));
+    EXPECT_THAT(modelsThatSend({hesaiPacket(model, content)}), ElementsAre(std::string(model.name)));
     content.return_mode = 0x39;
-    EXPECT_THAT(modelsThatSend(hesaiPacket(model, content)), ElementsAre(std::string(model.name) + " dual"));
+    EXPECT_THAT(modelsThatSend({hesaiPacket(model, content)}), ElementsAre(std::string(model.name) + " dual"));
   }
-  EXPECT_THAT(modelsThatSend(velodynePacket({})), ElementsAre("VLP-16"));
+  EXPECT_THAT(modelsThatSend({velodynePacket({})}), ElementsAre("VLP-16"));
   VelodyneContent early;
   early.product_id = 0x21;
-  EXPECT_THAT(modelsThatSend(velodynePacket(early)), ElementsAre("HDL-32E", "VLP-16")) << "packets do not tell";
-  EXPECT_THAT(modelsThatSend(std::vector<std::uint8_t>(1206)), IsEmpty());
+  EXPECT_THAT(modelsThatSend({velodynePacket(early)}), ElementsAre("HDL-32E", "VLP-16")) << "packets do not tell";
+  EXPECT_THAT(modelsThatSend({std::vector<std::uint8_t>(1206)}), IsEmpty());
   EXPECT_THAT(modelsThatSend({}), IsEmpty());
 }

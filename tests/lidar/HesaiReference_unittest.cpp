@@ -1,4 +1,4 @@
-/** Recordings of five models, decoded by us and by another program. */
+/** Recordings of seven models, decoded by us and by another program. */
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -41,6 +41,8 @@ INSTANTIATE_TEST_SUITE_P(Models, HesaiClouds,
                                          RecordedHesai{"40P", "40p", "Pandar40P.csv", 1439},
                                          RecordedHesai{"64", "64", "Pandar64.csv", 2400},
                                          RecordedHesai{"XT16", "xt16", "PandarXT16.csv", 1626},
+                                         RecordedHesai{"XT32M", "xt32m", "PandarXT32M.csv", 1815},
+                                         RecordedHesai{"QT64", "qt64", "PandarQT64.csv", 1200},
                                          RecordedHesai{"QT128", "qt128", "PandarQT128.csv", 1800}),
                          [](const auto& sensor) { return std::string(sensor.param.folder); });
 }  // namespace
@@ -66,7 +68,7 @@ TEST_P(HesaiClouds, consistOfPointsOfOurs)
   }
   if (builtInMetadata(GetParam().model))
   {
-    EXPECT_EQ(modelsThatSend(packets.front().bytes), std::vector{std::string(GetParam().model) + " dual"});
+    EXPECT_EQ(modelsThatSend({packets.front().bytes}), std::vector{std::string(GetParam().model) + " dual"});
   }
 
   std::vector<Eigen::Vector3f> ours;

@@ -74,7 +74,7 @@ TEST(RobosenseRecording, isOfAHelios5515)
 {
   SCANLOOM_NEEDS_DATA(folder, kRecording);
   const auto packets = recordedIn(folder);
-  EXPECT_EQ(modelsThatSend(packets.front().bytes), std::vector<std::string>{"Helios-5515"});
+  EXPECT_EQ(modelsThatSend({packets.front().bytes}), std::vector<std::string>{"Helios-5515"});
   const auto decoder = makeDecoder("Helios-5515", Rigid::identity());
   for (const StampedPacket& packet : packets) ASSERT_EQ(decoder->kind(packet.bytes), PacketKind::Lidar);
 }

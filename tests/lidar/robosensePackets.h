@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,7 @@ inline void storeBigEndian(std::vector<std::uint8_t>& bytes, std::size_t offset,
     bytes.at(offset + i) = static_cast<std::uint8_t>(value >> 8 * (count - 1 - i));
 }
 
-/** What the packet says; every channel sees `range_counts` of 2.5 mm, in a second return `second_counts`. */
+/** What the packet says; every channel sees `range_counts` of the model's unit, in a second return `second_counts`. */
 struct RobosenseContent
 {
   std::uint64_t seconds = 1'700'000'000;
@@ -47,13 +48,30 @@ struct RobosenseContent
   std::uint16_t range_counts = 800, second_counts = 1200;
 };
 
+inline void storeRobosenseTime(std::vector<std::uint8_t>& packet, const RobosenseModel& model,
+                               const RobosenseContent& content)
+{
+  if (model.clock == RobosenseClock::Seconds)
+  {
+    storeBigEndian(packet, 20, content.seconds, 6);
+    storeBigEndian(packet, 26, content.microseconds, 4);
+    return;
+  }
+  const auto seconds = static_cast<std::time_t>(content.seconds);
+  std::tm date{};
+  gmtime_r(&seconds, &date);
+  const int fields[] = {date.tm_year - 100, date.tm_mon + 1, date.tm_mday, date.tm_hour, date.tm_min, date.tm_sec};
+  for (std::size_t i = 0; i < 6; ++i) packet.at(20 + i) = static_cast<std::uint8_t>(fields[i]);
+  storeBigEndian(packet, 26, content.microseconds / 1000, 2);
+  storeBigEndian(packet, 28, content.microseconds % 1000, 2);
+}
+
 inline std::vector<std::uint8_t> robosensePacket(const RobosenseModel& model, const RobosenseContent& content)
 {
   std::vector<std::uint8_t> packet(kRobosensePacketBytes, 0);
-  storeBigEndian(packet, 0, 0x55AA055A, 4);
+  storeBigEndian(packet, 0, model.marker, 4);
   packet[17] = 1;
-  storeBigEndian(packet, 20, content.seconds, 6);
-  storeBigEndian(packet, 26, content.microseconds, 4);
+  storeRobosenseTime(packet, model, content);
   packet[30] = model.type;
   packet[31] = model.version;
   for (int slot = 0; slot < static_cast<int>(kRobosenseReadings); ++slot)

@@ -78,6 +78,18 @@ TEST(BagRig, hasTheTopicsAndThePosesOfItsStaticTransforms)
   EXPECT_EQ(rig.body_imu.size(), 40u);
 }
 
+TEST(BagRig, namesLidarsByTheFirstPartOfTheirTopicsThatDiffers)
+{
+  const TemporaryFolder folder;
+  std::vector<HandmadeMessage> messages = driveOfTwoLidars();
+  for (HandmadeMessage& message : messages)
+    if (message.topic != "/tf_static") message.topic = "/sensing/lidar" + message.topic;
+  writeFile(folder / "drive.bag", ros1Of(messages));
+  const Rig rig = rigOf(recogniseRig(filesOf({folder / "drive.bag"})));
+  EXPECT_EQ(rig.lidars.at(0).name, "left");
+  EXPECT_EQ(rig.lidars.at(1).name, "right");
+}
+
 TEST(BagRig, weavesTheCloudsOfTwoDriversByTheStampsOfTheirPoints)
 {
   const TemporaryFolder folder;

@@ -84,6 +84,14 @@ TEST_F(Clouds, mustHaveATimeEach)
   EXPECT_THAT([&] { scans(); }, ThrowsMessage<std::runtime_error>(HasSubstr("2 times for 1 clouds")));
 }
 
+TEST_F(Clouds, ofSomeNumbersHaveTheTimesOfTheirLines)
+{
+  write("000001.ply");
+  write("000003.ply");
+  std::ofstream(folder_ / "times.txt") << "100\n101\n102\n103\n";
+  EXPECT_THAT(ends(), ElementsAre(101, 103));
+}
+
 TEST_F(Clouds, mustBeLaterThanTheOnesBefore)
 {
   write("a.ply");

@@ -4,6 +4,7 @@
 #include "packets/CaptureWriter.h"
 #include "packets/MergedCaptures.h"
 #include "rig/Rig.h"
+#include "rig/RigReplay.h"
 #include "support/Rosbag.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
@@ -140,6 +141,21 @@ TEST(RecognisedRig, ofAnotherSensorsMetadataNamesBothSerialNumbers)
   EXPECT_THAT(refusalOf({wrong / "drive.pcap"}), AllOf(HasSubstr("122322000615"), HasSubstr("122150000151")));
 }
 
+TEST(RecognisedRig, keepsALidarThatSentNothingIfItsPoseIsGiven)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const TemporaryFolder silent;
+  writeSome(folder / "recording.pcap", silent / "drive.pcap", &isOfLeft);
+  for (const char* file : {"left.json", "right.json"}) std::filesystem::copy(folder / file, silent / file);
+  EXPECT_EQ(rigFrom(recogniseRig(filesOf({silent.path()}))).lidars.size(), 1U) << "another recording's, perhaps";
+  EXPECT_THAT(recogniseRig(filesOf({silent.path()})).notes, Contains(HasSubstr("no packet is of")));
+
+  std::filesystem::copy(folder / "extrinsics.txt", silent / "extrinsics.txt");
+  const RecognisedRig recognised = recogniseRig(filesOf({silent.path()}));
+  EXPECT_EQ(rigFrom(recognised).lidars.size(), 2U);
+  EXPECT_THAT(recognised.notes, Contains(AllOf(HasSubstr("no packet is of"), HasSubstr("right.json"))));
+}
+
 TEST(RecognisedRig, knowsAVelodyneByItsPackets)
 {
   SCANLOOM_NEEDS_DATA(hdl32e, "other-lidars/Kitware+VeloView/Testing/Data/monterey-first-100-packets.pcap");
@@ -147,6 +163,26 @@ TEST(RecognisedRig, knowsAVelodyneByItsPackets)
   // It bears the HDL-32E's number, but is at a VLP-16's pace (INVENTORY).
   SCANLOOM_NEEDS_DATA(vlp16, "other-lidars/jerry73204+rust-lidar-utils/velodyne-test/test_files/velodyne_vlp16.pcap");
   EXPECT_THAT(recogniseRig(filesOf({vlp16})).ini, HasSubstr("lidar1_metadata  = VLP-16"));
+}
+
+TEST(RecognisedRig, knowsTheRateOfTheRotorByThePackets)
+{
+  SCANLOOM_NEEDS_DATA(vlp16, "other-lidars/Kitware+VeloView/Testing/Data/vlp-16-test-90deg-1-50-frames.pcap");
+  const RecognisedRig recognised = recogniseRig(filesOf({vlp16}));  // 50.40 turns in 2.523 s
+  EXPECT_THAT(recognised.ini, HasSubstr("lidar1_metadata  = VLP-16 1200 rpm"));
+  EXPECT_DOUBLE_EQ(rigFrom(recognised).lidars.at(0).decoder->description().frame_rate, 20);
+}
+
+TEST(RecognisedRig, ofOneTurnOfOneLidarGivesAllItsColumnsInOneScan)
+{
+  SCANLOOM_NEEDS_DATA(captures, "ouster/ouster-lidar+ouster-sdk/tests/pcaps");
+  const std::string name = "OS-0-32-U1_v2.2.0_1024x10";
+  const Rig rig = rigFrom(recogniseRig(filesOf({captures / (name + ".pcap"), captures / (name + ".json")})));
+  RigReplay replay(rig);
+  std::vector<std::size_t> columns;
+  while (const auto event = replay.next())
+    if (const auto* scan = std::get_if<Scan>(&*event)) columns.push_back(scan->columns.size());
+  EXPECT_THAT(columns, ElementsAre(1024));
 }
 
 TEST(RecognisedRig, knowsAHeliosByItsPackets)
@@ -166,6 +202,15 @@ TEST(RecognisedRig, knowsAHeliosByItsPackets)
               AllOf(HasSubstr("lidar1_metadata  = Helios-5515"), HasSubstr("lidar1_port      = 6699")));
 }
 
+TEST(RecognisedRig, ofASensorWithAnglesOfItsOwnSaysWhatToWrite)
+{
+  SCANLOOM_NEEDS_DATA(bag,
+                      "other-lidars/tier4+nebula/src/nebula_hesai/nebula_hesai/test_resources/decoder_ground_truth/64/"
+                      "1673403880599376836");
+  EXPECT_THAT(refusalOf({bag}),
+              HasSubstr(R"({"lidar": "hesai", "model": "64", "returns": 2, "angles": "ANGLES.csv"})"));
+}
+
 TEST(RecognisedRig, ofACaptureWithoutMetadataSaysWhatItHolds)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
@@ -178,6 +223,8 @@ TEST(RecordingFiles, areRefusedWhereThereIsNoRecording)
 {
   const TemporaryFolder empty;
   EXPECT_THAT(refusalOf({empty.path()}), HasSubstr("holds no recording"));
+  std::filesystem::create_directory(empty / "lidar");
+  EXPECT_THAT(refusalOf({empty.path()}), HasSubstr("name one: " + (empty / "lidar").string()));
   EXPECT_THAT(refusalOf({empty / "nowhere.pcap"}), HasSubstr("no such file"));
   std::ofstream(empty / "notes.txt") << "hello\n";
   EXPECT_THAT(refusalOf({empty / "notes.txt"}), HasSubstr("a text file"));

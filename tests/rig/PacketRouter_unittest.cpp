@@ -21,6 +21,7 @@ class FakeDecoder : public PacketDecoder
     description_.columns_per_frame = description_.columns_per_packet = 16;  // a packet a turn
     description_.last_column = 15;
     description_.frame_rate = 100;
+    description_.serial = std::to_string(int{serial});
   }
 
   PacketKind kindByHeader(Bytes packet) const override
@@ -40,7 +41,12 @@ class FakeDecoder : public PacketDecoder
   }
   bool isIntact(Bytes packet) const override { return packet.size() != 2 || packet[0] != 'C'; }
   const LidarDescription& description() const override { return description_; }
-  PacketHeader header(Bytes) const override { return {}; }
+  PacketHeader header(Bytes packet) const override
+  {
+    PacketHeader header;
+    if (packet.size() == 2 && packet[1] != '-') header.serial = packet[1];
+    return header;
+  }
   void readBlocks(Bytes, std::vector<MeasurementBlock>&) const override {}
   void appendPoints(Bytes, std::size_t, std::int32_t, std::uint8_t, PointCloud&) const override {}
   std::vector<ImuSample> imuSamples(Bytes) const override { return {}; }
@@ -108,6 +114,20 @@ TEST(PacketRouter, namesThePortToSetIfALidarIsHeardAtAnotherOneOnly)
               testing::UnorderedElementsAre(
                   "lidar 'right': its packets come to port 7504, not to 9999: set lidar2_port = 7504",
                   "lidar 'right': its IMU packets come to port 7505, not to 9998: set lidar2_imu_port = 7505"));
+}
+
+TEST(PacketRouter, namesBothSerialNumbersIfAnotherSensorSendsToThePortOfALidar)
+{
+  PacketRouter router({{"left", {7502, 7503, {}, "lidar1"}, &kLeft}, {"right", {7504, 7505, {}, "lidar2"}, &kRight}});
+  for (int i = 0; i < 200; ++i)
+  {
+    route(router, datagram("La", 7502));
+    route(router, datagram("Lc", 7502));  // beside packets of its own
+    route(router, datagram("Lc", 7504));
+    route(router, datagram("Ib", 7503));  // of a sensor that is not there
+  }
+  EXPECT_THAT(router.takeWarnings(), testing::ElementsAre("lidar 'right': packets to port 7504 are of serial number "
+                                                          "99, its metadata are of 98: give those of 99"));
 }
 
 TEST(PacketRouter, tellsLidarsOnOnePortApartBySerial)
