@@ -14,7 +14,10 @@ constexpr double kFarFromGround = 0.4;  // m
 constexpr double kLongestBoom = 12;     // m from the body's origin: longer than a harvester's boom
 constexpr double kAlmostAlways = 0.75;  // of the snapshots
 constexpr std::size_t kFewestSnapshots = 4;
-constexpr double kMost = 0.8;  // share of the points above the ground; a machine has fewer
+constexpr double kMost = 0.8;      // share of the points above the ground; a machine has fewer
+constexpr double kFarAbove = 2;    // m above the ground: its rings stay at their distance on a drive, too
+constexpr double kFewestFar = 50;  // points in a snapshot, to tell by them
+constexpr double kStoodStill = 0.5;
 
 /** Counts the snapshots in which each cube holds a point. The map is never iterated: its order is not defined. */
 class Occupancy
@@ -52,7 +55,11 @@ OwnParts markOwnParts(std::vector<RigSnapshot>& snapshots, std::size_t lidar, co
   const auto onGround = [&](const Eigen::Vector3f& p)
   { return ground && std::abs(ground->up.dot(p.cast<double>()) + ground->body_height) < kFarFromGround; };
 
-  double own = 0, standing = 0, all = 0;
+  const auto isFar = [&](const Eigen::Vector3f& p) {
+    return p.norm() > kLongestBoom && (!ground || ground->up.dot(p.cast<double>()) + ground->body_height > kFarAbove);
+  };
+
+  double own = 0, standing = 0, all = 0, far = 0, far_in_place = 0;
   std::vector<std::vector<std::uint8_t>> marks;
   for (const RigSnapshot& snapshot : snapshots)
   {
@@ -62,6 +69,8 @@ OwnParts markOwnParts(std::vector<RigSnapshot>& snapshots, std::size_t lidar, co
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       const Eigen::Vector3f p = points.position(i);
+      if (isFar(p)) ++far;
+      if (isFar(p) && occupancy.snapshotsAt(p) >= often) ++far_in_place;
       if (p.norm() > kLongestBoom || onGround(p)) continue;
       ++standing;
       if (occupancy.snapshotsAt(p) < often) continue;
@@ -70,7 +79,8 @@ OwnParts markOwnParts(std::vector<RigSnapshot>& snapshots, std::size_t lidar, co
       parts.box.extend(p.cast<double>());
     }
   }
-  if (own > kMost * standing) return {};
+  const bool far_tells = far > kFewestFar * static_cast<double>(snapshots.size());
+  if (far_tells ? far_in_place > kStoodStill * far : own > kMost * standing) return {};
   parts.known = true;
   parts.share = all > 0 ? own / all : 0;
   for (std::size_t k = 0; k < snapshots.size(); ++k) snapshots[k][lidar].own = std::move(marks[k]);

@@ -16,8 +16,9 @@ struct OwnParts
 
 /**
  * Searches for cubes of 0.25 m within 12 m that hold points of this lidar in three quarters of the snapshots and are
- * farther than 0.4 m from its ground plane (flat ground stays in place, too). If most points above the ground are in
- * such cubes, the machine did not move; otherwise marks these points in the snapshots.
+ * farther than 0.4 m from its ground plane (flat ground stays in place, too). If half of what is farther away and
+ * higher than the machine is in place, too, or, where nothing is, most points above the ground are, the machine did not
+ * move; otherwise marks these points in the snapshots.
  */
 OwnParts markOwnParts(std::vector<RigSnapshot>&, std::size_t lidar, const std::optional<GroundPlane>&);
 }  // namespace scanloom

@@ -22,6 +22,7 @@ std::vector<std::filesystem::path> pathsOf(const std::string& key, const std::st
                                            const Configuration& configuration, const std::string& no_path = "")
 {
   std::vector<std::filesystem::path> paths;
+  std::string missing;
   for (const std::string& word : wordsOf(text))
   {
     if (word == no_path)
@@ -33,8 +34,9 @@ std::vector<std::filesystem::path> pathsOf(const std::string& key, const std::st
     const auto folder = place.line > 0 ? std::filesystem::path(place.file).parent_path() : std::filesystem::path();
     paths.push_back((folder / word).lexically_normal());
     if (!std::filesystem::exists(paths.back()))
-      throw configuration.complaint(kSection, key, fmt::format("'{}' does not exist", paths.back().string()));
+      missing += fmt::format("{}'{}' does not exist", missing.empty() ? "" : ", ", paths.back().string());
   }
+  if (!missing.empty()) throw configuration.complaint(kSection, key, missing);
   return paths;
 }
 

@@ -147,8 +147,11 @@ Command slamCommand(const PlannedRun& run, const ExperimentFolder& folder, const
   if (!run.simulation.empty()) words.insert(words.end(), {"-c", run.simulation});  // it may have sections of slam
   if (run.lidars != kAllLidars) words.insert(words.end(), {"--lidars", run.lidars});
   words.insert(words.end(), {"--every-nth", std::to_string(run.every_nth)});
-  addSettings(words, settingsOfSlam(run));
-  if (!folder.keep_maps) words.insert(words.end(), {"--set", "output.maps=false"});
+  const auto settings = settingsOfSlam(run);
+  addSettings(words, settings);
+  const bool maps_are_set =
+      std::any_of(settings.begin(), settings.end(), [](const auto& setting) { return setting.first == "output.maps"; });
+  if (!folder.keep_maps && !maps_are_set) words.insert(words.end(), {"--set", "output.maps=false"});
   words.insert(words.end(), {"-w", "--out-dir", out});
   // In an INI file a relative path starts at the file's folder, not at this program's.
   const std::string recording = std::filesystem::absolute(drive).string();

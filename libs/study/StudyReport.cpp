@@ -116,7 +116,9 @@ std::string figuresOf(const std::string& stand, const std::vector<StudyCell>& ce
     html += figureElement(
         draw(driftOverDistanceScript(lines)), alternativeOverDistance(lines),
         fmt::format("{}, drift over distance at the IMU's rate: medians of the runs that were not lost.", stand));
-  return html + barsFigure(stageBars(cells), "mean [ms]",
+  const std::vector<Bar> stages = stageBars(cells);
+  if (stages.empty()) return html + "<p>No run came to its end: see the log.txt of each.</p>\n";
+  return html + barsFigure(stages, "mean [ms]",
                            fmt::format("{}, {}: milliseconds per stage; medians as bars, a dot per run.", stand,
                                        cells.front().group),
                            draw);

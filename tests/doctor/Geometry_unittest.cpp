@@ -56,7 +56,7 @@ TEST(GroundPlane, isNotFoundInACrown)
 namespace
 {
 /** Drives 2 m from snapshot to snapshot, with a pole on its bonnet. */
-std::vector<RigSnapshot> drive(double step, std::size_t snapshots = 6)
+std::vector<RigSnapshot> drive(double step, std::size_t snapshots = 6, double bonnet = 0)
 {
   const Rigid pose = at(0, 0, 0.5);
   std::vector<RigSnapshot> taken;
@@ -65,6 +65,7 @@ std::vector<RigSnapshot> drive(double step, std::size_t snapshots = 6)
     RayWorld world = forest(3, 400);
     const double x = step * static_cast<double>(k);
     world.stems.push_back({{x + 0.8, 0.3}, 0.1});
+    if (bonnet > 0) world.stems.push_back({{x - 1.2, 0}, bonnet});
     RigSnapshot snapshot(1);
     snapshot[0].points = seen(world, at(x, 0, 0), pose, pose, k);
     taken.push_back(std::move(snapshot));
@@ -93,6 +94,15 @@ TEST(OwnParts, areWhatDrivesAlong)
   EXPECT_GT(static_cast<double>(found) / static_cast<double>(pole), 0.97);
   EXPECT_LT(static_cast<double>(own - found) / static_cast<double>(cloud.size()), 0.02);
   EXPECT_EQ(surroundings(snapshots[3][0]).size(), cloud.size() - own);
+}
+
+TEST(OwnParts, mayBeMostOfWhatIsNear)
+{
+  auto snapshots = drive(2, 6, 0.9);  // of this radius: a bonnet that fills half of the view
+  const auto ground = groundPlane({&snapshots[0][0].points}, {0, 0, 0.5});
+  const OwnParts parts = markOwnParts(snapshots, 0, ground);
+  ASSERT_TRUE(parts.known);
+  EXPECT_GT(parts.share, 0.3);
 }
 
 TEST(OwnParts, areNotToldWhileTheMachineStands)

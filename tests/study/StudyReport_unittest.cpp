@@ -1,11 +1,21 @@
 #include "study/StudyReport.h"
 
 #include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "study/StudyRecords.h"
 
 namespace scanloom
 {
+namespace
+{
+TEST(StudyReport, hasNoFigureWhereAllRunsFailed)
+{
+  const auto draw = [](const std::string&) -> std::string { throw std::logic_error("there is nothing to draw"); };
+  const std::string html = htmlReport({"scanloom experiment", "a processor", {failedRun("no memory")}}, "", draw);
+  EXPECT_THAT(html, testing::AllOf(testing::HasSubstr("No run came to its end"), testing::HasSubstr("no memory")));
+}
+
 TEST(StudyReport, namesTheMarkedEventsOfARecordingOnce)
 {
   Study study;
@@ -18,4 +28,5 @@ TEST(StudyReport, namesTheMarkedEventsOfARecordingOnce)
   ASSERT_THAT(html, testing::HasSubstr(row));
   EXPECT_EQ(html.find(row), html.rfind(row));
 }
+}  // namespace
 }  // namespace scanloom
