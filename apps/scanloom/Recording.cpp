@@ -14,8 +14,8 @@ Option addRecording(CLI::App& app, RecordingArguments& arguments, const std::str
   const Option recording = addOption(
       app, name, arguments.paths,
       "a recording: captures (pcap, pcapng; also .gz, .zst), a bag of ROS (.db3, .mcap, .bag), a rawlog, or a "
-      "folder of these; the lidars' metadata, poses and IMU are found beside it; for slam also clouds (PLY, "
-      "PCD, KITTI)");
+      "folder of these; the lidars' metadata, poses and IMU are found beside it; for slam, record and info also "
+      "clouds (PLY, PCD, KITTI)");
   addOption(app, "--metadata", arguments.metadata, "metadata of a lidar, instead of those beside the captures")
       .typeName("FILE")
       .repeatable();
@@ -34,8 +34,10 @@ RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds)
     throw UsageError(
         fmt::format("{} and {}: two rawlogs: name one of them", files.rawlogs[0].string(), files.rawlogs[1].string()));
   if (!files.clouds.empty() && clouds == Clouds::Refused)
-    throw UsageError(fmt::format("{}: a point cloud: 'slam' localises with clouds, 'view' shows one",
-                                 files.clouds.front().string()));
+    throw UsageError(
+        fmt::format("{}: a point cloud: 'slam' localises with clouds, 'info' and 'view' show them; others take the "
+                    "rawlog that 'record' makes of them",
+                    files.clouds.front().string()));
   if (files.captures.empty() && !arguments.metadata.empty())
     throw UsageError("--metadata is for captures: other recordings hold what it tells");
   return files;
@@ -70,7 +72,7 @@ std::filesystem::path besideRecording(const RecordingArguments& arguments, const
     return path.parent_path() / (folder.filename().string() + ending);
   }
   std::filesystem::path name = path.filename();
-  if (name.extension() == ".gz" || name.extension() == ".zst") name = name.stem();
+  if (const auto end = name.extension(); end == ".gz" || end == ".zst" || end == ".zstd") name = name.stem();
   return path.parent_path() / (name.stem().string() + ending);
 }
 }  // namespace scanloom

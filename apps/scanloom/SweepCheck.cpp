@@ -4,6 +4,7 @@
 #include "Recording.h"
 #include "Settings.h"
 #include "SlamInput.h"
+#include "core/ConfigError.h"
 #include "simulation/RecordingFolder.h"
 #include "simulation/SimulatedRig.h"
 #include "study/PlannedDrive.h"
@@ -124,6 +125,14 @@ void openAsRun(const Loaded<SlamVerbSettings>& loaded, const RecordingFiles& fil
   refuseUnknownImu(openInput(files, SceneArguments{}, names, loaded.configuration), loaded.settings.slam);
 }
 
+/** The command of a run has it already. */
+void refuseEveryNth(const PlannedRun& run)
+{
+  for (const auto& [name, value] : run.settings)
+    if (name == "slam.every_nth")
+      throw ConfigError("[slam] every_nth is a key of [experiment] in a sweep: give it there");
+}
+
 void checkSlam(const Runs& runs, const ExperimentPlan& plan, const std::filesystem::path& drive, Mistakes& mistakes)
 {
   const PlannedRun& first = *runs.front();
@@ -146,6 +155,7 @@ void checkSlam(const Runs& runs, const ExperimentPlan& plan, const std::filesyst
   if (!recognised) return;
   for (const PlannedRun* run : runs)
   {
+    mistakes.inSettings([&] { refuseEveryNth(*run); });
     std::optional<Loaded<SlamVerbSettings>> loaded;
     mistakes.inSettings([&]
                         { loaded = loadFrom<SlamVerbSettings>(configuration, assignmentsOf(settingsOfSlam(*run))); });

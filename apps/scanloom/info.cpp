@@ -8,6 +8,7 @@
 #include "core/ConfigError.h"
 #include "edit/RawlogReport.h"
 #include "packets/CaptureReport.h"
+#include "recordings/CloudsInput.h"
 #include "recordings/FoundLidars.h"
 
 #include <fmt/format.h>
@@ -81,9 +82,31 @@ int printCaptureInfo(const RecordingFiles& files, const InfoArguments& arguments
   return status;
 }
 
+int printCloudsInfo(const RecordingFiles& files, const InfoArguments& arguments)
+{
+  if (arguments.json) throw UsageError("--json is for captures, bags and rawlogs: clouds are just counted");
+  CloudsInput clouds(files.clouds);
+  std::size_t count = 0, points = 0;
+  std::optional<Timestamp> first;
+  Timestamp last;
+  while (const auto event = clouds.next())
+  {
+    const Scan& scan = std::get<Scan>(*event);
+    points += scan.points.size();
+    last = scan.end();
+    if (!first) first = last;
+    ++count;
+  }
+  fmt::print("{} clouds, {} points, from {:.3f} to {:.3f} s\n", count, points, seconds(first->time_since_epoch()),
+             seconds(last.time_since_epoch()));
+  for (const std::string& note : clouds.takeWarnings()) fmt::print("  {}\n", note);
+  return kDone;
+}
+
 int run(const InfoArguments& arguments)
 {
-  const RecordingFiles files = filesOf(arguments.recording);
+  const RecordingFiles files = filesOf(arguments.recording, Clouds::Taken);
+  if (!files.clouds.empty() && !arguments.digests) return printCloudsInfo(files, arguments);
   if (!files.captures.empty()) return printCaptureInfo(files, arguments);
   if (arguments.digests) throw UsageError("--digests is for captures");
   return printRawlogInfo(files.rawlogs.front(), arguments.json);
@@ -106,5 +129,5 @@ int printRawlogInfo(const std::filesystem::path& rawlog, bool json)
   return info.damage.empty() ? kDone : kQualityGate;
 }
 
-Verb infoVerb() { return {"info", "what a capture or a rawlog holds", {}, &addInfoOptions}; }
+Verb infoVerb() { return {"info", "what a capture, a bag, a rawlog or clouds hold", {}, &addInfoOptions}; }
 }  // namespace scanloom

@@ -9,6 +9,7 @@
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/RigObservations.h"
 #include "mrpt_bridge/RigRecording.h"
+#include "recordings/CloudsInput.h"
 #include "rig/InputDisplay.h"
 #include "rig/openRig.h"
 #include "rig/silentLidars.h"
@@ -58,13 +59,16 @@ struct Source
   Rig rig;
   std::shared_ptr<const Scene> scene;  // null: captures or sockets
   std::filesystem::path capture;       // that is written with the rawlog; empty: none
+  RecordingFiles::Paths clouds{};      // if not empty, the rest is
 
-  bool isLive() const { return !scene && rig.captures.empty(); }
+  bool isLive() const { return !scene && rig.captures.empty() && clouds.empty(); }
 };
 
 std::unique_ptr<InputDisplay> displayOf(const Source& source, SensorInput& input)
 {
   if (source.isLive()) return std::make_unique<InputDisplay>("record", input);
+  if (!source.clouds.empty())
+    return std::make_unique<InputDisplay>("record", input, source.clouds.size(), "clouds");
   if (!source.scene) return std::make_unique<InputDisplay>("record", input, megabytesOf(source.rig.captures), "MB");
   const double duration = std::ceil(source.scene->span.duration);
   return std::make_unique<InputDisplay>("record", input, static_cast<std::uint64_t>(duration), "s");
@@ -159,8 +163,15 @@ std::vector<std::filesystem::path> filesReadFor(const Rig& rig, const RigSetting
   return files;
 }
 
-Source openSource(const RecordArguments& arguments, const Configuration& configuration)
+Source openSource(const RecordArguments& arguments, const RecordingFiles& recording, const Configuration& configuration)
 {
+  if (!recording.clouds.empty())
+  {
+    if (!arguments.lidars.empty()) throw UsageError("clouds do not tell lidars apart: all lidars are used");
+    refuseExisting({arguments.output}, arguments.overwrite);
+    refuseInputsAsOutputs(recording.clouds, {arguments.output});
+    return {{}, {}, nullptr, {}, recording.clouds};
+  }
   if (arguments.scene.given())
   {
     refuseExisting({arguments.output}, arguments.overwrite);
@@ -182,6 +193,12 @@ Source openSource(const RecordArguments& arguments, const Configuration& configu
   return {settings.driver, std::move(rig), nullptr, live ? settings.rig.pcap_output : ""};
 }
 
+std::unique_ptr<SensorInput> inputOf(const Source& source)
+{
+  if (!source.clouds.empty()) return std::make_unique<CloudsInput>(source.clouds);
+  return source.scene ? makeSceneInput(source.scene, source.rig) : openRig(source.rig);
+}
+
 RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& driver, bool live)
 {
   RawlogOptions options;
@@ -191,13 +208,13 @@ RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& dr
   return options;
 }
 
-RecordingFiles capturesOf(const RecordingArguments& arguments)
+RecordingFiles recordingOf(const RecordingArguments& arguments)
 {
   if (!arguments.given()) return {};
-  RecordingFiles files = filesOf(arguments);
-  if (files.captures.empty())
-    throw UsageError(
-        fmt::format("{}: is a rawlog already: 'record' makes one of captures", arguments.paths.front().string()));
+  RecordingFiles files = filesOf(arguments, Clouds::Taken);
+  if (!files.rawlogs.empty())
+    throw UsageError(fmt::format("{}: is a rawlog already: 'record' makes one of captures and clouds",
+                                 arguments.paths.front().string()));
   return files;
 }
 
@@ -227,11 +244,11 @@ std::function<int()> addRecordOptions(CLI::App& app)
 
 int record(RecordArguments arguments)
 {
-  const RecordingFiles recording = capturesOf(arguments.recording);
+  const RecordingFiles recording = recordingOf(arguments.recording);
   if (arguments.output.empty()) arguments.output = defaultRawlog(arguments.recording);
   const Loaded<RecordSettings> loaded =
       load<RecordSettings>(withScene(arguments.configuration, arguments.scene), recording);
-  const Source source = openSource(arguments, loaded.configuration);
+  const Source source = openSource(arguments, recording, loaded.configuration);
   const bool live = source.isLive();
   if (!live) refuseSeconds(arguments.seconds);
   const RawlogOptions options = rawlogOptions(loaded.settings.record, source.driver, live);
@@ -243,8 +260,7 @@ int record(RecordArguments arguments)
 
   catchInterruption();
   ReplacedCapture replaced(source.capture);
-  const std::unique_ptr<SensorInput> input =
-      source.scene ? makeSceneInput(source.scene, source.rig) : openRig(source.rig);
+  const std::unique_ptr<SensorInput> input = inputOf(source);
   RawlogWriter writer(arguments.output, input->setup().header, options);
   if (const auto& earlier = writer.earlierPart(); !earlier.empty())
     warn(fmt::format("an earlier recording did not end: what it left is now {}", earlier.string()));
@@ -272,7 +288,7 @@ Verb recordVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<RecordSettings>());
-  return {"record", "a rawlog of merged scans, from live lidars, captures or a simulated drive", schema,
+  return {"record", "a rawlog of merged scans, from live lidars, captures, clouds or a simulated drive", schema,
           &addRecordOptions};
 }
 }  // namespace scanloom

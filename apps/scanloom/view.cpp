@@ -18,6 +18,7 @@
 #include "mrpt_bridge/ObservationReader.h"
 #include "mrpt_bridge/RawlogInput.h"
 #include "packets/describeFile.h"
+#include "recordings/CloudsInput.h"
 #include "rig/Rig.h"
 #include "rig/RigOptions.h"
 #include "rig/openRig.h"
@@ -65,10 +66,12 @@ std::vector<Eigen::Vector3f> positionsOf(const PointCloud& cloud)
   return positions;
 }
 
-RecordingFiles capturesOf(const Path& path)
+/** Of captures, or of clouds in a folder. */
+RecordingFiles recordingIn(const Path& path)
 {
   RecordingFiles files = filesOf(std::vector<Path>{path});
-  if (files.captures.empty()) throw UsageError(fmt::format("{}: holds no capture", path.string()));
+  if (files.captures.empty() && files.clouds.empty())
+    throw UsageError(fmt::format("{}: holds no capture, bag or cloud: name its rawlog", path.string()));
   return files;
 }
 
@@ -79,15 +82,20 @@ Rig rigOf(const RecordingFiles& files)
   return makeRig(readRigSettings(configuration, rigSection(configuration)));
 }
 
-void addCapturedScan(SceneBuilder& scene, const RecordingFiles& files, std::uint64_t wanted)
+Player::Open openerOf(const RecordingFiles& files)
 {
-  const std::unique_ptr<SensorInput> input = openRig(rigOf(files));
+  if (files.captures.empty()) return [clouds = files.clouds] { return std::make_unique<CloudsInput>(clouds); };
+  return [rig = rigOf(files)] { return openRig(rig); };
+}
+
+void addRecordedScan(SceneBuilder& scene, const Path& path, std::uint64_t wanted)
+{
+  const std::unique_ptr<SensorInput> input = openerOf(recordingIn(path))();
   std::uint64_t scans = 0;
   while (const std::optional<SensorEvent> event = input->next())
     if (const auto* scan = std::get_if<Scan>(&*event); scan && scans++ == wanted)
       return scene.addPoints(positionsOf(scan->points));
-  throw std::runtime_error(
-      fmt::format("{}: has {} scans, so there is no number {}", files.captures.front().string(), scans, wanted));
+  throw std::runtime_error(fmt::format("{}: has {} scans, so there is no number {}", path.string(), scans, wanted));
 }
 
 void addKeyframes(SceneBuilder& scene, const Path& path)
@@ -103,7 +111,7 @@ void addKeyframes(SceneBuilder& scene, const Path& path)
   scene.addPath(poses);
 }
 
-/** A rawlog with packets is one, too. */
+/** A rawlog with packets is one, too; a folder may be of clouds. */
 bool isOfPackets(const Path& file) { return std::filesystem::is_directory(file) || isCapture(file) || isBag(file); }
 
 SceneBuilder sceneOf(const ViewArguments& arguments)
@@ -111,7 +119,7 @@ SceneBuilder sceneOf(const ViewArguments& arguments)
   SceneBuilder scene;
   const std::string ending = arguments.file.extension().string();
   if (isOfPackets(arguments.file))
-    addCapturedScan(scene, capturesOf(arguments.file), arguments.scan.value_or(0));
+    addRecordedScan(scene, arguments.file, arguments.scan.value_or(0));
   else if (ending == ".rawlog")
     addScan(scene, arguments.file, arguments.scan.value_or(0));
   else if (ending == ".simplemap")
@@ -150,7 +158,7 @@ int show(const mrpt::opengl::COpenGLScene::Ptr& scene, const ViewArguments& argu
 
 Player::Open openerOf(const Path& file)
 {
-  if (isOfPackets(file)) return [rig = rigOf(capturesOf(file))] { return openRig(rig); };
+  if (isOfPackets(file)) return openerOf(recordingIn(file));
   if (file.extension() == ".rawlog") return [file] { return std::make_unique<RawlogInput>(file); };
   throw UsageError(fmt::format(
       "{}: --web plays a capture, a bag, a folder of these or a .rawlog; others are shown without it", file.string()));
@@ -202,8 +210,9 @@ int run(const ViewArguments& arguments)
 std::function<int()> addViewOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<ViewArguments>();
-  addOption(app, "file", arguments->file,
-            "a capture or its folder, .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin (KITTI) or .tum")
+  addOption(
+      app, "file", arguments->file,
+      "a capture, a bag or a folder (also of clouds), .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin (KITTI) or .tum")
       .required();
   addOption(app, "--png", arguments->png, "draw into this picture instead of a window; needs no display")
       .typeName("FILE");

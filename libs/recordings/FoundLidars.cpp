@@ -305,12 +305,22 @@ void addBuiltInModels(const std::vector<SampledStream>& streams, std::vector<Met
   for (MetadataCandidate& candidate : candidatesFrom(models)) candidates.push_back(std::move(candidate));
 }
 
-bool isOfALidar(const SampledStream& stream, const std::vector<FoundLidar>& lidars)
+/** Its measurements, or what else its sensor sends: positions, state. */
+bool isOfALidar(const SampledStream& stream, const std::vector<FoundLidar>& lidars,
+                const std::vector<MetadataCandidate>& candidates)
 {
-  return std::any_of(
-      lidars.begin(), lidars.end(),
-      [&](const FoundLidar& lidar)
-      { return lidar.source == stream.source && (lidar.port == stream.port || lidar.imu_port == stream.port); });
+  const auto sendsOther = [&](const FoundLidar& lidar)
+  {
+    const auto candidate = std::find_if(candidates.begin(), candidates.end(),
+                                        [&](const MetadataCandidate& c) { return c.file == lidar.metadata; });
+    return !stream.samples.empty() && candidate->decoder->kind(stream.samples.front()) == PacketKind::Other;
+  };
+  return std::any_of(lidars.begin(), lidars.end(),
+                     [&](const FoundLidar& lidar)
+                     {
+                       if (lidar.source != stream.source) return false;
+                       return lidar.port == stream.port || lidar.imu_port == stream.port || sendsOther(lidar);
+                     });
 }
 }  // namespace
 
@@ -366,7 +376,7 @@ LidarsFound findLidars(const std::vector<SampledStream>& streams, std::vector<Me
   LidarsFound found = Search(streams, candidates, captures).result();
   if (found.lidars.empty()) refuseNone(streams, candidates, captures);
   for (const SampledStream& stream : streams)
-    if (stream.datagrams >= kWorthANote && !isOfALidar(stream, found.lidars))
+    if (stream.datagrams >= kWorthANote && !isOfALidar(stream, found.lidars, candidates))
       found.notes.push_back(
           fmt::format("{} are of no lidar with known metadata: left out{}", describe(stream), wayOut(stream)));
   return found;

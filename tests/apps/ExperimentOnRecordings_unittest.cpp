@@ -68,7 +68,7 @@ class OwnRecordings
 TEST(ExperimentOnRecordings, comparesWithATotalStation)
 {
   SCANLOOM_NEEDS_DATA(data, "recordings");
-  const OwnRecordings own(data, {"groundtruth.tum"});
+  const OwnRecordings own(data, {"groundtruth.tum"}, "lidars = left,right\n[output]\nmaps = false\n");
 
   const Ended ended = own.run();
   ASSERT_EQ(ended.status, 0) << ended.output;
@@ -139,7 +139,8 @@ TEST(ExperimentOnRecordings, aDryRunNamesAllMistakesWithKeyAndValue)
   SCANLOOM_NEEDS_DATA(data, "recordings");
   const OwnRecordings own(data, {},
                           "lidars = left middle\nreferences = none sparse/left.json\n"
-                          "axis1_name = map_cells.cell_size\naxis1_values = 0.5 | -1\n");
+                          "axis1_name = map_cells.cell_size\naxis1_values = 0.5 | -1\n"
+                          "[slam]\nevery_nth = 2\n");
 
   for (const char* arguments : {"--dry-run", ""})
   {
@@ -148,6 +149,7 @@ TEST(ExperimentOnRecordings, aDryRunNamesAllMistakesWithKeyAndValue)
     EXPECT_THAT(ended.output, HasSubstr("own.ini: [experiment] lidars = middle, recordings = "));
     EXPECT_THAT(ended.output, HasSubstr("no lidar is called 'middle': known are 'left' and 'right'"));
     EXPECT_THAT(ended.output, HasSubstr("own.ini: [map_cells] cell_size = -1 m: must be between"));
+    EXPECT_THAT(ended.output, HasSubstr("[slam] every_nth is a key of [experiment]"));
     EXPECT_THAT(ended.output, HasSubstr("[experiment] references = "));
     EXPECT_THAT(ended.output, HasSubstr("left.json:1: expected"));
     EXPECT_FALSE(std::filesystem::exists(own.out()));

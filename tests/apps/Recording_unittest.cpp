@@ -121,6 +121,19 @@ TEST(Recording, cloudsOfItGiveItsTrajectory)
   EXPECT_THAT(scanloom(folder.path(), "doctor clouds/lidar").output, HasSubstr("'slam' localises with clouds"));
 }
 
+TEST(Recording, ofCloudsIsCountedAndMadeARawlog)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "clouds");
+  for (const char* name : {"a.ply", "b.ply"})
+    std::ofstream(folder / "clouds" / name) << "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty "
+                                               "float y\nproperty float z\nend_header\n1 2 3\n4 5 6\n";
+  EXPECT_THAT(scanloom(folder.path(), "info clouds").output, HasSubstr("2 clouds, 4 points"));
+  const Ended ended = scanloom(folder.path(), "record clouds");
+  EXPECT_EQ(ended.status, 0) << ended.output;
+  EXPECT_THAT(scanloom(folder.path(), "info clouds.rawlog").output, HasSubstr("2 observations, 4 points"));
+}
+
 TEST(Recording, infoFindsTheMetadataBeside)
 {
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");

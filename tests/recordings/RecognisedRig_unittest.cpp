@@ -160,6 +160,7 @@ TEST(RecognisedRig, knowsAVelodyneByItsPackets)
 {
   SCANLOOM_NEEDS_DATA(hdl32e, "other-lidars/Kitware+VeloView/Testing/Data/monterey-first-100-packets.pcap");
   EXPECT_THAT(recogniseRig(filesOf({hdl32e})).ini, HasSubstr("lidar1_metadata  = HDL-32E"));
+  EXPECT_THAT(recogniseRig(filesOf({hdl32e})).notes, ElementsAre()) << "its positions come to another port";
   // It bears the HDL-32E's number, but is at a VLP-16's pace (INVENTORY).
   SCANLOOM_NEEDS_DATA(vlp16, "other-lidars/jerry73204+rust-lidar-utils/velodyne-test/test_files/velodyne_vlp16.pcap");
   EXPECT_THAT(recogniseRig(filesOf({vlp16})).ini, HasSubstr("lidar1_metadata  = VLP-16"));
