@@ -4,18 +4,20 @@
 #include "Verb.h"
 #include "calibration/ImuMountReport.h"
 #include "calibration/MountReport.h"
-#include "calibration/MountSearch.h"
+#include "calibration/StaticMount.h"
 #include "core/Angle.h"
 #include "core/AtomicFile.h"
 #include "core/ConfigError.h"
 #include "core/Interruption.h"
 #include "core/ResultFolder.h"
-#include "rig/Extrinsics.h"
 #include "rig/InputDisplay.h"
 #include "rig/ReadAhead.h"
 #include "rig/Rig.h"
 #include "rig/openRig.h"
+#include "run/Calibration.h"
 #include "run/ImuCalibration.h"
+#include "run/MountPicture.h"
+#include "run/StaticClouds.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -33,18 +35,7 @@ struct CalibrateArguments
   OutputFolderArguments output;
   RecordingArguments recording;
   std::string reference;  // empty: the first
-  bool clocks = false, poses_unknown = false, json = false;
-};
-
-const std::vector<std::string> kFiles{"configuration.ini", "extrinsics.txt", "calibration.json"};
-
-struct Calibration
-{
-  std::vector<MountedLidar> lidars;
-  std::size_t reference = 0;
-  CalibrationDrive drive;
-  std::vector<MountEstimate> mounts;    // by lidar; the reference's is not used
-  std::optional<ImuMountEstimate> imu;  // none: the body has no IMU of its own
+  bool clouds = false, clocks = false, poses_unknown = false, json = false;
 };
 
 std::size_t indexOf(const std::string& name, const std::vector<MountedLidar>& lidars)
@@ -58,7 +49,7 @@ std::size_t indexOf(const std::string& name, const std::vector<MountedLidar>& li
 }
 
 /** With the pose of the body's own IMU, if there is one; a lidar's comes with the lidar. */
-void drive(const Rig& rig, const SlamSettings& settings, Calibration& calibration)
+CalibrationDrive driven(const Rig& rig, const SlamSettings& settings, Calibration& calibration)
 {
   const std::uint64_t megabytes = megabytesOf(rig.captures);
   std::optional<InputDisplay> display;
@@ -74,68 +65,11 @@ void drive(const Rig& rig, const SlamSettings& settings, Calibration& calibratio
     return !interrupted();
   };
   const Warn warn = [&](const std::string& warning) { display->warn(warning); };
-  if (!rig.body_T_imu)
-  {
-    calibration.drive = driveForCalibration(*open(), calibration.reference, settings, {}, keepGoing, warn);
-    return;
-  }
+  if (!rig.body_T_imu) return driveForCalibration(*open(), calibration.reference, settings, {}, keepGoing, warn);
   const Mount given{*rig.body_T_imu, 1e-3 * settings.slam.imu_delay_ms};
   ImuCalibration told = calibrateImu(open, calibration.reference, settings, given, keepGoing, warn);
-  calibration.drive = std::move(told.drive);
   calibration.imu = std::move(told.imu);
-}
-
-/** What both see at the same places nearly at once; where that is nothing, within more of the drive. */
-MountEstimate estimateOf(std::size_t lidar, const Calibration& calibration, Clock clock, PoseGiven known)
-{
-  constexpr double kNear = 3, kFar = 8;  // m
-  const CalibrationDrive& drive = calibration.drive;
-  const std::vector<LidarScan>&own = drive.scans[lidar], &reference = drive.scans[calibration.reference];
-  const Mount of_reference{calibration.lidars[calibration.reference].body_T_sensor, 0};
-  const Mount given{calibration.lidars[lidar].body_T_sensor, 0};
-  MountEstimate estimate;
-  estimate.mount = given;
-  for (const double reach : {kNear, kFar})
-  {
-    const std::vector<Station> stations = stationsOf(own, reference, of_reference, drive.trajectory, reach);
-    if (stations.empty()) return estimate;
-    const Mount start = findStart(stations, given, known, own, reference, of_reference.body_T_sensor, drive.trajectory);
-    estimate = estimateMount(stations, given, start, drive.trajectory, clock);
-    if (estimate.outcome == MountOutcome::Estimated || estimate.outcome == MountOutcome::StoodStill) break;
-  }
-  return estimate;
-}
-
-void writeExtrinsics(const std::filesystem::path& file, const Calibration& calibration)
-{
-  writeAtomically(file,
-                  [&](std::ostream& out)
-                  {
-                    out << "# T_a_b maps coordinates in b to a: x y z yaw pitch roll (m, deg)\n";
-                    for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
-                    {
-                      const bool given = i == calibration.reference;
-                      const Rigid& pose =
-                          given ? calibration.lidars[i].body_T_sensor : calibration.mounts[i].mount.body_T_sensor;
-                      out << fmt::format("T_body_{} {}  # {}\n", calibration.lidars[i].name, poseText(pose),
-                                         given                            ? "as given"
-                                         : trusted(calibration.mounts[i]) ? "calibrated"
-                                                                          : "not calibrated");
-                    }
-                    if (calibration.imu)
-                      out << fmt::format("T_body_imu {}  # {}\n", poseText(calibration.imu->mount.body_T_sensor),
-                                         trusted(*calibration.imu) ? "calibrated" : "not calibrated");
-                  });
-}
-
-nlohmann::json toJson(const Calibration& calibration)
-{
-  nlohmann::json json{{"reference", calibration.lidars[calibration.reference].name},
-                      {"lidars", nlohmann::json::array()}};
-  for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
-    if (i != calibration.reference) json["lidars"].push_back(toJson(calibration.lidars[i].name, calibration.mounts[i]));
-  if (calibration.imu) json["imu"] = toJson(*calibration.imu);
-  return json;
+  return std::move(told.drive);
 }
 
 /** Its turn about the lidar's axes tells a wrong pose, but not well enough for a better one. */
@@ -153,85 +87,147 @@ std::string imuInWords(const GyroAgreement& imu)
       imuFits(imu) ? "" : ": its pose is wrong, run 'scanloom doctor'");
 }
 
-int report(const Calibration& calibration, const Rig& rig, const CalibrateArguments& arguments,
-           const std::filesystem::path& folder)
+/** About all lidars but the reference. `rig` is none for clouds of one instant, which have no clock. */
+std::string lidarsInWords(const Calibration& calibration, const Rig* rig)
 {
-  const std::string& reference = calibration.lidars[calibration.reference].name;
-  const std::optional<GyroAgreement>& inside = calibration.drive.run.summary.imu;
-  bool all = calibration.imu ? trusted(*calibration.imu) : imuFits(inside);
   std::string words;
   for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
   {
     if (i == calibration.reference) continue;
-    const RigSensor& sensor = rig.sensors[i];
-    all = all && trusted(calibration.mounts[i]);
-    words += inWords(calibration.lidars[i].name, reference, calibration.mounts[i],
-                     {sensor.key + "_time_offset", sensor.options.time_offset});
+    TimeOffset time_offset;
+    if (rig) time_offset = {rig->sensors[i].key + "_time_offset", rig->sensors[i].options.time_offset};
+    words += inWords(calibration.lidars[i].name, calibration.lidars[calibration.reference].name, calibration.mounts[i],
+                     time_offset);
   }
-  if (calibration.imu) words += inWords(*calibration.imu);
-  if (!calibration.imu && inside) words += imuInWords(*inside);
-  std::cout << (arguments.json ? toJson(calibration).dump(2) + "\n" : words);
-  fmt::print(stderr, "{}\n", (folder / "extrinsics.txt").string());
-  return all ? kDone : kQualityGate;
+  return words;
 }
 
-int run(CalibrateArguments arguments)
+std::string pictureOf(const MountedLidar& lidar) { return lidar.name + ".png"; }
+
+/** All files; extrinsics.txt last, because the others only tell about it. */
+std::vector<std::string> resultFiles(const std::vector<MountedLidar>& lidars)
+{
+  std::vector<std::string> files{"configuration.ini", "calibration.json"};
+  for (const MountedLidar& lidar : lidars) files.push_back(pictureOf(lidar));
+  files.emplace_back("extrinsics.txt");
+  return files;
+}
+
+/** `scenes` by lidar; `configuration` is empty for clouds of one instant. */
+void writeFiles(const CalibrateArguments& arguments, const Calibration& calibration,
+                const std::vector<std::vector<MountScene>>& scenes, const std::string& configuration)
+{
+  ResultFolder folder(arguments.output.folder);
+  const auto write = [&](const char* name, const std::string& text)
+  { writeAtomically(folder.running() / name, [&](std::ostream& file) { file << text; }); };
+  if (!configuration.empty()) write("configuration.ini", configuration);
+  write("calibration.json", toJson(calibration).dump(2) + "\n");
+  for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
+    if (!scenes[i].empty())
+      drawMount(folder.running() / pictureOf(calibration.lidars[i]), scenes[i],
+                {calibration.lidars[calibration.reference].name, calibration.lidars[i].name});
+  write("extrinsics.txt", extrinsicsText(calibration));
+  const std::filesystem::path done = folder.commit(resultFiles(calibration.lidars), Completeness::Whole);
+  fmt::print(stderr, "{}\n", (done / "extrinsics.txt").string());
+}
+
+int runStatic(const CalibrateArguments& arguments)
+{
+  const RecordingFiles recording = filesOf(arguments.recording, Clouds::Taken);
+  StaticClouds clouds = readStaticClouds(recording.clouds, recording.extrinsics);
+  if (arguments.poses_unknown) clouds.poses = PoseGiven::No;
+  Calibration calibration;
+  calibration.lidars = clouds.lidars;
+  calibration.reference = indexOf(arguments.reference, calibration.lidars);
+  refuseExisting(arguments.output, resultFiles(calibration.lidars));
+  calibration.mounts = estimateStaticMounts(clouds.points, calibration.reference, clouds.poses);
+  std::vector<std::vector<MountScene>> scenes(calibration.lidars.size());
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    if (i != calibration.reference)
+      scenes[i] = {staticScene(clouds.points[calibration.reference], clouds.points[i],
+                               calibration.mounts[i].mount.body_T_sensor)};
+  writeFiles(arguments, calibration, scenes, {});
+  std::cout << (arguments.json ? toJson(calibration).dump(2) + "\n" : lidarsInWords(calibration, nullptr));
+  return trusted(calibration) ? kDone : kQualityGate;
+}
+
+int noPath(const Calibration& calibration, const std::string& outcome)
+{
+  fmt::print(stderr,
+             "scanloom calibrate: the drive cannot be localised with '{}' alone ({}), so nothing is calibrated: see "
+             "that it is not covered and that the IMU's pose is right ('scanloom doctor'), or name another "
+             "--reference\n",
+             calibration.lidars[calibration.reference].name, outcome);
+  if (calibration.imu && !hasNumbers(*calibration.imu)) fmt::print(stderr, "{}", inWords(*calibration.imu));
+  return kQualityGate;
+}
+
+int runDrive(const CalibrateArguments& arguments)
 {
   const RecordingFiles recording = arguments.recording.given() ? filesOf(arguments.recording) : RecordingFiles{};
-  if (arguments.output.folder.empty())
-  {
-    if (!arguments.recording.given()) throw UsageError("--out-dir is required where no RECORDING is given");
-    arguments.output.folder = besideRecording(arguments.recording, "_calibration");
-  }
   const Loaded<SlamSettings> loaded = load<SlamSettings>(arguments.configuration, recording, Poses::TakenAsZero);
-  refuseExisting(arguments.output, kFiles);
   const Rig rig = makeRig(readRigSettings(loaded.configuration, rigSection(loaded.configuration)));
   if (rig.captures.empty()) throw UsageError("calibrate reads captures: record a drive first ('scanloom record')");
+  Calibration calibration;
+  calibration.lidars = mountedLidars(setupOf(rig).header.lidars);
+  refuseExisting(arguments.output, resultFiles(calibration.lidars));
   if (arguments.configuration.dry_run)
   {
     std::cout << toIni(loaded);
     return kDone;
   }
   catchInterruption();
-  Calibration calibration;
-  calibration.lidars = mountedLidars(setupOf(rig).header.lidars);
   calibration.reference = indexOf(arguments.reference, calibration.lidars);
-  drive(rig, loaded.settings, calibration);
+  const CalibrationDrive drive = driven(rig, loaded.settings, calibration);
   if (interrupted()) return kInterrupted;
-  if (!isPath(calibration.drive))
-  {
-    fmt::print(stderr,
-               "scanloom calibrate: the drive cannot be localised with '{}' alone ({}), so nothing is calibrated: see "
-               "that it is not covered and that the IMU's pose is right ('scanloom doctor'), or name another "
-               "--reference\n",
-               calibration.lidars[calibration.reference].name, calibration.drive.run.summary.outcome);
-    if (calibration.imu && !hasNumbers(*calibration.imu)) fmt::print(stderr, "{}", inWords(*calibration.imu));
-    return kQualityGate;
-  }
+  if (!isPath(drive)) return noPath(calibration, drive.run.summary.outcome);
 
   const PoseGiven known = arguments.poses_unknown || !loaded.poses_known ? PoseGiven::No : PoseGiven::Within20Degrees;
   const Clock clock = arguments.clocks ? Clock::Estimated : Clock::Kept;
+  std::vector<std::vector<MountScene>> scenes(calibration.lidars.size());
   for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
-    calibration.mounts.push_back(i == calibration.reference ? MountEstimate{}
-                                                            : estimateOf(i, calibration, clock, known));
-  ResultFolder folder(arguments.output.folder);
-  writeAtomically(folder.running() / kFiles[0], [&](std::ostream& file) { file << toIni(loaded); });
-  writeExtrinsics(folder.running() / kFiles[1], calibration);
-  writeAtomically(folder.running() / kFiles[2],
-                  [&](std::ostream& file) { file << toJson(calibration).dump(2) << '\n'; });
-  return report(calibration, rig, arguments, folder.commit(kFiles, Completeness::Whole));
+  {
+    LidarCalibration of_lidar;
+    if (i != calibration.reference)
+      of_lidar = calibrateLidar(i, calibration.lidars, calibration.reference, drive, clock, known);
+    calibration.mounts.push_back(std::move(of_lidar.estimate));
+    scenes[i] = std::move(of_lidar.scenes);
+  }
+  writeFiles(arguments, calibration, scenes, toIni(loaded));
+  std::string words = lidarsInWords(calibration, &rig);
+  const std::optional<GyroAgreement>& inside = drive.run.summary.imu;
+  if (calibration.imu) words += inWords(*calibration.imu);
+  if (!calibration.imu && inside) words += imuInWords(*inside);
+  std::cout << (arguments.json ? toJson(calibration).dump(2) + "\n" : words);
+  return trusted(calibration) && (calibration.imu || imuFits(inside)) ? kDone : kQualityGate;
+}
+
+int run(CalibrateArguments arguments)
+{
+  if (arguments.output.folder.empty())
+  {
+    if (!arguments.recording.given()) throw UsageError("--out-dir is required where no RECORDING is given");
+    arguments.output.folder = besideRecording(arguments.recording, "_calibration");
+  }
+  return arguments.clouds ? runStatic(arguments) : runDrive(arguments);
 }
 
 std::function<int()> addCalibrateOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<CalibrateArguments>();
   addRecording(app, arguments->recording);
-  addConfiguration(app, arguments->configuration);
+  const Option configuration = addConfiguration(app, arguments->configuration);
   addOutputFolder(app, arguments->output);
   addOption(app, "--reference", arguments->reference,
             "lidar whose pose is right, and to which the others are calibrated [the first]")
       .typeName("NAME");
-  addFlag(app, "--clocks", arguments->clocks, "estimate how late each lidar's stamps are, too");
+  const Option clocks =
+      addFlag(app, "--clocks", arguments->clocks, "estimate how late each lidar's stamps are, too");
+  addFlag(app, "--static", arguments->clouds,
+          "without a drive: RECORDING is clouds of one instant (.ply, .pcd, .bin), each called like its lidar, and a "
+          "file with lines T_body_<name>")
+      .excludes(configuration)
+      .excludes(clocks);
   addFlag(app, "--poses-unknown", arguments->poses_unknown,
           "begin from the ground and all headings, not from the poses of the configuration");
   addJson(app, arguments->json);

@@ -36,9 +36,6 @@ std::optional<View> viewFrom(const LidarScan& scan, const Mount& mount, const Tr
     }
     view.points.emplace_back(rotation * scan.points[i] + translation);
   }
-  const std::optional<Rigid> middle = sensorAt(scan.middle());
-  if (!middle) return std::nullopt;
-  view.viewpoint = middle->translation;
   return view;
 }
 }  // namespace scanloom

@@ -13,7 +13,7 @@ constexpr std::size_t kBlocks = 20;
 constexpr double kUntold = 10;                               // m
 constexpr double kOpenClock = 0.005;                         // s
 constexpr double kFlat = 1e-4;                               // of the largest curvature
-constexpr double kCommonOffset = 0.003, kCommonShare = 0.1;  // m; of the distance of surfaces
+constexpr double kCommonOffset = 0.002, kCommonShare = 0.06;  // m; of the distance of surfaces
 constexpr double kCommonArm = 10;                            // m: the same error as a turn is this much less
 
 /** The expectation of a scatter's inverse is larger than that of few blocks shows (Hotelling's T2). */
@@ -44,6 +44,15 @@ Matrix7d atSensor(const Eigen::Vector3d& sensor)
   const Vector7d scale = mountStepOfMetres();
   return scale.cwiseInverse().asDiagonal() * at_sensor * scale.asDiagonal();
 }
+
+/** What all stations, or all cells of one instant, have in common. */
+void addCommon(Matrix7d& covariance, double surface_distance)
+{
+  Vector7d common;
+  const double offset = std::max(kCommonOffset, kCommonShare * surface_distance);
+  common << Eigen::Vector3d::Constant(offset), Eigen::Vector3d::Constant(offset / kCommonArm), 0;
+  covariance.diagonal() += common.cwiseQuotient(mountStepOfMetres()).cwiseAbs2();
+}
 }  // namespace
 
 Matrix7d sandwich(const Matrix7d& hessian, const std::vector<Vector7d>& gradients, Clock clock)
@@ -72,10 +81,21 @@ Matrix7d mountCovariance(const Matrix7d& all, const std::vector<Vector7d>& gradi
   const Matrix7d at_sensor = atSensor(sensor_in_body);
   Matrix7d covariance = at_sensor * sandwich(hessian, in_metres, clock) * at_sensor.transpose();
   if (clock == Clock::Kept) withoutClock(covariance);
-  Vector7d common;
-  const double offset = std::max(kCommonOffset, kCommonShare * surface_distance);
-  common << Eigen::Vector3d::Constant(offset), Eigen::Vector3d::Constant(offset / kCommonArm), 0;
-  covariance.diagonal() += common.cwiseQuotient(mountStepOfMetres()).cwiseAbs2();
+  addCommon(covariance, surface_distance);
+  return covariance;
+}
+
+Matrix7d mountCovariance(const Matrix6d& of_correction, const Rigid& correction, const Eigen::Vector3d& sensor_in_body,
+                         double surface_distance)
+{
+  const Vector7d to_metres = mountStepOfMetres().cwiseInverse();
+  Matrix7d along_body = Matrix7d::Identity();
+  along_body.topLeftCorner<3, 3>() = along_body.block<3, 3>(3, 3) = correction.rotation.toRotationMatrix();
+  Matrix7d covariance = Matrix7d::Zero();
+  covariance.topLeftCorner<6, 6>() = of_correction;
+  const Matrix7d at_sensor = atSensor(sensor_in_body) * along_body * to_metres.asDiagonal();
+  covariance = at_sensor * covariance * at_sensor.transpose();
+  addCommon(covariance, surface_distance);
   return covariance;
 }
 

@@ -1,6 +1,9 @@
 #include "calibration/MountEstimate.h"
 
-#include <algorithm>
+#include "calibration/MountFit.h"
+
+#include <cstddef>
+#include <limits>
 
 namespace scanloom
 {
@@ -11,9 +14,10 @@ constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
 constexpr int kRounds = 6;
 constexpr double kSettled = 5e-4;  // m, a round's correction
 
-constexpr MountLevel kCoarse{2.0, 0.2}, kMiddle{1.0, 0.4};
-// Cells of 0.5 m hold so few points of one scan that the pattern of its beams pulls the sensors together by 2 cm.
-constexpr MountLevel kFine{1.0, 1.0};
+constexpr MountLevel kCoarse{2.0, 0.2, 1}, kMiddle{1.0, 0.4, 1};
+// Each lidar sees the near side of bushes and crowns: cells full of leaves pull by 1 cm and 0.1 deg in a dense stand. Of
+// cells of 2 or 3 points the covariance is assumed, and thin enough.
+constexpr MountLevel kFine{1.0, 1.0, std::numeric_limits<std::size_t>::max(), 2, 0.1};
 
 std::vector<Vector6d> twistsOf(const std::vector<Station>& stations)
 {
@@ -53,7 +57,7 @@ class LevelOfDrive
   {
     for (int round = 0; round < kRounds; ++round)
     {
-      const std::vector<NdtMap> lidar = mapsOfLidar(stations_, mount, trajectory_, level_);
+      const StationCells lidar = cellsOfLidar(stations_, mount, trajectory_, level_);
       std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
       const MountMinimum minimum = minimiseMount(pairs, twists_, clock_, level_.d2);
       mount = moved(mount, minimum.correction);
@@ -62,21 +66,14 @@ class LevelOfDrive
     return false;
   }
 
-  struct Fit
+  /** In metres. */
+  Matrix7d covarianceOf(const Mount& mount, double surface_distance) const
   {
-    double shared, distance;
-    Matrix7d covariance;  // in metres
-  };
-
-  Fit fitOf(const Mount& mount) const
-  {
-    const std::vector<NdtMap> lidar = mapsOfLidar(stations_, mount, trajectory_, level_);
+    const StationCells lidar = cellsOfLidar(stations_, mount, trajectory_, level_);
     std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
     const Matrix7d hessian = hessianOf(pairs, twists_, {}, level_.d2);
     const MountEquations equations = mountEquations(pairs, twists_, {}, level_.d2);
-    const double distance = surfaceDistance(pairs);
-    return {equations.met_points / std::max(1.0, pointsInCells(lidar)), distance,
-            mountCovariance(hessian, equations.gradients, clock_, mount.body_T_sensor.translation, distance)};
+    return mountCovariance(hessian, equations.gradients, clock_, mount.body_T_sensor.translation, surface_distance);
   }
 
  private:
@@ -100,9 +97,8 @@ MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& g
   Mount mount = start;
   for (const MountLevel& level : {kCoarse, kMiddle}) LevelOfDrive(stations, trajectory, level, clock).improve(mount);
   const LevelOfDrive fine(stations, trajectory, kFine, clock);
-  const LevelOfDrive::Fit before = fine.fitOf(given);
   const bool settled = fine.improve(mount);
-  const LevelOfDrive::Fit after = fine.fitOf(mount);
+  const MountFit before = mountFit(stations, given, trajectory), after = mountFit(stations, mount, trajectory);
   estimate.shared_before = before.shared, estimate.distance_before = before.distance;
   estimate.shared_after = after.shared, estimate.distance_after = after.distance;
 
@@ -110,11 +106,12 @@ MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& g
   if (after.shared < kLeastShared) return estimate;
   estimate.outcome = MountOutcome::Unstable;
   if (!settled || after.shared < before.shared - kMostShareLost) return estimate;
-  estimate.open = openDirections(after.covariance, kOpenLidar);
+  const Matrix7d covariance = fine.covarianceOf(mount, after.distance);
+  estimate.open = openDirections(covariance, kOpenLidar);
   estimate.outcome = estimate.open.empty() ? MountOutcome::Estimated : MountOutcome::Open;
   estimate.mount = keepingOpen(given, mount, estimate.open);
   const Vector7d scale = mountStepOfMetres();
-  estimate.covariance = scale.asDiagonal() * after.covariance * scale.asDiagonal();
+  estimate.covariance = scale.asDiagonal() * covariance * scale.asDiagonal();
   return estimate;
 }
 }  // namespace scanloom

@@ -38,9 +38,8 @@ std::string reasonOf(const std::string& reference, const MountEstimate& e)
                          e.stations);
     case MountOutcome::NothingShared:
       return fmt::format(
-          "only {:.0f} % of what it saw is where '{}' saw something: it is covered, or its pose is wrong by more than "
-          "20 "
-          "deg or 0.5 m, or both never see the same place within 8 m of the drive",
+          "only {:.0f} % of what it saw is where '{}' saw something: it is covered, or its pose is wrong by more than 20 "
+          "deg or 0.5 m, or both see no place in common (a drive: within 8 m of it)",
           100 * e.shared_after, reference);
     case MountOutcome::Unstable:
       return "the estimate did not settle: drive where there are stems or walls on all sides";
@@ -63,11 +62,11 @@ std::string inWords(const std::string& lidar, const std::string& reference, cons
     words += fmt::format("{}: its stamps are {:.2f} ms late (+- {:.2f}); set {} = {:.6f}\n", lidar,
                          1e3 * e.mount.clock_offset, 1e3 * clock_sigma, time_offset.key,
                          time_offset.value - e.mount.clock_offset);
+  const std::string places = e.stations > 1 ? fmt::format("at {} places, ", e.stations) : "";
   words += fmt::format(
-      "{}: at {} places, {:.0f} % of its points (before: {:.0f} %) are where '{}' saw something; surfaces {:.3f} m "
-      "apart "
-      "(before: {:.3f} m)\n",
-      lidar, e.stations, 100 * e.shared_after, 100 * e.shared_before, reference, e.distance_after, e.distance_before);
+      "{}: {}{:.0f} % of its points (before: {:.0f} %) are where '{}' saw something; surfaces {:.3f} m apart (before: "
+      "{:.3f} m)\n",
+      lidar, places, 100 * e.shared_after, 100 * e.shared_before, reference, e.distance_after, e.distance_before);
   return words + openInWords(lidar, e.open);
 }
 

@@ -12,7 +12,7 @@ namespace scanloom
 namespace
 {
 constexpr std::size_t kCompared = 8;  // stations
-constexpr MountLevel kSearchLevels[] = {{4.0, 0.05}, {2.0, 0.2}}, kScoreLevel{1.0, 0.4};
+constexpr MountLevel kSearchLevels[] = {{4.0, 0.05, 1}, {2.0, 0.2, 1}}, kScoreLevel{1.0, 0.4, 1};
 
 std::vector<Station> someOf(const std::vector<Station>& all, std::size_t count)
 {
@@ -27,7 +27,7 @@ Mount refined(Mount mount, const std::vector<Station>& stations, const Trajector
   for (const MountLevel& level : kSearchLevels)
   {
     const std::vector<NdtMap> reference = mapsOfReference(stations, level);
-    const std::vector<NdtMap> lidar = mapsOfLidar(stations, mount, trajectory, level);
+    const StationCells lidar = cellsOfLidar(stations, mount, trajectory, level);
     std::vector<Neighbourhoods> pairs = stationPairs(reference, lidar);
     mount.body_T_sensor = minimiseMount(pairs, at_rest, Clock::Kept, level.d2).correction.pose * mount.body_T_sensor;
   }
@@ -38,7 +38,7 @@ Mount refined(Mount mount, const std::vector<Station>& stations, const Trajector
 double scoreOf(const Mount& mount, const std::vector<Station>& stations, const std::vector<NdtMap>& reference,
                const Trajectory& trajectory)
 {
-  const std::vector<NdtMap> lidar = mapsOfLidar(stations, mount, trajectory, kScoreLevel);
+  const StationCells lidar = cellsOfLidar(stations, mount, trajectory, kScoreLevel);
   std::vector<Neighbourhoods> pairs = stationPairs(reference, lidar);
   const std::vector<Vector6d> at_rest(stations.size(), Vector6d::Zero());
   return mountEquations(pairs, at_rest, {}, kScoreLevel.d2).met_points;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <cmath>
 
 namespace scanloom
@@ -14,7 +15,21 @@ NdtOptions optionsOf(const MountLevel& level)
 {
   NdtOptions options;
   options.cell_size = level.cell_size;
+  options.min_points = level.min_points;
   return options;
+}
+
+std::vector<GaussianCell> thinCells(const NdtMap& map, double thickest)
+{
+  if (std::isinf(thickest)) return map.cells();
+  std::vector<GaussianCell> thin;
+  for (const GaussianCell& cell : map.cells())
+  {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+    axes.computeDirect(cell.covariance, Eigen::EigenvaluesOnly);
+    if (axes.eigenvalues()[0] <= thickest * thickest) thin.push_back(cell);
+  }
+  return thin;
 }
 
 const GaussianCell* nearestTo(const Eigen::Vector3d& mean, const Neighbourhoods& pair, std::size_t source_cell)
@@ -36,33 +51,35 @@ std::vector<NdtMap> mapsOfReference(const std::vector<Station>& stations, const 
   return maps;
 }
 
-std::vector<NdtMap> mapsOfLidar(const std::vector<Station>& stations, const Mount& mount, const Trajectory& trajectory,
-                                const MountLevel& level)
+StationCells cellsOfLidar(const std::vector<Station>& stations, const Mount& mount, const Trajectory& trajectory,
+                          const MountLevel& level)
 {
-  std::vector<NdtMap> maps;
+  StationCells cells;
   for (const Station& station : stations)
   {
     std::vector<View> views;
-    if (std::optional<View> view = viewFrom(*station.scan, mount, trajectory, station.at))
-      views.push_back(std::move(*view));
-    maps.emplace_back(views, optionsOf(level));
+    for (std::size_t i = 0; i < std::min(level.scans, station.scans.size()); ++i)
+      if (std::optional<View> view = viewFrom(*station.scans[i], mount, trajectory, station.at))
+        views.push_back(std::move(*view));
+    cells.push_back(thinCells(NdtMap(views, optionsOf(level)), level.thickest));
   }
-  return maps;
+  return cells;
 }
 
-std::vector<Neighbourhoods> stationPairs(const std::vector<NdtMap>& reference, const std::vector<NdtMap>& lidar)
+std::vector<Neighbourhoods> stationPairs(const std::vector<NdtMap>& reference, const StationCells& lidar)
 {
   constexpr int kNeighbours = 27;
   std::vector<Neighbourhoods> pairs;
-  for (std::size_t i = 0; i < reference.size(); ++i) pairs.emplace_back(reference[i], lidar[i], kNeighbours);
+  for (std::size_t i = 0; i < reference.size(); ++i)
+    pairs.emplace_back(reference[i], lidar[i], reference[i].options().cell_size, kNeighbours);
   return pairs;
 }
 
-double pointsInCells(const std::vector<NdtMap>& maps)
+double pointsIn(const StationCells& stations)
 {
   double points = 0;
-  for (const NdtMap& map : maps)
-    for (const GaussianCell& cell : map.cells()) points += cell.points;
+  for (const std::vector<GaussianCell>& cells : stations)
+    for (const GaussianCell& cell : cells) points += cell.points;
   return points;
 }
 

@@ -3,25 +3,33 @@
 #include "calibration/Stations.h"
 #include "ndt/Neighbourhoods.h"
 
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace scanloom
 {
-/** Cells of one size (m), and the width of the score with them (RegistrationOptions::d2). */
+/** Cells of one size (m), the width of the score with them (RegistrationOptions::d2), and which are used. */
 struct MountLevel
 {
   double cell_size, d2;
+  /** At most so many scans of the lidar that is calibrated: one is enough for a start, and quick. */
+  std::size_t scans = std::numeric_limits<std::size_t>::max();
+  int min_points = 4;
+  /** Cells of the lidar that are thicker (standard deviation, m) are left out. */
+  double thickest = std::numeric_limits<double>::infinity();
 };
 
 /** By station. */
 std::vector<NdtMap> mapsOfReference(const std::vector<Station>&, const MountLevel&);
-std::vector<NdtMap> mapsOfLidar(const std::vector<Station>&, const Mount&, const Trajectory&, const MountLevel&);
 
-/** Keeps references to both. */
-std::vector<Neighbourhoods> stationPairs(const std::vector<NdtMap>& reference, const std::vector<NdtMap>& lidar);
+using StationCells = std::vector<std::vector<GaussianCell>>;
+StationCells cellsOfLidar(const std::vector<Station>&, const Mount&, const Trajectory&, const MountLevel&);
 
-/** Points in cells that have a Gaussian. */
-double pointsInCells(const std::vector<NdtMap>&);
+/** Keeps references to both, which are of the same level. */
+std::vector<Neighbourhoods> stationPairs(const std::vector<NdtMap>& reference, const StationCells& lidar);
+
+double pointsIn(const StationCells&);
 
 /**
  * Median over the cells of the distance to the nearest cell of the reference, along that one's normal (m); 0 if there

@@ -44,22 +44,26 @@ Vector6d twistAt(const Trajectory& trajectory, Timestamp at)
   return boxMinus(*after, *before) / seconds(2 * kSide);
 }
 
-/** The reference's scan at the same time comes first: a machine that works on the spot turns and sways. */
-std::vector<View> viewsAround(const Placed& here, const std::vector<LidarScan>& all, const std::vector<Placed>& places,
-                              const Mount& reference, const Trajectory& trajectory, double reach)
+/** The scan at the same time comes first: a machine that works on the spot turns and sways. */
+std::vector<const LidarScan*> scansAround(const Placed& here, const std::vector<LidarScan>& all,
+                                          const std::vector<Placed>& places, double reach)
 {
-  std::vector<View> views;
-  const auto add = [&](const LidarScan& scan)
-  {
-    if (std::optional<View> view = viewFrom(scan, reference, trajectory, here.scan->middle()))
-      views.push_back(std::move(*view));
-  };
+  std::vector<const LidarScan*> scans;
   for (const LidarScan& scan : all)
-    if (scan.start == here.scan->start) add(scan);
+    if (scan.start == here.scan->start) scans.push_back(&scan);
   for (const Placed& place : places)
     if (place.scan->start != here.scan->start &&
         (place.map_T_body.translation - here.map_T_body.translation).norm() < reach)
-      add(*place.scan);
+      scans.push_back(place.scan);
+  return scans;
+}
+
+std::vector<View> viewsOf(const std::vector<const LidarScan*>& scans, const Mount& mount, const Trajectory& trajectory,
+                          Timestamp at)
+{
+  std::vector<View> views;
+  for (const LidarScan* scan : scans)
+    if (std::optional<View> view = viewFrom(*scan, mount, trajectory, at)) views.push_back(std::move(*view));
   return views;
 }
 }  // namespace
@@ -68,15 +72,17 @@ std::vector<Station> stationsOf(const std::vector<LidarScan>& of_lidar, const st
                                 const Mount& reference, const Trajectory& trajectory, double reach)
 {
   const std::vector<Placed> all = placesOf(of_lidar, trajectory, kStationStep);
-  const std::vector<Placed> places = placesOf(of_reference, trajectory, kViewStep);
+  const std::vector<Placed> own = placesOf(of_lidar, trajectory, kViewStep);
+  const std::vector<Placed> others = placesOf(of_reference, trajectory, kViewStep);
   const std::size_t count = std::min(all.size(), kMostStations);
   std::vector<Station> stations;
   for (std::size_t i = 0; i < count; ++i)
   {
     const Placed& here = all[i * all.size() / count];
-    stations.push_back({here.scan->middle(), here.scan,
-                        viewsAround(here, of_reference, places, reference, trajectory, reach),
-                        twistAt(trajectory, here.scan->middle())});
+    const Timestamp at = here.scan->middle();
+    stations.push_back({at, scansAround(here, of_lidar, own, reach),
+                        viewsOf(scansAround(here, of_reference, others, reach), reference, trajectory, at),
+                        twistAt(trajectory, at)});
   }
   return stations;
 }

@@ -16,9 +16,12 @@ namespace scanloom
 {
 namespace
 {
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double secondsSince(SteadyClock::time_point start)
+{
+  return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
 
 /** One run, event by event. */
 class SlamRun
@@ -214,7 +217,7 @@ class SlamRun
     }
   }
 
-  Clock::time_point start_ = Clock::now();
+  SteadyClock::time_point start_ = SteadyClock::now();
   SensorInput& input_;
   const SeeEstimate& see_;
   const Warn& warn_;

@@ -1,0 +1,144 @@
+#include "calibration/StaticMount.h"
+
+#include "calibration/MountFit.h"
+#include "ndt/LidarInformation.h"
+#include "ndt/Registration.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kLeastSharedAtRest = 0.1, kMostShareLostAtRest = 0.02;
+constexpr MountLevel kStartLevels[] = {{2.0, 0.2}, {1.0, 0.4}}, kLastLevel{1.0, 1.0};
+constexpr int kRoundsAtRest = 6;
+constexpr double kSettledAtRest = 1e-3;  // m
+
+/** All poses of a body that does not move are one. */
+Trajectory atRest() { return {{Timestamp{-100ms}, {}}, {Timestamp{100ms}, {}}}; }
+
+LidarScan scanOf(const StaticLidar& lidar)
+{
+  return {Timestamp{}, Duration{0}, lidar.points, std::vector<std::int32_t>(lidar.points.size(), 0)};
+}
+
+View viewOf(const StaticLidar& lidar, const Rigid& body_T_sensor)
+{
+  return movedBy(body_T_sensor, {lidar.points, std::nullopt});
+}
+
+/** The only station of a body that does not move. */
+class Instant
+{
+ public:
+  Instant(const LidarScan& scan, std::vector<View> known)
+    : stations_{{Timestamp{}, {&scan}, std::move(known), Vector6d::Zero()}}
+  {
+  }
+
+  const std::vector<Station>& stations() const { return stations_; }
+
+  MountFit fitOf(const Mount& mount) const { return mountFit(stations_, mount, atRest()); }
+
+  Mount improved(Mount mount) const
+  {
+    for (const MountLevel& level : kStartLevels)
+    {
+      const std::vector<NdtMap> known = mapsOfReference(stations_, level);
+      for (int round = 0; round < kRoundsAtRest; ++round)
+      {
+        const StationCells own = cellsOfLidar(stations_, mount, atRest(), level);
+        std::vector<Neighbourhoods> pairs = stationPairs(known, own);
+        const MountMinimum minimum = minimiseMount(pairs, {Vector6d::Zero()}, Clock::Kept, level.d2);
+        mount.body_T_sensor = minimum.correction.pose * mount.body_T_sensor;
+        if (boxMinus(minimum.correction.pose, Rigid::identity()).cwiseQuotient(stepOfMetres()).norm() < kSettledAtRest) break;
+      }
+    }
+    return mount;
+  }
+
+  RegistrationResult registered(const Mount& mount) const
+  {
+    RegistrationOptions options;
+    options.d2 = options.first_d2 = kLastLevel.d2;
+    NdtOptions cells;
+    cells.cell_size = kLastLevel.cell_size;
+    const std::vector<View> own{*viewFrom(*stations_.front().scans.front(), mount, atRest(), Timestamp{})};
+    return align(mapsOfReference(stations_, kLastLevel).front(), NdtMap(own, cells), Rigid::identity(), options);
+  }
+
+ private:
+  std::vector<Station> stations_;
+};
+
+MountEstimate estimateFrom(const StaticLidar& lidar, const StaticLidar& reference, const std::vector<View>& known,
+                           PoseGiven pose_given)
+{
+  const LidarScan scan = scanOf(lidar);
+  const Instant instant(scan, known);
+  const Mount given{lidar.body_T_sensor, 0};
+  const Mount start = findStart(instant.stations(), given, pose_given, {scan}, {scanOf(reference)},
+                                reference.body_T_sensor, atRest());
+  Mount mount = instant.improved(start);
+  const RegistrationResult result = instant.registered(mount);
+  mount.body_T_sensor = result.target_T_source * mount.body_T_sensor;
+
+  MountEstimate estimate;
+  estimate.mount = given;
+  estimate.stations = 1;
+  const MountFit before = instant.fitOf(given), after = instant.fitOf(mount);
+  estimate.shared_before = before.shared, estimate.distance_before = before.distance;
+  estimate.shared_after = after.shared, estimate.distance_after = after.distance;
+  estimate.outcome = MountOutcome::NothingShared;
+  if (after.shared < kLeastSharedAtRest) return estimate;
+  estimate.outcome = MountOutcome::Unstable;
+  if (result.outcome == Outcome::IterationLimit || after.shared < before.shared - kMostShareLostAtRest) return estimate;
+
+  const Matrix7d covariance =
+      mountCovariance(result.covariance, result.target_T_source, mount.body_T_sensor.translation, after.distance);
+  const Vector7d scale = mountStepOfMetres();
+  estimate.open = openDirections(covariance, kOpenLidar);
+  estimate.outcome = estimate.open.empty() ? MountOutcome::Estimated : MountOutcome::Open;
+  estimate.mount = keepingOpen(given, mount, estimate.open);
+  estimate.covariance = scale.asDiagonal() * covariance * scale.asDiagonal();
+  return estimate;
+}
+}  // namespace
+
+std::vector<MountEstimate> estimateStaticMounts(const std::vector<StaticLidar>& lidars, std::size_t reference,
+                                                PoseGiven pose_given)
+{
+  std::vector<MountEstimate> estimates(lidars.size());
+  std::vector<std::size_t> waiting;
+  for (std::size_t i = 0; i < lidars.size(); ++i)
+    if (i != reference) waiting.push_back(i);
+  std::vector<View> known{viewOf(lidars[reference], lidars[reference].body_T_sensor)};
+  Matrix7d of_known = Matrix7d::Zero();
+  while (!waiting.empty())
+  {
+    for (const std::size_t i : waiting)
+    {
+      estimates[i] = estimateFrom(lidars[i], lidars[reference], known, pose_given);
+      if (estimates[i].outcome == MountOutcome::Estimated) estimates[i].covariance += of_known;
+    }
+    const auto found = std::stable_partition(waiting.begin(), waiting.end(), [&](std::size_t i)
+                                             { return estimates[i].outcome != MountOutcome::Estimated; });
+    if (found == waiting.end()) break;
+    for (auto i = found; i != waiting.end(); ++i)
+    {
+      known.push_back(viewOf(lidars[*i], estimates[*i].mount.body_T_sensor));
+      if (estimates[*i].covariance.trace() > of_known.trace()) of_known = estimates[*i].covariance;
+    }
+    waiting.erase(found, waiting.end());
+  }
+  return estimates;
+}
+
+MountScene staticScene(const StaticLidar& reference, const StaticLidar& lidar, const Rigid& after)
+{
+  return {viewOf(reference, reference.body_T_sensor).points, viewOf(lidar, lidar.body_T_sensor).points,
+          viewOf(lidar, after).points};
+}
+}  // namespace scanloom

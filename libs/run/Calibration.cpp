@@ -1,0 +1,69 @@
+#include "run/Calibration.h"
+
+#include "calibration/ImuMountReport.h"
+#include "calibration/MountReport.h"
+#include "rig/Extrinsics.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace scanloom
+{
+LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLidar>& lidars, std::size_t reference,
+                                const CalibrationDrive& drive, Clock clock, PoseGiven known)
+{
+  constexpr double kNear = 3, kFar = 8;  // m
+  const std::vector<LidarScan>&own = drive.scans[lidar], &others = drive.scans[reference];
+  const Mount of_reference{lidars[reference].body_T_sensor, 0}, given{lidars[lidar].body_T_sensor, 0};
+  LidarCalibration calibration;
+  calibration.estimate.mount = given;
+  for (const double reach : {kNear, kFar})
+  {
+    const std::vector<Station> stations = stationsOf(own, others, of_reference, drive.trajectory, reach);
+    if (stations.empty()) return calibration;
+    const Mount start = findStart(stations, given, known, own, others, of_reference.body_T_sensor, drive.trajectory);
+    const MountEstimate estimate = estimateMount(stations, given, start, drive.trajectory, clock);
+    if (estimate.outcome == MountOutcome::StoodStill) return {estimate, {}};
+    calibration = {estimate, mountScenes(stations, given, estimate.mount, drive.trajectory)};
+    if (trusted(estimate)) break;
+  }
+  return calibration;
+}
+
+bool trusted(const Calibration& calibration)
+{
+  bool all = !calibration.imu || trusted(*calibration.imu);
+  for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
+    all = all && (i == calibration.reference || trusted(calibration.mounts[i]));
+  return all;
+}
+
+std::string extrinsicsText(const Calibration& calibration)
+{
+  std::string text = "# T_a_b maps coordinates in b to a: x y z yaw pitch roll (m, deg)\n";
+  const auto add = [&](const std::string& sensor, const Rigid& pose, const char* comment)
+  { text += fmt::format("T_body_{} {}  # {}\n", sensor, poseText(pose), comment); };
+  for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
+  {
+    const MountedLidar& lidar = calibration.lidars[i];
+    if (i == calibration.reference)
+      add(lidar.name, lidar.body_T_sensor, "as given");
+    else
+      add(lidar.name, calibration.mounts[i].mount.body_T_sensor,
+          trusted(calibration.mounts[i]) ? "calibrated" : "not calibrated");
+  }
+  if (calibration.imu)
+    add("imu", calibration.imu->mount.body_T_sensor, trusted(*calibration.imu) ? "calibrated" : "not calibrated");
+  return text;
+}
+
+nlohmann::json toJson(const Calibration& calibration)
+{
+  nlohmann::json json{{"reference", calibration.lidars[calibration.reference].name},
+                      {"lidars", nlohmann::json::array()}};
+  for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
+    if (i != calibration.reference) json["lidars"].push_back(toJson(calibration.lidars[i].name, calibration.mounts[i]));
+  if (calibration.imu) json["imu"] = toJson(*calibration.imu);
+  return json;
+}
+}  // namespace scanloom
