@@ -51,16 +51,19 @@ void PointCloud::append(const PointCloud& other, std::size_t i)
 void PointCloud::keep(const std::vector<std::uint8_t>& keep)
 {
   if (keep.size() != size()) throw std::invalid_argument("PointCloud::keep: one flag per point is needed");
+  std::vector<std::uint32_t> kept(size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+  {
+    kept[count] = static_cast<std::uint32_t>(i);  // no branch: it could not be predicted
+    count += keep[i] != 0;
+  }
+  kept.resize(count);
   forEachField(*this,
-               [&keep](auto& field)
+               [&kept](auto& field)
                {
-                 std::size_t kept = 0;
-                 for (std::size_t i = 0; i < field.size(); ++i)
-                 {
-                   field[kept] = field[i];  // no branch: it could not be predicted
-                   kept += keep[i] != 0;
-                 }
-                 field.resize(kept);
+                 for (std::size_t i = 0; i < kept.size(); ++i) field[i] = field[kept[i]];
+                 field.resize(kept.size());
                });
 }
 }  // namespace scanloom

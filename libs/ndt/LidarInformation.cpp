@@ -5,7 +5,9 @@
 #include "ndt/NormalEquations.h"
 #include "ndt/PairEvidence.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <array>
@@ -208,18 +210,24 @@ Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& curvatur
 {
   const Matrix6d step_of_target = inverse(target_of_step);
 
-  Matrix6d covariance = bend * congruent(unsure_means, target_of_step) * bend;
-  const double share = 1 - 1 / std::max<double>(1, static_cast<double>(places.size()));
-  for (const Place& place : places)
+  const auto movedWithout = [&](const Place& place) -> Vector6d
   {
     const Matrix6d others = curvature - place.curvature.matrix();
-    const std::optional<Vector6d> target_moved = solvePositive(others, place.force);
-    const Vector6d moved =
-        target_moved
-            ? Vector6d(step_of_target * *target_moved)
-            : Vector6d(safeInverse(congruent(others, target_of_step)) * (target_of_step.transpose() * place.force));
-    covariance += share * moved * moved.transpose();
-  }
+    if (const std::optional<Vector6d> target_moved = solvePositive(others, place.force))
+      return step_of_target * *target_moved;
+    return safeInverse(congruent(others, target_of_step)) * (target_of_step.transpose() * place.force);
+  };
+  std::vector<Vector6d> moved(places.size());
+  constexpr std::size_t kGrain = 32;  // places, about 30 us
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), kGrain),
+                    [&](const auto& range)
+                    {
+                      for (std::size_t i = range.begin(); i != range.end(); ++i) moved[i] = movedWithout(places[i]);
+                    });
+
+  Matrix6d covariance = bend * congruent(unsure_means, target_of_step) * bend;
+  const double share = 1 - 1 / std::max<double>(1, static_cast<double>(places.size()));
+  for (const Vector6d& by : moved) covariance += share * by * by.transpose();
   return covariance;
 }
 
@@ -309,7 +317,12 @@ std::vector<Vector6d> degenerateDirections(const Neighbourhoods& all, const Rigi
 LidarInformation lidarInformation(const Neighbourhoods& all, const Rigid& target_T_source, double d2)
 {
   const Evidence evidence = evidenceOf(all, target_T_source, d2);
-  const std::vector<Place> places = placesOf(all, evidence, target_T_source);
+  std::vector<Place> places;
+  Vector6d wrench;
+  LidarInformation information;
+  tbb::parallel_invoke([&] { places = placesOf(all, evidence, target_T_source); },
+                       [&] { wrench = wrenchOfDepth(all, evidence, target_T_source); },
+                       [&] { information.degenerate = directionsWithoutStructure(evidence, all, target_T_source, d2); });
   const Matrix6d target_of_step = targetOfMetres(target_T_source);
   Matrix6d curvature = Matrix6d::Zero();
   for (const Place& place : places) curvature += place.curvature.matrix();
@@ -318,10 +331,7 @@ LidarInformation lidarInformation(const Neighbourhoods& all, const Rigid& target
   metres.diagonal().head<3>().array() += kTranslationFloor * kTranslationFloor;
   metres.diagonal().tail<3>().array() += kRotationFloor * kRotationFloor;
 
-  LidarInformation information;
-  information.one_sided =
-      -(bend * (target_of_step.transpose() * wrenchOfDepth(all, evidence, target_T_source))).head<3>();
-  information.degenerate = directionsWithoutStructure(evidence, all, target_T_source, d2);
+  information.one_sided = -(bend * (target_of_step.transpose() * wrench)).head<3>();
   for (const Vector6d& direction : information.degenerate)
     metres += kUnknownDeviation * kUnknownDeviation * direction * direction.transpose();
   const Matrix6d symmetric = (metres + metres.transpose()) / 2;

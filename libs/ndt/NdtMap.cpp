@@ -94,13 +94,16 @@ NdtMap::NdtMap(const std::vector<Eigen::Vector3f>& points, const NdtOptions& opt
 NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options) : NdtMap(options)
 {
   const int least_points = std::max(options_.min_points, GaussianCell::kMinPointsForCovariance);
+  std::vector<std::vector<Bin>> counted(views.size());
+  tbb::parallel_for(std::size_t{0}, views.size(),
+                    [&](std::size_t i)
+                    {
+                      const View& view = views[i];
+                      counted[i] = countInto(coordinatesOf(view.points), cell_quanta_);
+                      if (view.viewpoint) moveToAxes(counted[i], cell_quanta_, *view.viewpoint, least_points);
+                    });
   std::vector<Bin> all;
-  for (const View& view : views)
-  {
-    std::vector<Bin> counted = countInto(coordinatesOf(view.points), cell_quanta_);
-    if (view.viewpoint) moveToAxes(counted, cell_quanta_, *view.viewpoint, least_points);
-    all = all.empty() ? std::move(counted) : sumOf(all, counted);
-  }
+  for (std::vector<Bin>& bins : counted) all = all.empty() ? std::move(bins) : sumOf(all, bins);
   begin(all);
 }
 

@@ -1,5 +1,7 @@
 #include "ndt/View.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 namespace scanloom
@@ -8,9 +10,15 @@ std::vector<View> viewsOf(const PointCloud& cloud, const std::vector<Eigen::Vect
 {
   std::vector<View> views(viewpoints.size() + 1);
   for (std::size_t i = 0; i < viewpoints.size(); ++i) views[i].viewpoint = viewpoints[i];
-  for (View& view : views) view.points.reserve(cloud.size() / views.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    views[std::min<std::size_t>(cloud.sensor_id[i], viewpoints.size())].points.push_back(cloud.position(i));
+  tbb::parallel_for(std::size_t{0}, views.size(),
+                    [&](std::size_t v)
+                    {
+                      std::vector<Eigen::Vector3f>& points = views[v].points;
+                      points.reserve(cloud.size() / std::max<std::size_t>(1, viewpoints.size()));
+                      for (std::size_t i = 0; i < cloud.size(); ++i)
+                        if (std::min<std::size_t>(cloud.sensor_id[i], viewpoints.size()) == v)
+                          points.push_back(cloud.position(i));
+                    });
   return views;
 }
 

@@ -1,32 +1,51 @@
 #include "preprocessing/Deskew.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <stdexcept>
 
 namespace scanloom
 {
+namespace
+{
+void requirePointsOneAfterTheOther(const Scan& scan)
+{
+  std::size_t next = 0;
+  for (const Column& column : scan.columns)
+  {
+    if (column.first_point != next) throw std::invalid_argument("deskew: the columns do not cover the points");
+    next += column.count;
+  }
+  if (next != scan.points.size()) throw std::invalid_argument("deskew: the columns do not cover the points");
+}
+
+void move(const Column& column, const Rigid& reference_T_column, PointCloud& points)
+{
+  const Eigen::Matrix3f rotation = reference_T_column.rotation.toRotationMatrix().cast<float>();
+  const Eigen::Vector3f translation = reference_T_column.translation.cast<float>();
+  for (std::size_t i = column.first_point; i < std::size_t{column.first_point} + column.count; ++i)
+  {
+    const Eigen::Vector3f p = rotation * points.position(i) + translation;
+    points.x[i] = p.x();
+    points.y[i] = p.y();
+    points.z[i] = p.z();
+  }
+}
+}  // namespace
+
 PointCloud deskew(Scan scan, const std::vector<Rigid>& reference_T_column)
 {
   if (reference_T_column.size() != scan.columns.size())
     throw std::invalid_argument("deskew: one pose per column is needed");
-
-  PointCloud& points = scan.points;
-  std::size_t next = 0;
-  for (std::size_t c = 0; c < scan.columns.size(); ++c)
-  {
-    const Column& column = scan.columns[c];
-    if (column.first_point != next || next + column.count > points.size())
-      throw std::invalid_argument("deskew: the columns do not cover the points");
-    const Eigen::Matrix3f rotation = reference_T_column[c].rotation.toRotationMatrix().cast<float>();
-    const Eigen::Vector3f translation = reference_T_column[c].translation.cast<float>();
-    for (const std::size_t end = next + column.count; next < end; ++next)
-    {
-      const Eigen::Vector3f p = rotation * points.position(next) + translation;
-      points.x[next] = p.x();
-      points.y[next] = p.y();
-      points.z[next] = p.z();
-    }
-  }
-  if (next != points.size()) throw std::invalid_argument("deskew: the columns do not cover the points");
+  requirePointsOneAfterTheOther(scan);
+  constexpr std::size_t kGrain = 256;  // columns, about 50 us
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.columns.size(), kGrain),
+                    [&](const auto& range)
+                    {
+                      for (std::size_t c = range.begin(); c != range.end(); ++c)
+                        move(scan.columns[c], reference_T_column[c], scan.points);
+                    });
   return std::move(scan.points);
 }
 }  // namespace scanloom

@@ -85,12 +85,15 @@ ScanRegistrationOptions withLimitedEffort(ScanRegistrationOptions options)
   return options;
 }
 
+bool isWithinReach(const PoseGuess& guess, const NdtOptions& cells)
+{
+  return guess.covariance && 3 * largestDeviation(*guess.covariance) <= kReachOfCells * cells.cell_size;
+}
+
 RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
                                    const ScanRegistrationOptions& options, StageTimes& times)
 {
-  const bool unsure =
-      guess.covariance && 3 * largestDeviation(*guess.covariance) > kReachOfCells * options.scan_cells.cell_size;
-  if (unsure)
+  if (guess.covariance && !isWithinReach(guess, options.scan_cells))
     return times.measure("rough_alignment",
                          [&] { return Pyramid(map, views, options.fine_cells).align(guess, options.rough); });
   const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.scan_cells); });

@@ -167,8 +167,14 @@ void Tracker::locate(const Seen& seen, const Prediction& predicted, TrackerState
 RegistrationResult Tracker::registerTwice(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
                                           StageTimes& times) const
 {
+  const bool refine = settings_.slam.tracking.refine;
+  if (refine && isWithinReach(guess, settings_.registration.fine_cells))
+  {
+    RegistrationResult fine = registerFinely(map, views, guess.target_T_source, settings_.registration, times);
+    if (fine.trustworthy()) return fine;
+  }
   const RegistrationResult rough = registerRoughly(map, views, guess, settings_.registration, times);
-  if (!settings_.slam.tracking.refine) return rough;
+  if (!refine) return rough;
   const Rigid start = rough.trustworthy() ? rough.target_T_source : guess.target_T_source;
   return registerFinely(map, views, start, settings_.registration, times);
 }
