@@ -18,7 +18,10 @@ namespace scanloom
 class GzipArchive : public mrpt::serialization::CArchive
 {
  public:
-  /** Level 0 (stored) to 12. Throws std::runtime_error with the file's name if it can't be opened. */
+  /**
+   * Level 0 (stored) to 12; level 1 stores parts that would hardly shrink. Throws std::runtime_error with the file's
+   * name if it can't be opened.
+   */
   GzipArchive(const std::filesystem::path&, int level);
   /** To an open file, whose descriptor the archive closes. @param path for messages. */
   GzipArchive(int descriptor, const std::filesystem::path& path, int level);

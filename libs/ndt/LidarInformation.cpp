@@ -322,7 +322,8 @@ LidarInformation lidarInformation(const Neighbourhoods& all, const Rigid& target
   LidarInformation information;
   tbb::parallel_invoke([&] { places = placesOf(all, evidence, target_T_source); },
                        [&] { wrench = wrenchOfDepth(all, evidence, target_T_source); },
-                       [&] { information.degenerate = directionsWithoutStructure(evidence, all, target_T_source, d2); });
+                       [&]
+                       { information.degenerate = directionsWithoutStructure(evidence, all, target_T_source, d2); });
   const Matrix6d target_of_step = targetOfMetres(target_T_source);
   Matrix6d curvature = Matrix6d::Zero();
   for (const Place& place : places) curvature += place.curvature.matrix();

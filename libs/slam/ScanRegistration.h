@@ -19,7 +19,8 @@ struct ScanRegistrationOptions
 /** The same with so few steps that scans of a lost body take little longer than others: most searches fail. */
 ScanRegistrationOptions withLimitedEffort(ScanRegistrationOptions);
 
-/** Whether alignment with a scan's cells of this size finds the pose from the guess: not if its covariance is unknown. */
+/** Whether alignment with a scan's cells of this size finds the pose from the guess: not if its covariance is unknown.
+ */
 bool isWithinReach(const PoseGuess&, const NdtOptions& scan_cells);
 
 /** First alignment (paper, section 2.2); through coarser cells where the guess may be too far off for scan_cells. */
