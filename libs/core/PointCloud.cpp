@@ -1,6 +1,9 @@
 #include "core/PointCloud.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <functional>
 #include <stdexcept>
 
 namespace scanloom
@@ -59,11 +62,17 @@ void PointCloud::keep(const std::vector<std::uint8_t>& keep)
     count += keep[i] != 0;
   }
   kept.resize(count);
+  std::vector<std::function<void()>> fields;
   forEachField(*this,
-               [&kept](auto& field)
+               [&](auto& field)
                {
-                 for (std::size_t i = 0; i < kept.size(); ++i) field[i] = field[kept[i]];
-                 field.resize(kept.size());
+                 fields.push_back(
+                     [&]
+                     {
+                       for (std::size_t i = 0; i < kept.size(); ++i) field[i] = field[kept[i]];
+                       field.resize(kept.size());
+                     });
                });
+  tbb::parallel_for(std::size_t{0}, fields.size(), [&](std::size_t i) { fields[i](); });
 }
 }  // namespace scanloom
