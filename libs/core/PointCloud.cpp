@@ -61,7 +61,6 @@ void PointCloud::keep(const std::vector<std::uint8_t>& keep)
     kept[count] = static_cast<std::uint32_t>(i);  // no branch: it could not be predicted
     count += keep[i] != 0;
   }
-  kept.resize(count);
   std::vector<std::function<void()>> fields;
   forEachField(*this,
                [&](auto& field)
@@ -69,8 +68,11 @@ void PointCloud::keep(const std::vector<std::uint8_t>& keep)
                  fields.push_back(
                      [&]
                      {
-                       for (std::size_t i = 0; i < kept.size(); ++i) field[i] = field[kept[i]];
-                       field.resize(kept.size());
+                       std::decay_t<decltype(field)> left;  // not in place: what is kept is often half
+                       auto* to = left.room(count);
+                       for (std::size_t i = 0; i < count; ++i) to[i] = field[kept[i]];
+                       left.grow(count);
+                       field = std::move(left);
                      });
                });
   tbb::parallel_for(std::size_t{0}, fields.size(), [&](std::size_t i) { fields[i](); });

@@ -7,6 +7,7 @@ namespace scanloom
 LidarInertialSlam::LidarInertialSlam(const SlamSettings& settings, const Rigid& body_T_imu,
                                      const std::vector<MountedLidar>& lidars)
   : tracker_(settings, lidars),
+    crop_(cropOf(settings.crop, lidars)),
     standstill_(settings.start),
     placed_imu_{body_T_imu, settings.imu},
     waiting_(settings.slam.every_nth, fromSeconds(1e-3 * settings.slam.imu_wait_ms))
@@ -25,7 +26,7 @@ void LidarInertialSlam::changeImu(const ImuChange& change)
 
 std::vector<StateEstimate> LidarInertialSlam::addScan(Scan scan)
 {
-  waiting_.add(std::move(scan));
+  if (waiting_.wants(scan)) waiting_.add(withoutMachine(std::move(scan)));
   return processWaiting();
 }
 
@@ -44,6 +45,14 @@ std::vector<StateEstimate> LidarInertialSlam::processWaiting()
   return estimates;
 }
 
+Scan LidarInertialSlam::withoutMachine(Scan scan)
+{
+  CroppedScan cropped = times_.measure("preprocessing", [&] { return cropOut(std::move(scan), crop_); });
+  if (cropped_.size() < cropped.counts.size()) cropped_.resize(cropped.counts.size());
+  for (std::size_t i = 0; i < cropped.counts.size(); ++i) cropped_[i] += cropped.counts[i];
+  return std::move(cropped.scan);
+}
+
 StateEstimate LidarInertialSlam::process(Scan scan)
 {
   const Timestamp from = state_->smoother.newest().stamp, to = scan.end();
@@ -56,8 +65,6 @@ StateEstimate LidarInertialSlam::process(Scan scan)
   tracked.estimate.imu_complete = imu_complete;
   recoveries_ += tracked.estimate.recovered;
   map_restarts_ += tracked.estimate.map_restarted;
-  if (cropped_.size() < tracked.cropped.size()) cropped_.resize(tracked.cropped.size());
-  for (std::size_t i = 0; i < tracked.cropped.size(); ++i) cropped_[i] += tracked.cropped[i];
   return std::move(tracked.estimate);
 }
 }  // namespace scanloom

@@ -18,7 +18,10 @@ namespace scanloom
 class LidarInertialSlam
 {
  public:
-  /** `lidars` by sensor id; stems are moved onto their axes only for lidars that are given. Throws as Tracker does. */
+  /**
+   * `lidars` by sensor id; stems are moved onto their axes only for lidars that are given. Throws ConfigError for a
+   * [crop] lidar_boxes that does not fit them.
+   */
   LidarInertialSlam(const SlamSettings&, const Rigid& body_T_imu, const std::vector<MountedLidar>& lidars);
 
   /** In time order, as ImuScreening passes them on; a sample out of order or not finite is ignored. */
@@ -46,14 +49,16 @@ class LidarInertialSlam
   std::uint64_t recoveries() const { return recoveries_; }
   std::uint64_t mapRestarts() const { return map_restarts_; }
 
-  /** Of the processed scans, by sensor id. */
+  /** Of the scans that are used, by sensor id. */
   const std::vector<CropCounts>& cropped() const { return cropped_; }
 
  private:
   std::vector<StateEstimate> processWaiting();
+  Scan withoutMachine(Scan);
   StateEstimate process(Scan);
 
   Tracker tracker_;
+  Crop crop_;
   StandstillOptions standstill_;
   PlacedImu placed_imu_;
   ImuBuffer imu_;

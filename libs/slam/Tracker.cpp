@@ -59,7 +59,7 @@ Rigid TrackerState::map_T_local() const
 }
 
 Tracker::Tracker(const SlamSettings& settings, const std::vector<MountedLidar>& lidars)
-  : settings_(settings), limited_effort_(withLimitedEffort(settings.registration)), crop_(cropOf(settings.crop, lidars))
+  : settings_(settings), limited_effort_(withLimitedEffort(settings.registration))
 {
   if (settings.slam.tracking.stem_axes) viewpoints_ = positionsOf(lidars);
 }
@@ -99,7 +99,7 @@ TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSa
   state.motion_since_last = estimate.recovered ? Trajectory{} : estimate.since_last;
   updateMap(seen, contradicted, state, estimate, times);
   estimate.drift = driftOf(state, estimate);
-  return {std::move(state), std::move(estimate), std::move(seen.cropped)};
+  return {std::move(state), std::move(estimate)};
 }
 
 /** Of the local map, and of its tilt, which is known as well as the accelerometer's bias. */
@@ -124,7 +124,7 @@ Tracker::Prediction Tracker::predict(const std::vector<ImuSample>& samples, Trac
   return {smoother.newestBody(), times.measure("smoother", [&] { return smoother.newestBodyCovariance(); })};
 }
 
-/** Cropped, and moved to where each point is seen from the body at the end of the scan. */
+/** Moved to where each point is seen from the body at the end of the scan. */
 Tracker::Seen Tracker::preprocess(Scan scan, const NavState& before, const std::vector<ImuSample>& samples,
                                   const TrackerState& state, StageTimes& times) const
 {
@@ -139,9 +139,7 @@ Tracker::Seen Tracker::preprocess(Scan scan, const NavState& before, const std::
         std::vector<Rigid> end_T_column;
         for (const Rigid& map_T_body : bodyAtColumns(scan, before, samples, imu_T_body, state.motion_since_last))
           end_T_column.push_back(end_T_map * map_T_body);
-        CroppedScan cropped = cropOut(std::move(scan), crop_);
-        seen.cropped = std::move(cropped.counts);
-        PointCloud cloud = deskew(std::move(cropped.scan), end_T_column);
+        PointCloud cloud = deskew(std::move(scan), end_T_column);
         for (std::int32_t& t : cloud.t) t -= period;  // it counts from the end now
         return cloud;
       });

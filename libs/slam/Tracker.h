@@ -37,18 +37,18 @@ struct TrackedScan
 {
   TrackerState state;
   StateEstimate estimate;
-  std::vector<CropCounts> cropped;  // by sensor id
 };
 
 class Tracker
 {
  public:
-  /** `lidars` by sensor id. Throws ConfigError for a [crop] lidar_boxes that does not fit them. */
+  /** `lidars` by sensor id. */
   Tracker(const SlamSettings&, const std::vector<MountedLidar>& lidars);
 
   TrackerState begin(const NavEstimate&, const PlacedImu&) const;
 
-  /** The state after a scan. The samples are the IMU's from the newest state to the scan's end (ImuBuffer::between). */
+  /** The state after a scan without the machine's points. The samples are the IMU's from the newest state to the scan's
+   * end (ImuBuffer::between). */
   TrackedScan step(TrackerState, Scan, const std::vector<ImuSample>&, StageTimes&) const;
 
   /** The same state, as another IMU of the same body continues it. */
@@ -64,7 +64,6 @@ class Tracker
   {
     PointCloud cloud;  // in the body frame at the scan's end
     std::vector<View> views;
-    std::vector<CropCounts> cropped;
   };
 
   FixedLagSmoother windowFrom(const NavEstimate&, const PlacedImu&) const;
@@ -89,8 +88,7 @@ class Tracker
   void addKeyframe(const Seen&, TrackerState&, StateEstimate&) const;
 
   SlamSettings settings_;
-  ScanRegistrationOptions limited_effort_;  // for a lost body
-  Crop crop_;
+  ScanRegistrationOptions limited_effort_;   // for a lost body
   std::vector<Eigen::Vector3d> viewpoints_;  // of the lidars in the body frame; empty: stems stay where they are seen
 };
 }  // namespace scanloom

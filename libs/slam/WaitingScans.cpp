@@ -4,16 +4,18 @@
 
 namespace scanloom
 {
-void WaitingScans::add(Scan scan)
+bool WaitingScans::wants(const Scan& scan)
 {
-  const bool wanted = !isCutStart(scan) && seen_++ % every_nth_ == 0;
+  const bool in_turn = !isCutStart(scan) && seen_++ % every_nth_ == 0;
   // A whole turn that found no other in time may end before those that did: time never goes back.
   const bool late = last_end_ && scan.end() <= *last_end_;
-  if (!wanted || late)
-  {
-    ++skipped_;
-    return;
-  }
+  const bool wanted = in_turn && !late;
+  skipped_ += !wanted;
+  return wanted;
+}
+
+void WaitingScans::add(Scan scan)
+{
   last_end_ = scan.end();
   scans_.push_back(std::move(scan));
 }

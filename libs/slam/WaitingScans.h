@@ -15,6 +15,10 @@ class WaitingScans
   /** Every `every_nth` scan is used; one waits for the IMU until a scan has ended that is `imu_wait` later. */
   WaitingScans(int every_nth, Duration imu_wait) : every_nth_(every_nth), imu_wait_(imu_wait) {}
 
+  /** Counts the scan; false if it is to be left out. */
+  bool wants(const Scan&);
+
+  /** A scan that is wanted, without the machine's points: the first ones wait for seconds. */
   void add(Scan);
 
   /** No scan waits for the IMU any longer. */
