@@ -50,6 +50,13 @@ Matrix6d informationAmongOthers(const RegistrationResult& registration, const He
   return informationWithError(registration.information / registrationsPerMeasurement(travel, correlation), turn);
 }
 
+/** Distance from the prediction in standard deviations of both. */
+double surpriseOf(const RegistrationResult& registration, const PoseGuess& predicted)
+{
+  const PoseGuess both(predicted.target_T_source, *predicted.covariance + registration.covariance);
+  return std::sqrt(surprise(both, registration.target_T_source));
+}
+
 NavEstimate newestOf(const FixedLagSmoother& smoother) { return {smoother.newest(), smoother.newestCovariance()}; }
 }  // namespace
 
@@ -162,14 +169,19 @@ void Tracker::locate(const Seen& seen, const Prediction& predicted, TrackerState
   if (estimate.registration->outcome != Outcome::LowOverlap) addRegistration(guess, state, estimate);
 }
 
+/**
+ * Roughly first, and finely from there. Fine cells alone do where the prediction is within their reach and what they
+ * find agrees with it: of a scan from elsewhere they know nothing.
+ */
 RegistrationResult Tracker::registerTwice(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
                                           StageTimes& times) const
 {
+  constexpr double kUsualSurprise = 5;
   const bool refine = settings_.slam.tracking.refine;
   if (refine && isWithinReach(guess, settings_.registration.fine_cells))
   {
     RegistrationResult fine = registerFinely(map, views, guess.target_T_source, settings_.registration, times);
-    if (fine.trustworthy()) return fine;
+    if (fine.trustworthy() && surpriseOf(fine, guess) < kUsualSurprise) return fine;
   }
   const RegistrationResult rough = registerRoughly(map, views, guess, settings_.registration, times);
   if (!refine) return rough;
@@ -184,8 +196,7 @@ void Tracker::addRegistration(const PoseGuess& predicted, TrackerState& state, S
   const TrackingOptions& options = settings_.slam.tracking;
   const RegistrationResult& registration = *estimate.registration;
   const Rigid& local_T_body = registration.target_T_source;
-  const PoseGuess both(predicted.target_T_source, *predicted.covariance + registration.covariance);
-  estimate.surprise = std::sqrt(surprise(both, local_T_body));
+  estimate.surprise = surpriseOf(registration, predicted);
   const bool usable = state.trust.lost ? registration.outcome == Outcome::Converged : registration.trustworthy();
   estimate.trusted = usable && (options.gate == 0 || estimate.surprise <= options.gate);
   if (state.trust.imu_silent)
