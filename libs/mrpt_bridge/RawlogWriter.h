@@ -16,7 +16,7 @@ class GzipArchive;
 
 struct RawlogOptions
 {
-  int compression_level = 1;  // gzip, 0 to 12: 0 live (5 ms of CPU a scan), 1 offline (half the size, 18 ms)
+  int compression_level = 1;  // gzip, 0 to 12: 0 live (5 ms of CPU a scan), 1 offline (half the size, 10 ms)
   Duration safe_every{0};     // of the host's time: older objects survive kill -9, see secure(); 0: only after close()
 };
 

@@ -47,7 +47,7 @@ std::vector<StateEstimate> LidarInertialSlam::processWaiting()
 
 Scan LidarInertialSlam::withoutMachine(Scan scan)
 {
-  CroppedScan cropped = times_.measure("preprocessing", [&] { return cropOut(std::move(scan), crop_); });
+  CroppedScan cropped = times_.measure("crop", [&] { return cropOut(std::move(scan), crop_); });
   if (cropped_.size() < cropped.counts.size()) cropped_.resize(cropped.counts.size());
   for (std::size_t i = 0; i < cropped.counts.size(); ++i) cropped_[i] += cropped.counts[i];
   return std::move(cropped.scan);

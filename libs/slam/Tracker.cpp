@@ -138,7 +138,7 @@ Tracker::Seen Tracker::preprocess(Scan scan, const NavState& before, const std::
   Seen seen;
   const auto period = static_cast<std::int32_t>(scan.period.count());
   seen.cloud = times.measure(
-      "preprocessing",
+      "deskew",
       [&]
       {
         const Rigid imu_T_body = state.smoother.body_T_imu().inverse();
@@ -150,7 +150,7 @@ Tracker::Seen Tracker::preprocess(Scan scan, const NavState& before, const std::
         for (std::int32_t& t : cloud.t) t -= period;  // it counts from the end now
         return cloud;
       });
-  seen.views = times.measure("preprocessing", [&] { return viewsOf(seen.cloud, viewpoints_); });
+  seen.views = times.measure("deskew", [&] { return viewsOf(seen.cloud, viewpoints_); });
   return seen;
 }
 

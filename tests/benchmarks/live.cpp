@@ -6,12 +6,15 @@
  *   scanloom_bench_live --sensors 8 --seconds 120             latency
  *   scanloom_bench_live --sensors 8 --seconds 600 --speed 3   a soak
  *   scanloom_bench_live --sensors 2 --seconds 600 --busy 4    with all cores under stress
+ *   scanloom_bench_live --sensors 2 --rawlog /tmp/live.rawlog  written to disk, as `record` does
  *   scanloom_bench_live --sensors 2 --web --pages 4           shown on pages (PageReaders)
  *   scanloom_bench_live --spoofed 10 --flood 1000             with strangers, without configured addresses
  */
 #include "LoopbackLidars.h"
 #include "PageReaders.h"
 #include "live_view/WatchedInput.h"
+#include "mrpt_bridge/RawlogWriter.h"
+#include "mrpt_bridge/RigObservations.h"
 #include "rig/RigLive.h"
 
 #include <fmt/format.h>
@@ -37,6 +40,8 @@ struct Arguments
   int busy = 0;
   bool web = false;
   int pages = 0;
+  std::string rawlog;  // empty: none
+  int compression_level = 0;
 };
 
 /** Processes that do nothing but use the processor. */
@@ -136,7 +141,7 @@ struct ShownOnPage
   PageReaders readers;
 };
 
-Observed observe(RigLive& live, const LoopbackLidars& lidars, ShownOnPage* page)
+Observed observe(RigLive& live, const LoopbackLidars& lidars, ShownOnPage* page, RawlogWriter* writer)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -146,6 +151,8 @@ Observed observe(RigLive& live, const LoopbackLidars& lidars, ShownOnPage* page)
   {
     const auto event = page ? page->input.next(50ms) : live.next(50ms);
     if (page) page->feed.offer();
+    if (writer && event) writer->write(*toObservation(*event, live.setup(), DriverOptions{}));
+    if (writer) writer->secure();
     if (event)
     {
       if (std::holds_alternative<SensorImu>(*event)) continue;
@@ -254,7 +261,12 @@ int run(const Arguments& arguments)
   for (const std::string& warning : live.takeWarnings()) fmt::print("  warning: {}\n", warning);
   lidars.go();
   const auto page = arguments.web ? std::make_unique<ShownOnPage>(live, arguments.pages) : nullptr;
-  const Observed observed = observe(live, lidars, page.get());
+  const auto writer = arguments.rawlog.empty()
+                          ? nullptr
+                          : std::make_unique<RawlogWriter>(arguments.rawlog, live.setup().header,
+                                                           RawlogOptions{arguments.compression_level, 1s});
+  const Observed observed = observe(live, lidars, page.get(), writer.get());
+  if (writer) writer->close();
   if (page) fmt::print("  {} pages, the first gets {:.2f} Mbit/s\n", arguments.pages, 1e-6 * page->readers.stop());
   lidars.wait();
   for (const std::string& warning : live.takeWarnings()) fmt::print("  warning: {}\n", warning);
@@ -274,6 +286,8 @@ int main(int argc, char** argv)
   app.add_option("--deadline-ms", arguments.deadline_ms, "ms")->check(CLI::NonNegativeNumber);
   app.add_option("--busy", arguments.busy, "processes that keep the processor busy meanwhile")
       ->check(CLI::Range(0, 256));
+  app.add_option("--rawlog", arguments.rawlog, "write scans and IMU samples to this file");
+  app.add_option("--compression-level", arguments.compression_level, "of the rawlog")->check(CLI::Range(0, 9));
   app.add_flag("--web", arguments.web, "show the run on a page");
   app.add_option("--pages", arguments.pages, "readers of the page")->check(CLI::Range(0, 8));
   app.add_option("--spoofed", arguments.loopback.spoofed, "copies of the first lidar's packets per second")
