@@ -2,6 +2,7 @@
 
 #include "core/AtomicFile.h"
 #include "maps/OctoMapFile.h"
+#include "mrpt_bridge/GzipArchive.h"
 
 #include <fmt/format.h>
 #include <mrpt/img/CImage.h>
@@ -161,13 +162,7 @@ mrpt::opengl::COpenGLScene::Ptr SceneBuilder::finished() const
   return scene;
 }
 
-void writeScene(const std::filesystem::path& path, const mrpt::opengl::COpenGLScene& scene)
-{
-  AtomicFile file(path);
-  if (!scene.saveToFile(file.temporary().string()))
-    throw std::runtime_error(fmt::format("cannot write the scene '{}'", path.string()));
-  file.commit();
-}
+void writeScene(const std::filesystem::path& path, const mrpt::opengl::COpenGLScene& scene) { writeGzip(path, scene); }
 
 void writePicture(const std::filesystem::path& path, const mrpt::opengl::COpenGLScene& scene, int width, int height)
 {

@@ -1,11 +1,10 @@
 #include "maps/SimpleMapFile.h"
 
-#include "core/AtomicFile.h"
+#include "mrpt_bridge/GzipArchive.h"
 #include "mrpt_bridge/readByAll.h"
 #include "rawlogs/Conversions.h"
 
 #include <fmt/format.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
@@ -17,9 +16,9 @@ namespace scanloom
 namespace
 {
 /** The points of one lidar, in its own frame. */
-mrpt::maps::CPointsMapXYZI::Ptr cloudOf(const PointCloud& points, std::size_t lidar, const Rigid& sensor_T_body)
+std::shared_ptr<XyziReadByAll> cloudOf(const PointCloud& points, std::size_t lidar, const Rigid& sensor_T_body)
 {
-  auto cloud = mrpt::maps::CPointsMapXYZI::Create();
+  auto cloud = std::make_shared<XyziReadByAll>();
   cloud->resize(static_cast<std::size_t>(std::count(points.sensor_id.begin(), points.sensor_id.end(), lidar)));
   std::size_t next = 0;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -62,11 +61,5 @@ void SimpleMapBuilder::add(const Keyframe& keyframe)
   map_->insert(mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(keyframe.map_T_body)), frame);
 }
 
-void SimpleMapBuilder::write(const std::filesystem::path& path) const
-{
-  AtomicFile file(path);
-  if (!map_->saveToFile(file.temporary().string()))
-    throw std::runtime_error(fmt::format("cannot write the keyframes '{}'", path.string()));
-  file.commit();
-}
+void SimpleMapBuilder::write(const std::filesystem::path& path) const { writeGzip(path, *map_); }
 }  // namespace scanloom

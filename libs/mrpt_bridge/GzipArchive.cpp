@@ -1,5 +1,7 @@
 #include "mrpt_bridge/GzipArchive.h"
 
+#include "core/AtomicFile.h"
+
 #include <fmt/format.h>
 
 #include <fcntl.h>
@@ -131,5 +133,15 @@ void GzipArchive::writeOldest()
 void GzipArchive::fail() const
 {
   throw std::runtime_error(fmt::format("{}: {}", path_.string(), std::strerror(errno)));
+}
+
+void writeGzip(const std::filesystem::path& path, const mrpt::serialization::CSerializable& object)
+{
+  constexpr int kFast = 1;
+  AtomicFile file(path);
+  GzipArchive archive(file.temporary(), kFast);
+  archive << object;
+  archive.close();
+  file.commit();
 }
 }  // namespace scanloom

@@ -54,4 +54,10 @@ class GzipArchive : public mrpt::serialization::CArchive
   Bytes member_;                            // not yet compressed
   std::deque<std::future<Bytes>> members_;  // that threads compress, in the file's order
 };
+
+/**
+ * A file of one object, as saveToFile() of MRPT's maps and scenes, which write zstd since 2.15: older ones do not read
+ * that. Appears when it is complete. Throws std::runtime_error.
+ */
+void writeGzip(const std::filesystem::path&, const mrpt::serialization::CSerializable&);
 }  // namespace scanloom

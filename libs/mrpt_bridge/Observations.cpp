@@ -6,11 +6,6 @@
 #include "mrpt_bridge/readByAll.h"
 #include "rawlogs/Conversions.h"
 
-#if __has_include(<mrpt/maps/CPointsMapXYZI.h>)
-#include <mrpt/maps/CPointsMapXYZI.h>
-#define SCANLOOM_HAS_XYZI 1
-#endif
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -66,7 +61,7 @@ constexpr float kFullIntensity = 255.f;
 CPointsMap::Ptr xyziCloud([[maybe_unused]] const PointCloud& points)
 {
 #if SCANLOOM_HAS_XYZI
-  auto map = mrpt::maps::CPointsMapXYZI::Create();
+  auto map = std::make_shared<XyziReadByAll>();
   setPositions(points, *map);
   for (std::size_t i = 0; i < points.size(); i++)
     map->setPointIntensity(i, static_cast<float>(points.intensity[i]) / kFullIntensity);

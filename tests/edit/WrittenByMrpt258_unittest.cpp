@@ -138,6 +138,13 @@ TEST(WrittenByMrpt258, theSameSimpleMapIsWrittenByThisMrpt)
   EXPECT_TRUE(uncompressed(writeSimpleMap(folder / "now.simplemap")) == uncompressed(older(".simplemap")));
 }
 
+TEST(WrittenByMrpt258, aSceneIsWrittenInGzipByThisMrpt)
+{
+  const TemporaryFolder folder;
+  writeScene(folder / "now.3Dscene", *someScene());
+  EXPECT_NE(uncompressed(folder / "now.3Dscene").find("CPointCloudColoured"), std::string::npos);
+}
+
 TEST(WrittenByMrpt258, aSceneIsReadWithItsPointsAndItsPath)
 {
   const auto read = mrpt::opengl::COpenGLScene::Create();
