@@ -70,7 +70,7 @@ void LiveFeed::add(const SensorImu& read, const RecordingHeader& header)
   const auto of = static_cast<std::size_t>(read.sensor);
   const bool own = read.sensor >= 0 && of < header.lidars.size();
   const std::string& name = own ? header.lidars[of].name : kBodyImu;
-  const auto before = [](const ViewedImu& imu, const std::string& of) { return imu.name < of; };
+  const auto before = [](const ViewedImu& imu, const std::string& other) { return imu.name < other; };
   auto shown = std::lower_bound(status_.imus.begin(), status_.imus.end(), name, before);
   if (shown == status_.imus.end() || shown->name != name) shown = status_.imus.insert(shown, {name, 0, stamp});
   shown->seen = stamp;
