@@ -46,7 +46,7 @@ std::string openInWords(const std::string& sensor, const std::vector<OpenDirecti
 {
   std::string words;
   for (const OpenDirection& o : open)
-    words += fmt::format("{}: OPEN: {}: the drive tells it to +- {:.2f} m only, so it stays as it was given\n", sensor,
+    words += fmt::format("{}: OPEN: {}: told to +- {:.2f} m only, so it stays as it was given\n", sensor,
                          namesOf(o), o.sigma);
   return words;
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -96,10 +97,28 @@ Points3 nearGround(const Points3& points, const Ground& ground)
   return near;
 }
 
-std::size_t countIn(const GroundStrip& strip, const Points3& points)
+constexpr std::size_t kPieces = 20;  // of a strip
+
+std::array<std::size_t, kPieces> countAlong(const GroundStrip& strip, const Points3& points)
 {
-  return static_cast<std::size_t>(
-      std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3f& p) { return strip.contains(p); }));
+  std::array<std::size_t, kPieces> counts{};
+  for (const Eigen::Vector3f& p : points)
+  {
+    if (!strip.contains(p)) continue;
+    const auto piece = static_cast<std::size_t>((p[strip.axis] - strip.from) / kStripLength * kPieces);
+    ++counts[std::min(piece, kPieces - 1)];
+  }
+  return counts;
+}
+
+/** Points in the pieces that both lidars see; many in one piece count as a few. */
+std::size_t seenByBoth(const GroundStrip& strip, const Points3& a, const Points3& b)
+{
+  constexpr std::size_t kEnough = 10;
+  const auto of_a = countAlong(strip, a), of_b = countAlong(strip, b);
+  std::size_t seen = 0;
+  for (std::size_t i = 0; i < kPieces; ++i) seen += std::min({of_a[i], of_b[i], kEnough});
+  return seen;
 }
 }  // namespace
 
@@ -141,11 +160,11 @@ std::optional<GroundStrip> bestGroundStrip(const Points3& reference, const Point
   std::optional<GroundStrip> best;
   for (const int axis : {0, 1})
     for (int from = -14; from <= 4; from += 2)
-      for (int across = -10; across <= 10; across += 2)
+      for (int across = -10; across <= 10; ++across)
       {
         GroundStrip strip;
         strip.axis = axis, strip.from = static_cast<float>(from), strip.across = static_cast<float>(across);
-        strip.seen = std::min(countIn(strip, a), countIn(strip, b));
+        strip.seen = seenByBoth(strip, a, b);
         if (strip.seen >= kFewest && (!best || strip.seen > best->seen)) best = strip;
       }
   if (best) best->plane = planeThrough(a, *best);

@@ -1,0 +1,40 @@
+#include "run/MountDetails.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace scanloom;
+
+namespace
+{
+/** Ground that rises by 10 % along x, with points every 0.2 m, and a stem of 20 cm at (5, 3). */
+Points3 groundAndStem()
+{
+  Points3 points;
+  for (float x = -12; x < 12; x += 0.2F)
+    for (float y = -12; y < 12; y += 0.2F) points.emplace_back(x, y, 0.1F * x);
+  for (float z = 0.5F; z < 3; z += 0.05F)
+    for (float a = 0; a < 6; a += 0.5F) points.emplace_back(5 + 0.1F * std::cos(a), 3 + 0.1F * std::sin(a), z);
+  return points;
+}
+}  // namespace
+
+TEST(MountDetails, findTheStem)
+{
+  const std::optional<SeenStem> stem = bestStem(groundAndStem(), groundAndStem());
+  ASSERT_TRUE(stem);
+  EXPECT_LT((stem->centre - Eigen::Vector2f(5, 3)).norm(), 0.3);
+}
+
+TEST(MountDetails, findNoStemThatOnlyOneLidarSees)
+{
+  EXPECT_FALSE(bestStem(groundAndStem(), {}));
+}
+
+TEST(MountDetails, measureHeightsAboveSlopingGround)
+{
+  const std::optional<GroundStrip> strip = bestGroundStrip(groundAndStem(), groundAndStem());
+  ASSERT_TRUE(strip);
+  EXPECT_NEAR(strip->height({2, 0, 0.2F + 0.05F}), 0.05, 0.01);
+}
