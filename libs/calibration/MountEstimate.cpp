@@ -11,7 +11,7 @@ namespace
 {
 constexpr std::size_t kFewestStations = 10;
 constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
-constexpr int kRounds = 6;
+constexpr int kRounds = 15;
 constexpr double kSettled = 5e-4;  // m, a round's correction
 
 constexpr MountLevel kCoarse{2.0, 0.2, 1}, kMiddle{1.0, 0.4, 1};
