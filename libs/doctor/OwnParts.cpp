@@ -10,6 +10,7 @@ namespace scanloom
 namespace
 {
 constexpr double kPartCube = 0.25;      // m
+constexpr double kFarCube = 1;          // m: beams far apart hit a stem or a wall at other heights in every turn
 constexpr double kFarFromGround = 0.4;  // m
 constexpr double kLongestBoom = 12;     // m from the body's origin: longer than a harvester's boom
 constexpr double kAlmostAlways = 0.75;  // of the snapshots
@@ -23,23 +24,26 @@ constexpr double kStoodStill = 0.5;
 class Occupancy
 {
  public:
+  explicit Occupancy(double edge) : edge_(edge) {}
+
   void add(const PointCloud& points, int snapshot)
   {
     for (std::size_t i = 0; i < points.size(); ++i)
     {
-      Cube& cube = cubes_[voxelKey(points.position(i), kPartCube)];
+      Cube& cube = cubes_[voxelKey(points.position(i), edge_)];
       if (cube.last != snapshot) ++cube.snapshots;
       cube.last = snapshot;
     }
   }
 
-  int snapshotsAt(const Eigen::Vector3f& p) const { return cubes_.at(voxelKey(p, kPartCube)).snapshots; }
+  int snapshotsAt(const Eigen::Vector3f& p) const { return cubes_.at(voxelKey(p, edge_)).snapshots; }
 
  private:
   struct Cube
   {
     int snapshots = 0, last = -1;
   };
+  double edge_;  // m
   std::unordered_map<std::uint64_t, Cube> cubes_;
 };
 }  // namespace
@@ -48,8 +52,9 @@ OwnParts markOwnParts(std::vector<RigSnapshot>& snapshots, std::size_t lidar, co
 {
   OwnParts parts;
   if (snapshots.size() < kFewestSnapshots) return parts;
-  Occupancy occupancy;
-  for (std::size_t k = 0; k < snapshots.size(); ++k) occupancy.add(snapshots[k][lidar].points, static_cast<int>(k));
+  Occupancy occupancy(kPartCube), coarse(kFarCube);
+  for (std::size_t k = 0; k < snapshots.size(); ++k)
+    for (Occupancy* cubes : {&occupancy, &coarse}) cubes->add(snapshots[k][lidar].points, static_cast<int>(k));
 
   const auto often = static_cast<int>(std::ceil(kAlmostAlways * static_cast<double>(snapshots.size())));
   const auto onGround = [&](const Eigen::Vector3f& p)
@@ -70,7 +75,7 @@ OwnParts markOwnParts(std::vector<RigSnapshot>& snapshots, std::size_t lidar, co
     {
       const Eigen::Vector3f p = points.position(i);
       if (isFar(p)) ++far;
-      if (isFar(p) && occupancy.snapshotsAt(p) >= often) ++far_in_place;
+      if (isFar(p) && coarse.snapshotsAt(p) >= often) ++far_in_place;
       if (p.norm() > kLongestBoom || onGround(p)) continue;
       ++standing;
       if (occupancy.snapshotsAt(p) < often) continue;
