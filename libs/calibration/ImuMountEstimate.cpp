@@ -4,6 +4,7 @@
 #include "imu/GyroAgreement.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@ namespace
 {
 constexpr std::size_t kFewestPoses = 50, kMostPoses = 1500;
 constexpr PoseNoise kFirstNoise{0.005, 0.05 * kDegree};
+constexpr double kLeastExtent = 2;                      // m: on the spot, errors of 4 deg looked certain to 0.6 deg
 constexpr double kMostMisfit = 3;                       // standard deviations
 constexpr PoseNoise kMostResidual{0.1, 1.0 * kDegree};  // registrations are ten times better
 constexpr double kLeastTurn = 0.5 * kDegree;            // rad/s
@@ -46,6 +48,14 @@ Trajectory covered(const Trajectory& all, const std::vector<ImuSample>& samples)
   const std::size_t every_nth = 1 + poses.size() / kMostPoses;
   for (std::size_t i = 0; i < poses.size(); i += every_nth) some.push_back(poses[i]);
   return some;
+}
+
+/** Diagonal of the box that the poses fill (m). */
+double extentOf(const Trajectory& poses)
+{
+  Eigen::AlignedBox3d box;
+  for (const StampedPose& pose : poses) box.extend(pose.map_T_body.translation);
+  return box.diagonal().norm();
 }
 
 /** Along the body's axes, in metres. */
@@ -116,7 +126,7 @@ ImuMountEstimate estimateImuMount(const Trajectory& all, const std::vector<ImuSa
   estimate.mount = given;
   const Trajectory poses = covered(all, samples);
   estimate.poses = poses.size();
-  if (poses.size() < kFewestPoses) return estimate;
+  if (poses.size() < kFewestPoses || extentOf(poses) < kLeastExtent) return estimate;
 
   ImuMountSolution s = solveImuMount(poses, samples, start, noise, kFirstNoise);
   if (fits(s)) s = solveImuMount(poses, samples, s.mount, noise, s.residual);

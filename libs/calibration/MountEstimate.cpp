@@ -12,7 +12,8 @@ namespace
 constexpr std::size_t kFewestStations = 10;
 constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
 constexpr int kRounds = 15;
-constexpr double kSettled = 5e-4;  // m, a round's correction
+constexpr double kSettled = 5e-4;        // m, a round's correction
+constexpr double kNearlySettled = 2e-3;  // m: the last round's, where cells come and go at the limit of thickness
 
 constexpr MountLevel kCoarse{2.0, 0.2, 1}, kMiddle{1.0, 0.4, 1};
 // Each lidar sees the near side of bushes and crowns: cells full of leaves pull by 1 cm and 0.1 deg in a dense stand. Of
@@ -55,15 +56,17 @@ class LevelOfDrive
   /** Whether the mount changes no more. */
   bool improve(Mount& mount) const
   {
+    double length = 0;
     for (int round = 0; round < kRounds; ++round)
     {
       const StationCells lidar = cellsOfLidar(stations_, mount, trajectory_, level_);
       std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
       const MountMinimum minimum = minimiseMount(pairs, twists_, clock_, level_.d2);
       mount = moved(mount, minimum.correction);
-      if (lengthOf(minimum.correction) < kSettled) return true;
+      length = lengthOf(minimum.correction);
+      if (length < kSettled) break;
     }
-    return false;
+    return length < kNearlySettled;
   }
 
   /** In metres. */

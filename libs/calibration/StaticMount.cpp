@@ -13,6 +13,7 @@ namespace
 {
 constexpr double kLeastSharedAtRest = 0.1, kMostShareLostAtRest = 0.02;
 constexpr MountLevel kStartLevels[] = {{2.0, 0.2}, {1.0, 0.4}}, kLastLevel{1.0, 1.0};
+constexpr std::size_t kFewestCells = 50;
 constexpr int kRoundsAtRest = 6;
 constexpr double kSettledAtRest = 1e-3;  // m
 
@@ -39,6 +40,9 @@ class Instant
   }
 
   const std::vector<Station>& stations() const { return stations_; }
+
+  /** Of 1 m: a covered lidar fills few, and few fit anywhere. */
+  std::size_t cells() const { return cellsOfLidar(stations_, {}, atRest(), kLastLevel).front().size(); }
 
   MountFit fitOf(const Mount& mount) const { return mountFit(stations_, mount, atRest()); }
 
@@ -79,19 +83,20 @@ MountEstimate estimateFrom(const StaticLidar& lidar, const StaticLidar& referenc
   const LidarScan scan = scanOf(lidar);
   const Instant instant(scan, known);
   const Mount given{lidar.body_T_sensor, 0};
+  MountEstimate estimate;
+  estimate.mount = given;
+  estimate.stations = 1;
+  estimate.outcome = MountOutcome::NothingShared;
+  if (instant.cells() < kFewestCells) return estimate;
   const Mount start = findStart(instant.stations(), given, pose_given, {scan}, {scanOf(reference)},
                                 reference.body_T_sensor, atRest());
   Mount mount = instant.improved(start);
   const RegistrationResult result = instant.registered(mount);
   mount.body_T_sensor = result.target_T_source * mount.body_T_sensor;
 
-  MountEstimate estimate;
-  estimate.mount = given;
-  estimate.stations = 1;
   const MountFit before = instant.fitOf(given), after = instant.fitOf(mount);
   estimate.shared_before = before.shared, estimate.distance_before = before.distance;
   estimate.shared_after = after.shared, estimate.distance_after = after.distance;
-  estimate.outcome = MountOutcome::NothingShared;
   if (after.shared < kLeastSharedAtRest) return estimate;
   estimate.outcome = MountOutcome::Unstable;
   if (result.outcome == Outcome::IterationLimit || after.shared < before.shared - kMostShareLostAtRest) return estimate;
