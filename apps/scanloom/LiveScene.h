@@ -1,10 +1,10 @@
 #pragma once
 #include "core/Bytes.h"
 
-#include <Eigen/Core>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfLines.h>
+#include <Eigen/Core>
 
 #include <cstdint>
 #include <vector>

@@ -221,8 +221,7 @@ std::function<int()> addCalibrateOptions(CLI::App& app)
   addOption(app, "--reference", arguments->reference,
             "lidar whose pose is right, and to which the others are calibrated [the first]")
       .typeName("NAME");
-  const Option clocks =
-      addFlag(app, "--clocks", arguments->clocks, "estimate how late each lidar's stamps are, too");
+  const Option clocks = addFlag(app, "--clocks", arguments->clocks, "estimate how late each lidar's stamps are, too");
   addFlag(app, "--static", arguments->clouds,
           "without a drive: RECORDING is clouds of one instant (.ply, .pcd, .bin), each called like its lidar, and a "
           "file with lines T_body_<name>")

@@ -67,8 +67,7 @@ struct Source
 std::unique_ptr<InputDisplay> displayOf(const Source& source, SensorInput& input)
 {
   if (source.isLive()) return std::make_unique<InputDisplay>("record", input);
-  if (!source.clouds.empty())
-    return std::make_unique<InputDisplay>("record", input, source.clouds.size(), "clouds");
+  if (!source.clouds.empty()) return std::make_unique<InputDisplay>("record", input, source.clouds.size(), "clouds");
   if (!source.scene) return std::make_unique<InputDisplay>("record", input, megabytesOf(source.rig.captures), "MB");
   const double duration = std::ceil(source.scene->span.duration);
   return std::make_unique<InputDisplay>("record", input, static_cast<std::uint64_t>(duration), "s");

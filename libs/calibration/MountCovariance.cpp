@@ -10,11 +10,11 @@ namespace scanloom
 namespace
 {
 constexpr std::size_t kBlocks = 20;
-constexpr double kUntold = 10;                               // m
-constexpr double kOpenClock = 0.005;                         // s
-constexpr double kFlat = 1e-4;                               // of the largest curvature
+constexpr double kUntold = 10;                                // m
+constexpr double kOpenClock = 0.005;                          // s
+constexpr double kFlat = 1e-4;                                // of the largest curvature
 constexpr double kCommonOffset = 0.002, kCommonShare = 0.06;  // m; of the distance of surfaces
-constexpr double kCommonArm = 10;                            // m: the same error as a turn is this much less
+constexpr double kCommonArm = 10;                             // m: the same error as a turn is this much less
 
 /** The expectation of a scatter's inverse is larger than that of few blocks shows (Hotelling's T2). */
 Matrix7d scatterOf(const std::vector<Vector7d>& gradients, int numbers)

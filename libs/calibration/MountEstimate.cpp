@@ -16,8 +16,8 @@ constexpr double kSettled = 5e-4;        // m, a round's correction
 constexpr double kNearlySettled = 2e-3;  // m: the last round's, where cells come and go at the limit of thickness
 
 constexpr MountLevel kCoarse{2.0, 0.2, 1}, kMiddle{1.0, 0.4, 1};
-// Each lidar sees the near side of bushes and crowns: cells full of leaves pull by 1 cm and 0.1 deg in a dense stand. Of
-// cells of 2 or 3 points the covariance is assumed, and thin enough.
+// Each lidar sees the near side of bushes and crowns: cells full of leaves pull by 1 cm and 0.1 deg in a dense stand.
+// Of cells of 2 or 3 points the covariance is assumed, and thin enough.
 constexpr MountLevel kFine{1.0, 1.0, std::numeric_limits<std::size_t>::max(), 2, 0.1};
 
 std::vector<Vector6d> twistsOf(const std::vector<Station>& stations)

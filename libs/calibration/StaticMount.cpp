@@ -57,7 +57,8 @@ class Instant
         std::vector<Neighbourhoods> pairs = stationPairs(known, own);
         const MountMinimum minimum = minimiseMount(pairs, {Vector6d::Zero()}, Clock::Kept, level.d2);
         mount.body_T_sensor = minimum.correction.pose * mount.body_T_sensor;
-        if (boxMinus(minimum.correction.pose, Rigid::identity()).cwiseQuotient(stepOfMetres()).norm() < kSettledAtRest) break;
+        if (boxMinus(minimum.correction.pose, Rigid::identity()).cwiseQuotient(stepOfMetres()).norm() < kSettledAtRest)
+          break;
       }
     }
     return mount;
@@ -88,8 +89,8 @@ MountEstimate estimateFrom(const StaticLidar& lidar, const StaticLidar& referenc
   estimate.stations = 1;
   estimate.outcome = MountOutcome::NothingShared;
   if (instant.cells() < kFewestCells) return estimate;
-  const Mount start = findStart(instant.stations(), given, pose_given, {scan}, {scanOf(reference)},
-                                reference.body_T_sensor, atRest());
+  const Mount start =
+      findStart(instant.stations(), given, pose_given, {scan}, {scanOf(reference)}, reference.body_T_sensor, atRest());
   Mount mount = instant.improved(start);
   const RegistrationResult result = instant.registered(mount);
   mount.body_T_sensor = result.target_T_source * mount.body_T_sensor;
@@ -128,8 +129,8 @@ std::vector<MountEstimate> estimateStaticMounts(const std::vector<StaticLidar>& 
       estimates[i] = estimateFrom(lidars[i], lidars[reference], known, pose_given);
       if (estimates[i].outcome == MountOutcome::Estimated) estimates[i].covariance += of_known;
     }
-    const auto found = std::stable_partition(waiting.begin(), waiting.end(), [&](std::size_t i)
-                                             { return estimates[i].outcome != MountOutcome::Estimated; });
+    const auto found = std::stable_partition(
+        waiting.begin(), waiting.end(), [&](std::size_t i) { return estimates[i].outcome != MountOutcome::Estimated; });
     if (found == waiting.end()) break;
     for (auto i = found; i != waiting.end(); ++i)
     {

@@ -16,8 +16,8 @@ struct Station
 
 /**
  * At most 60, evenly chosen, at least 0.7 m or 10 deg apart: a machine at rest gives a single one. The scans of both
- * lidars are 1 m or 10 deg apart, from up to `reach` (m) around: what one lidar sees first and another later is compared
- * as well. The farther, the more the error of the path counts.
+ * lidars are 1 m or 10 deg apart, from up to `reach` (m) around: what one lidar sees first and another later is
+ * compared as well. The farther, the more the error of the path counts.
  *
  * Both lidars have scans from all around: leaves, and stems, are seen from one side in a single scan, and in many from
  * many. One scan against many gave errors of 5 mm in a sparse stand and 20 mm and 0.1 deg in a dense one.

@@ -31,7 +31,7 @@ struct LidarCalibration
 
 /** By what both saw at the same places nearly at once; where that is nothing, within more of the drive. */
 LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLidar>&, std::size_t reference,
-                             const CalibrationDrive&, Clock, PoseGiven);
+                                const CalibrationDrive&, Clock, PoseGiven);
 
 /** Whether all lidars, and the IMU if there is one, are told. */
 bool trusted(const Calibration&);

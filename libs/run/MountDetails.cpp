@@ -150,7 +150,10 @@ bool GroundStrip::contains(const Eigen::Vector3f& p) const
   return along >= 0 && along < kStripLength && std::abs(aside) < kStripWidth / 2;
 }
 
-float GroundStrip::height(const Eigen::Vector3f& p) const { return p.z() - plane.dot(Eigen::Vector3f(p.x(), p.y(), 1)); }
+float GroundStrip::height(const Eigen::Vector3f& p) const
+{
+  return p.z() - plane.dot(Eigen::Vector3f(p.x(), p.y(), 1));
+}
 
 std::optional<GroundStrip> bestGroundStrip(const Points3& reference, const Points3& lidar)
 {

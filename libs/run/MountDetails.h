@@ -14,7 +14,7 @@ using Points3 = std::vector<Eigen::Vector3f>;  // m, z up
 struct SeenStem
 {
   Eigen::Vector2f centre;
-  float ground = 0;       // m, height of the ground there
+  float ground = 0;      // m, height of the ground there
   std::size_t seen = 0;  // points of the lidar that sees less of it
 };
 
@@ -30,7 +30,7 @@ struct GroundStrip
   int axis = 0;
   float from = 0, across = 0;
   Eigen::Vector3f plane{0, 0, 0};  // z = plane . (x, y, 1)
-  std::size_t seen = 0;            // points of the lidar that sees less, summed over pieces of 0.5 m, 10 at most of each
+  std::size_t seen = 0;  // points of the lidar that sees less, summed over pieces of 0.5 m, 10 at most of each
 
   bool contains(const Eigen::Vector3f&) const;
   float height(const Eigen::Vector3f&) const;  // m, above the plane

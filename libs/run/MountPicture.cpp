@@ -16,7 +16,7 @@ namespace scanloom
 namespace
 {
 constexpr int kMargin = 50, kTitle = 60, kStemSide = 480, kGroundWidth = 900, kGap = 60;
-constexpr double kStemWindow = 1.6;  // m
+constexpr double kStemWindow = 1.6;    // m
 constexpr double kGroundHeight = 0.6;  // m, shown above and below the plane together
 
 const Color kPaper{0.98F, 0.98F, 0.97F}, kInk{0.15F, 0.16F, 0.18F}, kGrid{0.80F, 0.80F, 0.80F};
@@ -99,7 +99,7 @@ void paintStem(Canvas& canvas, int top, const std::string& when, const MountScen
 void paintGround(Canvas& canvas, int top, const std::string& when, const MountScene& scene, const Points3& lidar,
                  const std::optional<GroundStrip>& strip)
 {
-  Panel panel{kMargin + kStemSide + kGap, top,          kGroundWidth, kStemSide, {0, -kGroundHeight / 2},
+  Panel panel{kMargin + kStemSide + kGap,       top, kGroundWidth, kStemSide, {0, -kGroundHeight / 2},
               {kStripLength, kGroundHeight / 2}};
   paintFrame(canvas, panel, {1, 0.1},
              fmt::format("{}: the ground from the side, along {}, height {} times as large (m)", when,
@@ -117,8 +117,9 @@ void paintGround(Canvas& canvas, int top, const std::string& when, const MountSc
 
 /** The scene in which both see most, and what they see there. */
 template <typename Detail>
-std::pair<const MountScene*, std::optional<Detail>> bestOf(
-    const std::vector<MountScene>& scenes, std::optional<Detail> (*detailOf)(const Points3&, const Points3&))
+std::pair<const MountScene*, std::optional<Detail>> bestOf(const std::vector<MountScene>& scenes,
+                                                           std::optional<Detail> (*detailOf)(const Points3&,
+                                                                                             const Points3&))
 {
   std::pair<const MountScene*, std::optional<Detail>> best{&kNothing, std::nullopt};
   for (const MountScene& scene : scenes)

@@ -41,8 +41,8 @@ StaticClouds readStaticClouds(const std::vector<std::filesystem::path>& clouds,
         throw std::runtime_error(fmt::format("{}: another cloud is called '{}', too", cloud.string(), name));
     const auto pose = poses.find("T_body_" + name);
     if (!extrinsics.empty() && pose == poses.end())
-      throw std::runtime_error(fmt::format("{} has no T_body_{}, the pose of {}", extrinsics.front().string(), name,
-                                           cloud.string()));
+      throw std::runtime_error(
+          fmt::format("{} has no T_body_{}, the pose of {}", extrinsics.front().string(), name, cloud.string()));
     all.lidars.push_back({name, pose == poses.end() ? Rigid::identity() : pose->second});
     all.points.push_back({readCloud(cloud).points, all.lidars.back().body_T_sensor});
   }

@@ -165,26 +165,33 @@ void Tracker::locate(const Seen& seen, const Prediction& predicted, TrackerState
       state.trust.lost
           // The effort is the search's: the prediction of an IMU that lost the body is worth little.
           ? registerFinely(map, seen.views, guess.target_T_source, limited_effort_, times)
-          : registerTwice(map, seen.views, guess, times);
+          : registerScan(seen.views, guess, state, times);
   if (estimate.registration->outcome != Outcome::LowOverlap) addRegistration(guess, state, estimate);
 }
 
 /**
- * Roughly first, and finely from there. Fine cells alone do where the prediction is within their reach and what they
- * find agrees with it: of a scan from elsewhere they know nothing.
+ * Fine cells alone do where the prediction is within their reach, and what they find agrees with it and fits as well as
+ * the last trusted scan did: of a scan from elsewhere, or after a false reading of the IMU, they know nothing.
  */
+RegistrationResult Tracker::registerScan(const std::vector<View>& views, const PoseGuess& guess,
+                                         const TrackerState& state, StageTimes& times) const
+{
+  constexpr double kUsualSurprise = 3, kAsGood = 0.9;  // deviations; share of the score
+  const NdtMap& map = state.local_map.ndt();
+  const std::optional<LastSeen>& seen = state.recovery.lastSeen();
+  if (!settings_.slam.tracking.refine || !seen || !isWithinReach(guess, settings_.registration.fine_cells))
+    return registerTwice(map, views, guess, times);
+  RegistrationResult fine = registerFinely(map, views, guess.target_T_source, settings_.registration, times);
+  const bool fits = fine.trustworthy() && fine.score < kAsGood * seen->score;  // scores are negative
+  return fits && surpriseOf(fine, guess) < kUsualSurprise ? fine : registerTwice(map, views, guess, times);
+}
+
+/** Roughly, and finely from there. */
 RegistrationResult Tracker::registerTwice(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
                                           StageTimes& times) const
 {
-  constexpr double kUsualSurprise = 5;
-  const bool refine = settings_.slam.tracking.refine;
-  if (refine && isWithinReach(guess, settings_.registration.fine_cells))
-  {
-    RegistrationResult fine = registerFinely(map, views, guess.target_T_source, settings_.registration, times);
-    if (fine.trustworthy() && surpriseOf(fine, guess) < kUsualSurprise) return fine;
-  }
   const RegistrationResult rough = registerRoughly(map, views, guess, settings_.registration, times);
-  if (!refine) return rough;
+  if (!settings_.slam.tracking.refine) return rough;
   const Rigid start = rough.trustworthy() ? rough.target_T_source : guess.target_T_source;
   return registerFinely(map, views, start, settings_.registration, times);
 }

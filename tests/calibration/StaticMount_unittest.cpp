@@ -42,10 +42,10 @@ void expectPose(const MountEstimate& estimate, const Rigid& truth)
 
 TEST(StaticMounts, ofThreeLidarsThatAreTenDegreesOffAreTheirPoses)
 {
-  const std::vector<MountEstimate> estimates = estimateStaticMounts(
-      {seenFrom(kTop, kTop, 1), seenFrom(kLeft, at(0.1, 0.5, 2.8, 98, 5, -44), 2),
-       seenFrom(kRight, at(0, -0.8, 2.5, -81, -3, -42), 3)},
-      0, PoseGiven::Within20Degrees);
+  const std::vector<MountEstimate> estimates =
+      estimateStaticMounts({seenFrom(kTop, kTop, 1), seenFrom(kLeft, at(0.1, 0.5, 2.8, 98, 5, -44), 2),
+                            seenFrom(kRight, at(0, -0.8, 2.5, -81, -3, -42), 3)},
+                           0, PoseGiven::Within20Degrees);
   expectPose(estimates[1], kLeft);
   expectPose(estimates[2], kRight);
   EXPECT_GT(estimates[1].shared_after, estimates[1].shared_before);

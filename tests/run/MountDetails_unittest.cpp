@@ -34,10 +34,7 @@ TEST(MountDetails, findTheStem)
   EXPECT_LT((stem->centre - Eigen::Vector2f(5, 3)).norm(), 0.3);
 }
 
-TEST(MountDetails, findNoStemThatOnlyOneLidarSees)
-{
-  EXPECT_FALSE(bestStem(groundAndStem(), {}));
-}
+TEST(MountDetails, findNoStemThatOnlyOneLidarSees) { EXPECT_FALSE(bestStem(groundAndStem(), {})); }
 
 TEST(MountDetails, measureHeightsAboveSlopingGround)
 {

@@ -43,7 +43,6 @@ TEST(StaticClouds, withoutExtrinsicsHaveNoPoses)
 TEST(StaticClouds, ofWhichOneHasNoPoseAreRefused)
 {
   const TemporaryFolder folder;
-  EXPECT_THROW(
-      readStaticClouds({cloudIn(folder, "left.ply")}, {extrinsicsIn(folder, "T_body_right 1 2 3 0 0 0\n")}),
-      std::runtime_error);
+  EXPECT_THROW(readStaticClouds({cloudIn(folder, "left.ply")}, {extrinsicsIn(folder, "T_body_right 1 2 3 0 0 0\n")}),
+               std::runtime_error);
 }
