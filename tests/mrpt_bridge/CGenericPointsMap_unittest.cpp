@@ -7,6 +7,7 @@
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/poses/CPose3D.h>
 #include <mrpt/serialization/CArchive.h>
+#include <mrpt/version.h>
 
 namespace scanloom
 {
@@ -127,7 +128,10 @@ ByteVector framed(std::uint8_t version, const ByteVector& payload)
   return w.bytes;
 }
 
-constexpr std::size_t kOptionsSize = 40;  // insertionOptions and likelihoodOptions, each with its own version byte
+constexpr bool kClassIsOurs = MRPT_VERSION < 0x20f00;
+
+// insertionOptions and likelihoodOptions, each with its own version byte; since 2.15.3 without disableDeletion
+constexpr std::size_t kOptionsSize = MRPT_VERSION < 0x20f03 ? 40 : 39;
 
 /** The options at the end of every map, from a map that MRPT wrote. */
 WireWriter& appendOptions(WireWriter& w)
@@ -228,6 +232,7 @@ TEST(CGenericPointsMap, refusesAnUnknownVersion) { EXPECT_THROW(deserialized(fra
 
 TEST(CGenericPointsMap, refusesALengthBeyondTheDataWithoutTakingMemoryForIt)
 {
+  if (!kClassIsOurs) GTEST_SKIP() << "MRPT's own class takes it; what we read passes a CountedArchive";
   WireWriter w;
   w.value(0xFFFFFFFFu).values<float>({1, 2, 3});
   EXPECT_THROW(deserialized(framed(3, w.bytes)), std::exception);
