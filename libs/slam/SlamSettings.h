@@ -77,7 +77,7 @@ struct SlamSettings
   ImuNoise lidar_imu = insideLidar();
   ImuNoise no_imu = ofConstantMotion();
   CropOptions crop;
-  ScanRegistrationOptions registration{cells(2.5), thinned(farCells(1.0)), reach(0.3), fineReach(1.0)};
+  ScanRegistrationOptions registration{cells(2.5), thinned(farCells(1.0)), reach(0.3), reach(1.0)};
   NdtOptions map_cells = farCells(1.0);
   NdtOptions keyframe_cells = thinned(farCells(0.5));
   LocalMapOptions local_map;
@@ -149,13 +149,6 @@ struct SlamSettings
     RegistrationOptions options;
     options.first_d2 = options.d2 = d2;
     options.min_overlap = 0.1;
-    return options;
-  }
-  /** Registrations are known to some millimetres: a smaller step changes no pose. */
-  static RegistrationOptions fineReach(double d2)
-  {
-    RegistrationOptions options = reach(d2);
-    options.tolerance = 1e-3;
     return options;
   }
 };
