@@ -176,7 +176,7 @@ void Tracker::locate(const Seen& seen, const Prediction& predicted, TrackerState
 RegistrationResult Tracker::registerScan(const std::vector<View>& views, const PoseGuess& guess,
                                          const TrackerState& state, StageTimes& times) const
 {
-  constexpr double kUsualSurprise = 3, kAsGood = 0.9;  // deviations; share of the score
+  constexpr double kUsualSurprise = 5, kAsGood = 0.9;  // deviations; share of the score
   const NdtMap& map = state.local_map.ndt();
   const std::optional<LastSeen>& seen = state.recovery.lastSeen();
   if (!settings_.slam.tracking.refine || !seen || !isWithinReach(guess, settings_.registration.fine_cells))
