@@ -150,6 +150,7 @@ Observed observe(RigLive& live, const LoopbackLidars& lidars, ShownOnPage* page,
   while (!live.ended())
   {
     const auto event = page ? page->input.next(50ms) : live.next(50ms);
+    const Clock::time_point came = Clock::now();
     if (page) page->feed.offer();
     if (writer && event) writer->write(*toObservation(*event, live.setup(), DriverOptions{}));
     if (writer) writer->secure();
@@ -164,7 +165,7 @@ Observed observe(RigLive& live, const LoopbackLidars& lidars, ShownOnPage* page,
       if (!cut)
       {
         observed.after_packet.push_back(live.releaseLatency());
-        observed.after_end.push_back(Clock::now().time_since_epoch() - lidars.hostTimeOf(scan.end()));
+        observed.after_end.push_back(came.time_since_epoch() - lidars.hostTimeOf(scan.end()));
       }
     }
     const Clock::time_point now = Clock::now();
