@@ -42,8 +42,11 @@ scanloom_package(plugin scanloom-mrpt-plugin science ""
 CMultiLidarSensor, and point clouds with a time and a lidar for each point.")
 scanloom_package(doc scanloom-doc doc ""
 "Tutorial, how-to pages, parameters and studies, as Markdown.")
+if(laszip_library)
+  set(laszip_dev ", liblaszip-dev")
+endif()
 scanloom_package(dev libscanloom-dev libdevel
-"libceres-dev, libcpp-httplib-dev, libeigen3-dev, libfmt-dev, liblzf-dev, liblzma-dev, libmrpt-expr-dev, libmrpt-img-dev, libmrpt-obs-dev, libbz2-dev, liblz4-dev, libpcap-dev, libsqlite3-dev, libssl-dev, libtbb-dev, libzstd-dev, nlohmann-json3-dev, pkgconf, robin-map-dev, zlib1g-dev"
+"libceres-dev, libcpp-httplib-dev, libeigen3-dev, libfmt-dev, liblzf-dev, liblzma-dev, libmrpt-expr-dev, libmrpt-img-dev, libmrpt-obs-dev, libbz2-dev, liblz4-dev, libpcap-dev, libsqlite3-dev, libssl-dev, libtbb-dev, libzstd-dev, nlohmann-json3-dev, pkgconf, robin-map-dev, zlib1g-dev${laszip_dev}"
 "Decoding, batching, IMU preintegration, NDT registration and the estimator, as
 static libraries for CMake's find_package(scanloom).")
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)

@@ -189,7 +189,7 @@ std::function<int()> addMapOptions(CLI::App& app)
       .existingFile()
       .typeName("FILE");
   addOption(app, "-o,--output", arguments->outputs,
-            "the file to write (repeatable); its ending is the format: .bt, .ot, .ply, .pcd, .las, .simplemap or "
+            "the file to write (repeatable); its ending is the format: .bt, .ot, .ply, .pcd, .las, .laz, .simplemap or "
             ".3Dscene; for a trajectory .tum, .csv (EuRoC) or .txt (KITTI, stamps in <name>_times.txt)")
       .required()
       .repeatable()

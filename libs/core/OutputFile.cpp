@@ -39,10 +39,16 @@ void OutputFile::flush()
 
 void OutputFile::commit()
 {
-  errno = 0;
-  stream_.close();
-  requireWritten();
+  closeStream();
   file_.commit();
+}
+
+void OutputFile::commitConverted(const Convert& convert)
+{
+  closeStream();
+  AtomicFile converted(path_);
+  convert(file_.temporary(), converted.temporary());
+  converted.commit();
 }
 
 void OutputFile::commitLines()
@@ -50,6 +56,13 @@ void OutputFile::commitLines()
   stream_.close();
   std::filesystem::resize_file(file_.temporary(), lengthOfLines(file_.temporary()));
   file_.commit();
+}
+
+void OutputFile::closeStream()
+{
+  errno = 0;
+  stream_.close();
+  requireWritten();
 }
 
 void OutputFile::requireWritten() const

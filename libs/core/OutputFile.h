@@ -3,6 +3,7 @@
 #include "core/AtomicFile.h"
 
 #include <fstream>
+#include <functional>
 
 namespace scanloom
 {
@@ -21,10 +22,18 @@ class OutputFile
   /** Gives the file its name. No write may follow. Throws std::runtime_error if not all bytes could be written. */
   void commit();
 
+  /**
+   * The same with what `convert` makes of the file: it reads the first of the two and writes the second, which gets the
+   * name. Throws what `convert` throws, too.
+   */
+  using Convert = std::function<void(const std::filesystem::path& written, const std::filesystem::path& converted)>;
+  void commitConverted(const Convert& convert);
+
   /** The same for a text that could not be written to its end: with the whole lines that it has. */
   void commitLines();
 
  private:
+  void closeStream();
   void requireWritten() const;
 
   std::filesystem::path path_;

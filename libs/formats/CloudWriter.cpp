@@ -1,5 +1,8 @@
 #include "formats/CloudWriter.h"
 
+#include "core/ConfigError.h"
+#include "formats/LazFile.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,7 +12,7 @@ namespace scanloom
 {
 const std::vector<std::string>& CloudWriter::endings()
 {
-  static const std::vector<std::string> endings{".ply", ".pcd", ".las"};
+  static const std::vector<std::string> endings{".ply", ".pcd", ".las", ".laz"};
   return endings;
 }
 
@@ -19,11 +22,20 @@ CloudWriter::MakeEncoding CloudWriter::encodingOf(const std::filesystem::path& p
   if (ending == ".ply") return plyEncoding;
   if (ending == ".pcd") return pcdEncoding;
   if (ending == ".las") return lasEncoding;
+  if (ending == ".laz" && !hasLaszip())
+    throw UsageError(
+        fmt::format("{}: this scanloom was built without LASzip, which Debian has from release 13 on: "
+                    "write a .las file",
+                    path.string()));
+  if (ending == ".laz") return lasEncoding;
   throw std::invalid_argument(
       fmt::format("{}: a cloud's file must end in one of {}", path.string(), fmt::join(endings(), ", ")));
 }
 
-CloudWriter::CloudWriter(const std::filesystem::path& path) : make_encoding_(encodingOf(path)), file_(path) {}
+CloudWriter::CloudWriter(const std::filesystem::path& path)
+  : make_encoding_(encodingOf(path)), is_laz_(path.extension() == ".laz"), file_(path)
+{
+}
 
 void CloudWriter::begin(Timestamp origin)
 {
@@ -48,6 +60,9 @@ void CloudWriter::close()
   if (!encoding_) begin(Timestamp{});
   file_.stream().seekp(0);
   file_.stream() << encoding_->header(size_);
-  file_.commit();
+  if (is_laz_)
+    file_.commitConverted(compressLas);
+  else
+    file_.commit();
 }
 }  // namespace scanloom

@@ -17,13 +17,17 @@ namespace scanloom
  *   comment of the header.
  * - .las: coordinates in steps of 1 mm, intensity times 257, GPS time (LAS counts it from 2011-09-14 on; stamps are
  *   taken for UTC), the ring as user data, sensor_id + 1 as point source, and as scanner channel where it is below 4.
+ * - .laz: the same, compressed by close() from a .las file that is removed then.
  */
 class CloudWriter
 {
  public:
   static const std::vector<std::string>& endings();
 
-  /** Throws std::invalid_argument for another ending, std::runtime_error if the file cannot be written. */
+  /**
+   * Throws std::invalid_argument for another ending, UsageError for .laz without LASzip, and std::runtime_error if the
+   * file cannot be written.
+   */
   explicit CloudWriter(const std::filesystem::path&);
 
   /**
@@ -43,6 +47,7 @@ class CloudWriter
   void begin(Timestamp origin);
 
   MakeEncoding make_encoding_;
+  bool is_laz_;
   OutputFile file_;
   std::unique_ptr<CloudEncoding> encoding_;  // none before the first cloud
   Timestamp origin_;

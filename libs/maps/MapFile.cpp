@@ -16,7 +16,7 @@ namespace
 {
 using Paths = std::vector<std::filesystem::path>;
 
-const std::vector<std::string> kEndings{".bt", ".ot", ".ply", ".pcd", ".las", ".simplemap", ".3Dscene"};
+const std::vector<std::string> kEndings{".bt", ".ot", ".ply", ".pcd", ".las", ".laz", ".simplemap", ".3Dscene"};
 
 class CloudMap : public MapFile
 {

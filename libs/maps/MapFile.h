@@ -10,8 +10,8 @@
 
 namespace scanloom
 {
-/** Throws UsageError for an ending other than .bt, .ot, .ply, .pcd, .las, .simplemap and .3Dscene, or the same ending
- * twice. */
+/** Throws UsageError for an ending other than .bt, .ot, .ply, .pcd, .las, .laz, .simplemap and .3Dscene, or the same
+ * ending twice. */
 void requireMapEndings(const std::vector<std::filesystem::path>&);
 
 /** A map file that close() completes and renames to its name. */

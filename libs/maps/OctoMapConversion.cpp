@@ -14,8 +14,9 @@ void requireConvertible(const std::filesystem::path& octomap, const std::vector<
   {
     if (output.extension() == ".simplemap")
       throw UsageError("an OctoMap holds no scans: it cannot become a .simplemap");
-    if (output.extension() == ".pcd" || output.extension() == ".las")
-      throw UsageError("an OctoMap holds voxels: they become a .ply; a .pcd or .las is made of keyframes or a rawlog");
+    if (const auto ending = output.extension(); ending == ".pcd" || ending == ".las" || ending == ".laz")
+      throw UsageError(
+          "an OctoMap holds voxels: they become a .ply; make .pcd, .las and .laz of keyframes or a rawlog");
     if (output.extension() == ".ot" && octomap.extension() == ".bt")
       throw UsageError("a .bt holds no log odds: it cannot become an .ot");
   }

@@ -19,7 +19,7 @@ std::string DenseMap::nameOf(const OutputOptions& options)
 {
   const std::vector<std::string>& endings = CloudWriter::endings();
   if (std::find(endings.begin(), endings.end(), "." + options.dense_map) == endings.end())
-    throw ConfigError(fmt::format("[output] dense_map = {}: must be las, pcd or ply", options.dense_map));
+    throw ConfigError(fmt::format("[output] dense_map = {}: must be las, laz, pcd or ply", options.dense_map));
   return "dense_map." + options.dense_map;
 }
 

@@ -17,9 +17,10 @@ struct OutputOptions
   {
     visit(o.maps,
           Field{"maps", "", "false: write trajectories and summary only, no keyframes, clouds, occupancy or picture"});
-    visit(o.dense_map, Field{"dense_map", "",
-                             "las, pcd or ply: write dense_map.las, ... with the points of all processed scans, not "
-                             "only of keyframes; empty: none"});
+    visit(o.dense_map,
+          Field{"dense_map", "",
+                "las, laz, pcd or ply: write dense_map.las, ... with the points of all processed scans, not "
+                "only of keyframes; empty: none"});
     visit(o.dense_voxel, Field{"dense_voxel", "m",
                                "edge of cubes of which the dense map has one point each, the first seen; 0: all points",
                                between(0, 100)});

@@ -11,7 +11,7 @@ folder=${BARE_DEBIAN:-/var/tmp/bare_debian}/arm64
 system=$folder/system
 work=$system/root/scanloom
 inside() { unshare --mount --pid --fork --root="$system" --mount-proc env -i PATH="$PATH" HOME=/root sh -c "$1"; }
-linesOf() { awk -v group="$1" '/^# group:/ { here = $3 == group; next } here && /-dev/ { print $1 }' "$project/apt-packages.txt"; }
+linesOf() { awk -v group="$1" '/^# group:/ { here = $3 == group; next } here && /-dev/ && !/none$/ { print $1 }' "$project/apt-packages.txt"; }
 
 if [ ! -f "$folder/ready" ]; then
   mkdir -p "$folder"

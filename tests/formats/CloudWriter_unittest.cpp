@@ -2,6 +2,7 @@
 
 #include "core/Bytes.h"
 #include "formats/CloudFile.h"
+#include "formats/LazFile.h"
 #include "support/TemporaryFolder.h"
 
 #include <fmt/format.h>
@@ -136,7 +137,8 @@ TEST(CloudWriter, refusesAnEndingThatItDoesNotKnow) { EXPECT_THROW(CloudWriter("
 TEST(CloudWriter, mayWriteAnEmptyFile)
 {
   const TemporaryFolder folder;
-  for (const std::string& ending : CloudWriter::endings()) CloudWriter(folder / ("a" + ending)).close();
+  for (const std::string& ending : CloudWriter::endings())
+    if (ending != ".laz" || hasLaszip()) CloudWriter(folder / ("a" + ending)).close();
 
   EXPECT_TRUE(readCloud(folder / "a.ply").points.empty());
   EXPECT_TRUE(readCloud(folder / "a.pcd").points.empty());
