@@ -14,8 +14,8 @@ Option addRecording(CLI::App& app, RecordingArguments& arguments, const std::str
   const Option recording = addOption(
       app, name, arguments.paths,
       "a recording: captures (pcap, pcapng; also .gz, .zst), a bag of ROS (.db3, .mcap, .bag), a rawlog, or a "
-      "folder of these; the lidars' metadata, poses and IMU are found beside it; for slam, record and info also "
-      "clouds (PLY, PCD, KITTI)");
+      "folder of these; the lidars' metadata, poses and IMU are found beside it; for slam, record, "
+      "doctor and info also clouds (PLY, PCD, KITTI)");
   addOption(app, "--metadata", arguments.metadata, "metadata of a lidar, instead of those beside the captures")
       .typeName("FILE")
       .repeatable();
@@ -35,8 +35,8 @@ RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds)
         fmt::format("{} and {}: two rawlogs: name one of them", files.rawlogs[0].string(), files.rawlogs[1].string()));
   if (!files.clouds.empty() && clouds == Clouds::Refused)
     throw UsageError(
-        fmt::format("{}: a point cloud: 'slam' localises with clouds, 'info' and 'view' show them; others take the "
-                    "rawlog that 'record' makes of them",
+        fmt::format("{}: a point cloud: slam, record, doctor, info and view take clouds, others the rawlog that "
+                    "'record' makes of them",
                     files.clouds.front().string()));
   if (files.captures.empty() && !arguments.metadata.empty())
     throw UsageError("--metadata is for captures: other recordings hold what it tells");

@@ -51,12 +51,20 @@ std::string parametersPage()
   return page + "\n" + toMarkdown(knownToAnyVerb());
 }
 
+/** Of the file into which standard output goes, else the current one: a configuration's paths are relative to it. */
+std::filesystem::path folderOfOutput()
+{
+  std::error_code not_open;
+  const std::filesystem::path output = std::filesystem::read_symlink("/proc/self/fd/1", not_open);
+  return std::filesystem::is_regular_file(output, not_open) ? output.parent_path() : std::filesystem::current_path();
+}
+
 int printRigOf(const std::vector<std::filesystem::path>& recording)
 {
   const RecordingFiles files = filesOf(recording);
   if (files.captures.empty())
     throw UsageError(fmt::format("{}: only captures need a configuration of their lidars", recording.front().string()));
-  const RecognisedRig rig = recogniseRig(files);
+  const RecognisedRig rig = recogniseRig(files, folderOfOutput());
   for (const std::string& note : rig.notes) fmt::print(stderr, "warning: {}\n", note);
   std::cout << rig.ini;
   return kDone;

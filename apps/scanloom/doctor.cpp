@@ -9,7 +9,9 @@
 #include "doctor/DoctorFindings.h"
 #include "doctor/DoctorJson.h"
 #include "doctor/Listening.h"
-#include "doctor/RawlogEvidence.h"
+#include "doctor/ScanEvidence.h"
+#include "mrpt_bridge/RawlogInput.h"
+#include "recordings/CloudsInput.h"
 
 #include <fmt/format.h>
 
@@ -77,23 +79,30 @@ RigEvidence listen(const Rig& rig, bool poses_known, const DoctorArguments& argu
   return listener.finish();
 }
 
-RigEvidence read(const std::filesystem::path& rawlog, const DoctorArguments& arguments)
+/** Of a rawlog or clouds; clouds name no body frame. */
+RigEvidence read(const RecordingFiles& recording, const DoctorArguments& arguments)
 {
-  if (arguments.seconds > 0)
-    throw UsageError(fmt::format("{} is no capture: --seconds is for captures and live lidars", rawlog.string()));
-  RawlogEvidence evidence = rawlogEvidence(rawlog);
-  if (!evidence.damage.empty()) fmt::print(stderr, "warning: {}\n", evidence.damage);
-  return std::move(evidence.rig);
+  if (arguments.seconds > 0) throw UsageError("--seconds is for captures and live lidars");
+  const bool is_rawlog = !recording.rawlogs.empty();
+  std::unique_ptr<SensorInput> input;
+  if (is_rawlog)
+    input = std::make_unique<RawlogInput>(recording.rawlogs.front());
+  else
+    input = std::make_unique<CloudsInput>(recording.clouds);
+  RigEvidence evidence = scanEvidence(*input, is_rawlog, [] { return !interrupted(); });
+  for (const std::string& warning : input->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
+  return evidence;
 }
 
 int run(const DoctorArguments& arguments)
 {
   if (!arguments.recording.given() && arguments.configuration.files.empty())
     throw UsageError("nothing to examine: name a recording, or give -c CONFIG for live lidars");
-  const RecordingFiles recording = arguments.recording.given() ? filesOf(arguments.recording) : RecordingFiles{};
+  const RecordingFiles recording =
+      arguments.recording.given() ? filesOf(arguments.recording, Clouds::Taken) : RecordingFiles{};
   const Loaded<DoctorSettings> loaded = load<DoctorSettings>(arguments.configuration, recording, Poses::TakenAsZero);
-  const bool rawlog = !recording.rawlogs.empty();
-  const std::optional<Rig> rig = rawlog ? std::nullopt : std::optional(rigOf(loaded.configuration));
+  const bool scans = !recording.rawlogs.empty() || !recording.clouds.empty();
+  const std::optional<Rig> rig = scans ? std::nullopt : std::optional(rigOf(loaded.configuration));
   if (arguments.configuration.dry_run)
   {
     std::cout << toIni(loaded);
@@ -101,8 +110,8 @@ int run(const DoctorArguments& arguments)
   }
 
   catchInterruption();
-  const RigExamination examination = examine(
-      rig ? listen(*rig, loaded.poses_known, arguments) : read(recording.rawlogs.front(), arguments), loaded.settings);
+  const RigExamination examination =
+      examine(rig ? listen(*rig, loaded.poses_known, arguments) : read(recording, arguments), loaded.settings);
   const Findings findings = findingsOf(examination, loaded.settings);
   if (arguments.json)
     std::cout << toJson(examination, findings) << '\n';

@@ -12,7 +12,7 @@ namespace
 Finding groundInSensorFrame(const std::string& lidar, const GroundPlane& ground)
 {
   return {lidar, "ground", Verdict::NotMeasured,
-          fmt::format("{}{:.1f} deg off +z of the sensor frame (poses are known only with -c CONFIG)",
+          fmt::format("{}{:.1f} deg off +z of the sensor frame (its pose on the body is not known)",
                       groundInWords(ground), degreesBetween(ground.up, Eigen::Vector3d::UnitZ()))};
 }
 

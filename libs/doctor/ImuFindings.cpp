@@ -73,8 +73,8 @@ Finding upFinding(const ImuExamination& imu, bool poses_known, const ImuLimits& 
   {
     finding.verdict = Verdict::NotMeasured;
     finding.says =
-        fmt::format("{:.1f} deg off +z of the sensor frame, nearest axis {} (poses are known only with -c CONFIG)",
-                    tilt, nearestAxis(up));
+        fmt::format("{:.1f} deg off +z of the sensor frame, nearest axis {} (its pose on the body is not known)", tilt,
+                    nearestAxis(up));
     return finding;
   }
   finding.says = fmt::format("{:.1f} deg off the body's z", tilt);

@@ -4,10 +4,11 @@
 #include "doctor/DoctorFindings.h"
 #include "doctor/DoctorJson.h"
 #include "doctor/Gaps.h"
-#include "doctor/RawlogEvidence.h"
+#include "doctor/ScanEvidence.h"
 #include "edit/CloudObservation.h"
 #include "edit/RawlogHeader.h"
 #include "mrpt_bridge/Observations.h"
+#include "mrpt_bridge/RawlogInput.h"
 #include "mrpt_bridge/RawlogReader.h"
 #include "mrpt_bridge/jsonText.h"
 #include "rawlogs/Conversions.h"
@@ -277,7 +278,8 @@ CheckedRawlog checkRawlog(const std::filesystem::path& path, const KeepReading& 
   check.account = accountOf(path, [&](std::uint64_t bytes) { return !(stopped = !keep_reading(bytes)); });
   check.findings = findingsOf(check.account);
   if (stopped || !check.account.header) return check;
-  check.rig = examine(rawlogEvidence(path).rig, {});
+  RawlogInput input(path);
+  check.rig = examine(scanEvidence(input, true, [] { return true; }), {});
   const Findings of_rig = findingsOf(check.rig, {});
   check.findings.insert(check.findings.end(), of_rig.begin(), of_rig.end());
   return check;

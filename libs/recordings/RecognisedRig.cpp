@@ -78,13 +78,6 @@ std::string onlyOne(const Paths& files, const char* what)
   return files.empty() ? "" : files.front().string();
 }
 
-std::string listOf(const Paths& paths)
-{
-  std::vector<std::string> names;
-  for (const auto& path : paths) names.push_back(path.string());
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 bool isHeard(const FoundLidar& lidar) { return !lidar.topic.empty() || lidar.source != IpAddress{}; }
 
 std::string describe(const LidarDescription& lidar)
@@ -96,6 +89,7 @@ std::string describe(const LidarDescription& lidar)
 class Ini
 {
  public:
+  explicit Ini(const std::filesystem::path& folder) : folder_(std::filesystem::absolute(folder).lexically_normal()) {}
   void comment(const std::string& text) { text_ += fmt::format("// {}\n", text); }
   void set(const std::string& key, const std::string& value) { text_ += fmt::format("{:<16} = {}\n", key, value); }
   void leave(const std::string& key, const std::string& value, const std::string& why)
@@ -104,7 +98,21 @@ class Ini
   }
   std::string text() const { return text_; }
 
+  /** A file as it is named from the INI's folder; what is no file, as a model or a topic, stays as it is. */
+  std::string from(const std::filesystem::path& file) const
+  {
+    if (file.is_absolute() || !std::filesystem::exists(file)) return file.string();
+    return std::filesystem::absolute(file).lexically_proximate(folder_).string();
+  }
+  std::string from(const Paths& files) const
+  {
+    std::vector<std::string> names;
+    for (const auto& file : files) names.push_back(from(file));
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+
  private:
+  std::filesystem::path folder_;
   std::string text_ = "[lidars]\ndriver           = CMultiLidarSensor\nprocess_rate     = 100\n";
 };
 
@@ -112,7 +120,7 @@ void addLidar(const FoundLidar& lidar, const std::string& key, const std::string
 {
   ini.comment(describe(lidar.description));
   ini.set(key + "_name", name);
-  ini.set(key + "_metadata", lidar.metadata.string());
+  ini.set(key + "_metadata", ini.from(lidar.metadata));
   if (!lidar.topic.empty())
   {
     ini.set(key + "_topic", lidar.topic);
@@ -159,14 +167,15 @@ void addWaysOut(const std::string& extrinsics, const Poses& poses, std::size_t l
 void addImu(const std::string& key, const std::string& imu, const Poses& poses, RecognisedRig& rig, Ini& ini)
 {
   if (imu.empty()) return;
+  const std::string value = ini.from(std::filesystem::path(imu));
   if (const auto pose = poses.find("T_body_imu"); pose != poses.end())
   {
-    ini.set(key, imu);
+    ini.set(key, value);
     if (rig.poses_from_bag) ini.set("imu_pose", fmt::format("[{}]", poseText(pose->second)));
     rig.found.push_back(fmt::format("IMU of the body: {}", imu));
     return;
   }
-  ini.leave(key, imu, "imu_pose, the IMU's pose in the body frame, x y z (m) yaw pitch roll (deg)");
+  ini.leave(key, value, "imu_pose, the IMU's pose in the body frame, x y z (m) yaw pitch roll (deg)");
   rig.notes.push_back(
       fmt::format("{} is not used: its pose in the body frame is not known (imu_pose, or T_body_imu in an "
                   "extrinsics file)",
@@ -238,7 +247,7 @@ catch (const UsageError& none)
 }
 }  // namespace
 
-RecognisedRig recogniseRig(const RecordingFiles& files)
+RecognisedRig recogniseRig(const RecordingFiles& files, const std::filesystem::path& ini_folder)
 {
   const std::string extrinsics = onlyOne(files.extrinsics, "of poses");
   const std::string imu = onlyOne(files.imus, "of IMU samples");
@@ -258,9 +267,9 @@ RecognisedRig recogniseRig(const RecordingFiles& files)
   rig.poses_from_bag = extrinsics.empty();
   const Poses poses =
       rig.poses_from_bag ? posesByFrames(bags, found.lidars, names, imu_topic) : readExtrinsics(extrinsics);
-  Ini ini;
-  ini.set("pcap_input", listOf(files.captures));
-  if (!extrinsics.empty()) ini.set("extrinsics", extrinsics);
+  Ini ini(ini_folder);
+  ini.set("pcap_input", ini.from(files.captures));
+  if (!extrinsics.empty()) ini.set("extrinsics", ini.from(std::filesystem::path(extrinsics)));
   for (std::size_t i = 0; i < found.lidars.size(); ++i)
   {
     const FoundLidar& lidar = found.lidars[i];

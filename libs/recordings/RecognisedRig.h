@@ -22,9 +22,9 @@ struct RecognisedRig
 
 /**
  * The rig whose packets the captures hold: metadata, ports, names, poses, IMU. A lidar has the name of its metadata
- * file and the pose T_body_<name> of the extrinsics file; a key whose value is not known is a comment. Throws
- * UsageError if there is no lidar, several metadata fit one, or several IMU or extrinsics files were given, and what
- * reading the files throws.
+ * file and the pose T_body_<name> of the extrinsics file; a key whose value is not known is a comment. Relative names
+ * of files are written relative to `ini_folder`, where the INI will be read. Throws UsageError if there is no lidar,
+ * several metadata fit one, or several IMU or extrinsics files were given, and what reading the files throws.
  */
-RecognisedRig recogniseRig(const RecordingFiles&);
+RecognisedRig recogniseRig(const RecordingFiles&, const std::filesystem::path& ini_folder = ".");
 }  // namespace scanloom

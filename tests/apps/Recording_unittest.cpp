@@ -64,6 +64,20 @@ TEST(Recording, configForItRepeatsIt)
   EXPECT_EQ(contentOf(folder / "again.rawlog"), contentOf(folder / "street.rawlog"));
 }
 
+TEST(Recording, configForItNamesFilesFromTheFolderThatItIsWrittenTo)
+{
+  SCANLOOM_NEEDS_DATA(capture, kVelodynes);
+  const TemporaryFolder folder;
+  for (const char* name : {"data", "rigs"}) std::filesystem::create_directory(folder / name);
+  std::filesystem::copy(SCANLOOM_SOURCE_DIR "/params/lidars/velodyne_hdl32e.json", folder / "data/velodyne.json");
+  std::filesystem::copy(capture, folder / "data/street.pcap");
+  ASSERT_EQ(scanloom(folder.path(), "config --for data/street.pcap > rigs/rig.ini; test -s rigs/rig.ini").status, 0);
+  EXPECT_THAT(contentOf(folder / "rigs/rig.ini"), HasSubstr("= ../data/velodyne.json\n"));
+  const Ended recorded =
+      scanloom("/", fmt::format("record -c {0}/rigs/rig.ini -o {0}/a.rawlog", folder.path().string()));
+  EXPECT_EQ(recorded.status, 0) << recorded.output;
+}
+
 TEST(Recording, isReadFromAnotherFolderByItsOwnConfiguration)
 {
   SCANLOOM_NEEDS_DATA(capture, kVelodynes);
@@ -118,7 +132,7 @@ TEST(Recording, cloudsOfItGiveItsTrajectory)
   ASSERT_EQ(of_clouds.size(), of_rawlog.size());
   const auto place = [](const Trajectory& poses) { return poses.back().map_T_body.translation; };
   EXPECT_LT((place(of_clouds) - place(of_rawlog)).norm(), 0.01);
-  EXPECT_THAT(scanloom(folder.path(), "doctor clouds/lidar").output, HasSubstr("'slam' localises with clouds"));
+  EXPECT_THAT(scanloom(folder.path(), "doctor clouds/lidar").output, HasSubstr("fit for SLAM"));
 }
 
 TEST(Recording, ofCloudsIsCountedAndMadeARawlog)

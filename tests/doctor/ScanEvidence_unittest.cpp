@@ -1,17 +1,21 @@
-#include "doctor/RawlogEvidence.h"
+#include "doctor/ScanEvidence.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "doctor/DoctorFindings.h"
+#include "formats/CloudWriter.h"
+#include "mrpt_bridge/RawlogInput.h"
 #include "mrpt_bridge/RawlogWriter.h"
 #include "mrpt_bridge/RigObservations.h"
+#include "recordings/CloudsInput.h"
 #include "rig/RigReplay.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
 using namespace scanloom;
 
-TEST(RawlogEvidence, pointsAndImusTellTheSameAsThePacketsDid)
+TEST(ScanEvidence, pointsAndImusTellTheSameAsThePacketsDid)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
   const std::string f = folder.string();
@@ -29,9 +33,8 @@ TEST(RawlogEvidence, pointsAndImusTellTheSameAsThePacketsDid)
     writer.close();
   }
 
-  const RawlogEvidence evidence = rawlogEvidence(temporary / "a.rawlog");
-  EXPECT_EQ(evidence.damage, "");
-  const RigExamination seen = examine(evidence.rig, {});
+  RawlogInput input(temporary / "a.rawlog");
+  const RigExamination seen = examine(scanEvidence(input, true, [] { return true; }), {});
   ASSERT_EQ(seen.lidars.size(), 2u);
   for (const LidarExamination& lidar : seen.lidars)
   {
@@ -45,7 +48,37 @@ TEST(RawlogEvidence, pointsAndImusTellTheSameAsThePacketsDid)
     EXPECT_LE(finding.verdict, Verdict::Ok) << finding.about << ' ' << finding.measure << ' ' << finding.says;
 }
 
-TEST(RawlogEvidence, isRefusedForWhatIsNoRawlogOfOurs)
+/** A field of 40 m by 40 m, 2 m below the lidar. */
+PointCloud field()
 {
-  EXPECT_THROW(rawlogEvidence("no such file"), std::runtime_error);
+  PointCloud points;
+  points.resize(81 * 81);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    points.x[i] = -20 + 0.5F * static_cast<float>(i % 81);
+    points.y[i] = -20 + 0.5F * static_cast<float>(i / 81);
+    points.z[i] = -2;
+  }
+  return points;
+}
+
+TEST(ScanEvidence, cloudsTellTheGroundButNoDelivery)
+{
+  const TemporaryFolder folder;
+  std::vector<std::filesystem::path> clouds;
+  for (int i = 0; i < 5; ++i)
+  {
+    clouds.push_back(folder / fmt::format("{}.pcd", i));
+    CloudWriter writer(clouds.back());
+    writer.add(field(), Timestamp{}, Rigid::identity());
+    writer.close();
+  }
+  CloudsInput input(clouds);
+
+  const RigExamination seen = examine(scanEvidence(input, false, [] { return true; }), {});
+  ASSERT_EQ(seen.lidars.size(), 1u);
+  ASSERT_TRUE(seen.lidars[0].ground);
+  EXPECT_NEAR(seen.lidars[0].ground->sensor_height, 2, 0.01);
+  EXPECT_LT(degreesBetween(seen.lidars[0].ground->up, Eigen::Vector3d::UnitZ()), 0.1);
+  for (const Finding& finding : findingsOf(seen, {})) EXPECT_LE(finding.verdict, Verdict::Ok) << finding.says;
 }
