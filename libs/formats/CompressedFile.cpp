@@ -53,16 +53,14 @@ class CompressedFile::Gzip : public Source
   std::optional<std::size_t> read(void* bytes, std::size_t count) override
   {
     const int got = gzread(file_.get(), bytes, static_cast<unsigned>(std::min(count, kLargestCall)));
-    if (got < 0 && !cut()) return std::nullopt;
+    int error = Z_OK;
+    gzerror(file_.get(), &error);
+    cut_ = cut_ || error == Z_BUF_ERROR;  // zlib 1.3.2 forgets it with the next read
+    if (got < 0 && !cut_) return std::nullopt;
     return static_cast<std::size_t>(std::max(0, got));
   }
 
-  bool cut() const override
-  {
-    int error = Z_OK;
-    gzerror(file_.get(), &error);
-    return error == Z_BUF_ERROR;
-  }
+  bool cut() const override { return cut_; }
 
   std::uint64_t bytesRead() const override
   {
@@ -71,6 +69,7 @@ class CompressedFile::Gzip : public Source
 
  private:
   std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
+  bool cut_ = false;
 };
 
 class CompressedFile::Zstd : public Source

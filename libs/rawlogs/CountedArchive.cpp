@@ -1,6 +1,7 @@
 #include "rawlogs/CountedArchive.h"
 
 #include <fmt/format.h>
+#include <mrpt/version.h>
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,11 @@ constexpr const char* kFrame = "CSensoryFrame";
 constexpr const char* kActions = "CActionCollection";
 constexpr const char* kMovement = "CActionRobotMovement2D";
 constexpr const char* kMovement3d = "CActionRobotMovement3D";
+
+constexpr const char* kGeneric = "CGenericPointsMap";
+
+/** Since MRPT 2.15 the class is MRPT's own; before it is ours, which reads in pieces and takes no memory in advance. */
+constexpr int kArraysOfGeneric = MRPT_VERSION < 0x20f00 ? 0 : 3;
 
 constexpr std::uint64_t kFloat = 4;  // bytes, of an item of a later count: one colour of a point
 constexpr int kEach = std::numeric_limits<int>::max();
@@ -43,7 +49,7 @@ constexpr std::array kCountedClasses{
     CountedClass{"CPointsMapXYZIRT", 12},
     CountedClass{"CColouredPointsMap", 12, 3, 3, 8},  // three coordinates, three colours
     CountedClass{"CWeightedPointsMap", 12},
-    CountedClass{"CGenericPointsMap", 12},
+    CountedClass{kGeneric, 12, kArraysOfGeneric},
     CountedClass{"CPosePDFParticles", 32},
     CountedClass{"CPosePDFSOG", 32},
     CountedClass{"CPose3DPDFParticles", 56},
@@ -126,6 +132,8 @@ void CountedArchive::follow(const char* bytes, std::size_t count)
     std::memcpy(&items, bytes, sizeof items);
     followCount(items);
   }
+  else if (now == Next::Fields)
+    followFields(bytes, count);
   else if (now == Next::Items && std::string_view(bytes, count) == kLists)
     next_ = Next::NoLists;
   else if (now == Next::NoLists)
@@ -134,6 +142,24 @@ void CountedArchive::follow(const char* bytes, std::size_t count)
     next_ = --arrays_ > 0 ? Next::Items : afterItems();
   else if (const CountedClass* begun = classNamed({bytes, count}))
     begin(*begun);
+}
+
+/**
+ * For each type of values the number of its fields, and for each of these a name and the values. Up to version 2 names
+ * of two types come between them, but not for floats, the first type.
+ */
+void CountedArchive::followFields(const char* bytes, std::size_t count)
+{
+  next_ = Next::Anything;
+  if (count != sizeof(std::uint32_t)) return;  // the options begin with one byte
+  constexpr std::uint32_t kMostFields = 1 << 16;
+  std::uint32_t fields = 0;
+  std::memcpy(&fields, bytes, count);
+  if (fields > kMostFields) refuse(fmt::format("is damaged: a {} of {} fields", class_->name, fields));
+  const int counts = version_ < 3 && field_types_ > 0 ? 4 : 2;
+  ++field_types_;
+  more_ = static_cast<int>(fields) * counts;
+  next_ = afterItems();
 }
 
 /** Each list would have counts of its own. No stock program writes them. */
@@ -178,6 +204,7 @@ void CountedArchive::begin(const CountedClass& begun)
   class_ = &begun;
   arrays_ = begun.arrays;
   more_ = begun.more;
+  field_types_ = 0;
   next_ = Next::Version;
 }
 
@@ -191,6 +218,7 @@ void CountedArchive::followVersion(char version)
 {
   // MRPT would take any object there as a 2D pose, without a check.
   if (class_->name == kMap && version == 0) refuse("is of 2D poses (version 0), or damaged");
+  version_ = version;
   if (class_->name == kMap) has_velocities_ = version >= 2;
   if (version < class_->least_version)
     refuse(fmt::format("holds a {} of version {}: {} or later can be read", class_->name, int{version},
@@ -227,7 +255,8 @@ void CountedArchive::followMovement(const char* bytes, std::size_t count)
 void CountedArchive::followCount(std::uint32_t items)
 {
   const int counts_before = class_->more - more_;
-  const std::uint64_t least = counts_before == 0                               ? class_->least_bytes
+  const std::uint64_t least = field_types_ > 0                                 ? 1
+                              : counts_before == 0                             ? class_->least_bytes
                               : counts_before == 1 && class_->second_bytes > 0 ? class_->second_bytes
                                                                                : std::min(class_->least_bytes, kFloat);
   if (!follows(items * least))
@@ -238,7 +267,8 @@ void CountedArchive::followCount(std::uint32_t items)
 CountedArchive::Next CountedArchive::afterItems()
 {
   arrays_ = 1;
-  return more_-- > 0 ? Next::Count : Next::Anything;
+  if (more_-- > 0) return Next::Count;
+  return class_->name == kGeneric && kArraysOfGeneric > 0 ? Next::Fields : Next::Anything;
 }
 
 bool CountedArchive::follows(std::uint64_t bytes)

@@ -58,6 +58,7 @@ class CountedArchive : public mrpt::serialization::CArchive
     Count,
     Movement,
     NoLists,  // a number of lists, of which there must be none
+    Fields,   // a number of fields of a CGenericPointsMap, or its options
     Items,    // of array after array: no count, although they may be 4 bytes
   };
 
@@ -67,6 +68,7 @@ class CountedArchive : public mrpt::serialization::CArchive
   void beginVelocity();
   void followVersion(char version);
   void followCount(std::uint32_t items);
+  void followFields(const char* bytes, std::size_t count);
   void followLists(const char* bytes, std::size_t count);
   void followMovement(const char* bytes, std::size_t count);
   Next afterItems();
@@ -85,6 +87,8 @@ class CountedArchive : public mrpt::serialization::CArchive
   std::vector<std::string> within_;     // names of the objects that are being read, the outermost first
   std::size_t name_length_ = 0;         // of a name that may come next
   std::vector<std::uint32_t> numbers_;  // of a CActionRobotMovement2D, so far
+  int version_ = 0;                     // of class_
+  int field_types_ = 0;                 // of a CGenericPointsMap: lists of fields, one for each type, that have begun
   bool has_velocities_ = false;         // the CSimpleMap's keyframes end with one
   const CountedClass* part_ = nullptr;  // whose version comes, within class_
   std::string refused_;
