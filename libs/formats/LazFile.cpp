@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #ifdef SCANLOOM_LASZIP
-#include <laszip/laszip_api.h>
+#include <laszip_api.h>
 #endif
 
 namespace scanloom

@@ -8,8 +8,8 @@
 
 #include <iterator>
 
-#if __has_include(<laszip/laszip_api.h>)
-#include <laszip/laszip_api.h>
+#if __has_include(<laszip_api.h>)
+#include <laszip_api.h>
 #endif
 
 namespace scanloom
@@ -22,7 +22,7 @@ TEST(LazFile, isRefusedWhereThereIsNoLaszip)
   EXPECT_THAT([] { CloudWriter("a.laz"); }, testing::ThrowsMessage<UsageError>(testing::HasSubstr("write a .las")));
 }
 
-#if __has_include(<laszip/laszip_api.h>)
+#if __has_include(<laszip_api.h>)
 constexpr int kPoints = 1000;
 
 /** A point a millisecond and a centimetre after the other. */
