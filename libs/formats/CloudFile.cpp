@@ -1,12 +1,12 @@
 #include "formats/CloudFile.h"
 
 #include "core/Bytes.h"
+#include "formats/CompressedFile.h"
 #include "formats/KittiReader.h"
 #include "formats/PcdReader.h"
 #include "formats/PlyReader.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cctype>
@@ -28,29 +28,28 @@ constexpr std::size_t kLargestUnpacked = std::size_t{4} << 30;  // bytes
 constexpr std::size_t kMostPerPackedByte = 64;
 constexpr std::size_t kAlwaysUnpacked = 64 << 20;  // bytes
 
-/** Gives the unpacked bytes to `take`, in parts. Throws std::invalid_argument if there are more than `most`. */
+/**
+ * Gives the unpacked bytes to `take`, in parts. Throws std::invalid_argument if there are more than `most`, and what
+ * CompressedFile throws.
+ */
 void unpack(const std::filesystem::path& path, std::size_t most,
             const std::function<void(const std::uint8_t*, std::size_t)>& take)
 {
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), &gzclose);
-  if (!file) throw std::invalid_argument("cannot be read");
-  if (gzdirect(file.get())) throw std::invalid_argument("is not compressed, but its name ends in .gz");
+  if (!std::filesystem::is_regular_file(path)) throw std::invalid_argument("cannot be read");
+  if (!isCompressed(path)) throw std::invalid_argument("is not compressed, but its name ends in .gz");
+  CompressedFile file(path);
   std::vector<std::uint8_t> chunk(1 << 18);
   std::size_t unpacked = 0;
-  int got = 0;
-  while ((got = gzread(file.get(), chunk.data(), static_cast<unsigned>(chunk.size()))) > 0)
+  while (const std::size_t got = file.readUpTo(chunk.data(), chunk.size()))
   {
-    unpacked += static_cast<std::size_t>(got);
+    unpacked += got;
     if (unpacked > most)
       throw std::invalid_argument(
           fmt::format("unpacks to more than {} MB, {} times its size: no cloud does; if it is one, unpack it by gunzip",
                       most >> 20, most / std::max<std::size_t>(1, std::filesystem::file_size(path))));
-    take(chunk.data(), static_cast<std::size_t>(got));
+    take(chunk.data(), got);
   }
-  int error = Z_OK;
-  gzerror(file.get(), &error);
-  if (error == Z_BUF_ERROR) throw std::invalid_argument("the compressed file is cut short");
-  if (got < 0) throw std::invalid_argument("the compressed data is damaged");
+  file.atEnd();  // throws if it is cut
 }
 
 /** Unpacked twice, first only to be measured: no memory is taken for a file that is refused. */

@@ -156,9 +156,9 @@ void CountedArchive::followFields(const char* bytes, std::size_t count)
   std::uint32_t fields = 0;
   std::memcpy(&fields, bytes, count);
   if (fields > kMostFields) refuse(fmt::format("is damaged: a {} of {} fields", class_->name, fields));
-  const int counts = version_ < 3 && field_types_ > 0 ? 4 : 2;
+  counts_per_field_ = version_ < 3 && field_types_ > 0 ? 4 : 2;
   ++field_types_;
-  more_ = static_cast<int>(fields) * counts;
+  more_ = static_cast<int>(fields) * counts_per_field_;
   next_ = afterItems();
 }
 
@@ -254,6 +254,10 @@ void CountedArchive::followMovement(const char* bytes, std::size_t count)
 
 void CountedArchive::followCount(std::uint32_t items)
 {
+  if (field_types_ == 0)
+    points_ = items;
+  else if (more_ % counts_per_field_ == 0 && items != points_)
+    refuse(fmt::format("is damaged: a {} of {} points, but {} values of a field", class_->name, points_, items));
   const int counts_before = class_->more - more_;
   const std::uint64_t least = field_types_ > 0                                 ? 1
                               : counts_before == 0                             ? class_->least_bytes

@@ -88,6 +88,8 @@ class CountedArchive : public mrpt::serialization::CArchive
   std::size_t name_length_ = 0;         // of a name that may come next
   std::vector<std::uint32_t> numbers_;  // of a CActionRobotMovement2D, so far
   int version_ = 0;                     // of class_
+  std::uint32_t points_ = 0;            // of a CGenericPointsMap
+  int counts_per_field_ = 2;            // the last of them that of its values
   int field_types_ = 0;                 // of a CGenericPointsMap: lists of fields, one for each type, that have begun
   bool has_velocities_ = false;         // the CSimpleMap's keyframes end with one
   const CountedClass* part_ = nullptr;  // whose version comes, within class_

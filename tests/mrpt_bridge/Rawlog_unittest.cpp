@@ -455,6 +455,22 @@ TEST_F(Rawlog, takesNoGigabytesForAFalseLength)
   }
 }
 
+/** Values are copied into arrays of as many as there are points. */
+TEST_F(Rawlog, aFieldOfMoreOrFewerValuesThanPointsIsADamage)
+{
+  const std::string name = "name of the field";
+  auto generic = mrpt::maps::CGenericPointsMap::Create();
+  generic->registerField_float(name);
+  const auto cloud = labelledCloud(generic);
+  for (const std::uint32_t values : {0U, 2U})
+  {
+    std::string content = serialised(path_, {&cloud});
+    std::memcpy(&content[content.find(name) + name.size()], &values, sizeof values);
+    overwrite(content);
+    EXPECT_NE(rawlogInfo(path_).damage, "") << values;
+  }
+}
+
 template <typename Map>
 struct RawlogOfMaps : Rawlog
 {
