@@ -55,8 +55,10 @@ class CompressedFile::Gzip : public Source
     const int got = gzread(file_.get(), bytes, static_cast<unsigned>(std::min(count, kLargestCall)));
     int error = Z_OK;
     gzerror(file_.get(), &error);
-    cut_ = cut_ || error == Z_BUF_ERROR;  // zlib 1.3.2 forgets it with the next read
-    if (got < 0 && !cut_) return std::nullopt;
+    // zlib 1.3.2 tells them with the last bytes, and forgets them with the next read.
+    cut_ = cut_ || error == Z_BUF_ERROR;
+    damaged_ = damaged_ || (error < 0 && error != Z_BUF_ERROR);
+    if (got <= 0 && damaged_) return std::nullopt;
     return static_cast<std::size_t>(std::max(0, got));
   }
 
@@ -69,7 +71,7 @@ class CompressedFile::Gzip : public Source
 
  private:
   std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
-  bool cut_ = false;
+  bool cut_ = false, damaged_ = false;
 };
 
 class CompressedFile::Zstd : public Source
