@@ -1,11 +1,11 @@
 #include "ndt/LidarInformation.h"
 
 #include "core/Matrix6.h"
+#include "core/forAll.h"
 #include "ndt/KeyIndex.h"
 #include "ndt/NormalEquations.h"
 #include "ndt/PairEvidence.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
@@ -219,11 +219,7 @@ Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& curvatur
   };
   std::vector<Vector6d> moved(places.size());
   constexpr std::size_t kGrain = 32;  // places, about 30 us
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, places.size(), kGrain),
-                    [&](const auto& range)
-                    {
-                      for (std::size_t i = range.begin(); i != range.end(); ++i) moved[i] = movedWithout(places[i]);
-                    });
+  forAll(places.size(), kGrain, [&](std::size_t i) { moved[i] = movedWithout(places[i]); });
 
   Matrix6d covariance = bend * congruent(unsure_means, target_of_step) * bend;
   const double share = 1 - 1 / std::max<double>(1, static_cast<double>(places.size()));

@@ -1,9 +1,9 @@
 #include "ndt/NdtMap.h"
 
+#include "core/forAll.h"
 #include "ndt/ThinBodies.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -172,12 +172,7 @@ void NdtMap::combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(
   }
   while (mine != bins_.cend()) keep(*mine++);
   constexpr std::size_t kGrain = 128;  // Gaussians, about 20 us
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, changed.size(), kGrain),
-                    [&](const auto& range)
-                    {
-                      for (std::size_t i = range.begin(); i != range.end(); ++i)
-                        cells[changed[i].cell] = gaussianOfBin(bins[changed[i].bin]);
-                    });
+  forAll(changed.size(), kGrain, [&](std::size_t i) { cells[changed[i].cell] = gaussianOfBin(bins[changed[i].bin]); });
   bins_ = std::move(bins);
   cells_ = std::move(cells);
   indexBlocks();

@@ -14,7 +14,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kLoose = 9e-3;  // m, tolerance where a more accurate search follows
+constexpr double kLoose = 30;  // factor on the tolerance where a more accurate search follows
 
 // Share of a level's cell size: a guess that is farther off needs the coarser level before it.
 constexpr double kReachOfCells = 0.3;
@@ -32,7 +32,7 @@ Minimum search(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, 
   if (!widely || options.first_d2 >= options.d2) return minimise(neighbourhoods, start, expectation, options, locked);
   RegistrationOptions wide = options;
   wide.d2 = options.first_d2;
-  wide.tolerance = std::max(kLoose, options.tolerance);
+  wide.tolerance = kLoose * options.tolerance;
   const Minimum first = minimise(neighbourhoods, start, expectation, wide, locked);
   Minimum minimum = minimise(neighbourhoods, first.target_T_source, expectation, options, locked);
   minimum.iterations += first.iterations;
@@ -190,7 +190,7 @@ RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& level
   if (levels.empty()) throw std::invalid_argument("alignCoarseToFine: at least one level is needed");
   const Expectation expectation(guess);
   RegistrationOptions coarse = options;
-  coarse.tolerance = std::max(kLoose, options.tolerance);
+  coarse.tolerance = kLoose * options.tolerance;
   Rigid pose = guess.target_T_source;
   int iterations = 0;
   bool may_slide = true;  // finer cells may determine what coarse ones leave open, not the reverse

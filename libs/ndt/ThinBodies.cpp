@@ -1,9 +1,8 @@
 #include "ndt/ThinBodies.h"
 
 #include "core/Statistics.h"
+#include "core/forAll.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <Eigen/Eigenvalues>
 
 #include <cmath>
@@ -74,31 +73,23 @@ void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::V
   constexpr std::size_t kGrain = 128;
   constexpr std::int64_t kFewest = 2;  // show the direction of an axis
   const double edge = static_cast<double>(cell_quanta) * Moments::kQuantum;
-  const auto forAll = [&](const auto& apply)
-  {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bins.size(), kGrain),
-                      [&](const auto& range)
-                      {
-                        for (std::size_t i = range.begin(); i != range.end(); ++i) apply(i);
-                      });
-  };
   std::vector<std::optional<ThinBody>> bodies(bins.size());
-  forAll(
-      [&](std::size_t i)
-      {
-        if (bins[i].moments.n < kFewest) return;
-        const Eigen::Vector3d corner = edge * CellKey::indexOf(bins[i].key).cast<double>();
-        bodies[i] = thinBodyOf(meanAndCovariance(bins[i].moments, corner), viewpoint);
-      });
+  forAll(bins.size(), kGrain,
+         [&](std::size_t i)
+         {
+           if (bins[i].moments.n < kFewest) return;
+           const Eigen::Vector3d corner = edge * CellKey::indexOf(bins[i].key).cast<double>();
+           bodies[i] = thinBodyOf(meanAndCovariance(bins[i].moments, corner), viewpoint);
+         });
   const double typical = typicalRadius(bodies, bins, least_points);
-  forAll(
-      [&](std::size_t i)
-      {
-        const bool is_measured = bins[i].moments.n >= least_points;
-        if (!bodies[i] || (!is_measured && !bodies[i]->stands)) return;
-        const double radius = is_measured ? bodies[i]->radius : typical;
-        const Eigen::Vector3d shift = kMeanBeforeAxis * radius * bodies[i]->towards;
-        bins[i].moments = bins[i].moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
-      });
+  forAll(bins.size(), kGrain,
+         [&](std::size_t i)
+         {
+           const bool is_measured = bins[i].moments.n >= least_points;
+           if (!bodies[i] || (!is_measured && !bodies[i]->stands)) return;
+           const double radius = is_measured ? bodies[i]->radius : typical;
+           const Eigen::Vector3d shift = kMeanBeforeAxis * radius * bodies[i]->towards;
+           bins[i].moments = bins[i].moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
+         });
 }
 }  // namespace scanloom

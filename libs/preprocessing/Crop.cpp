@@ -1,7 +1,6 @@
 #include "preprocessing/Crop.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "core/forAll.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,12 +62,8 @@ CroppedScan cropOut(Scan scan, const Crop& crop)
   constexpr std::size_t kGrain = 128;  // columns, about 50 us
   std::vector<CropCounts> fates(scan.columns.size());
   std::vector<std::uint8_t> keep(scan.points.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.columns.size(), kGrain),
-                    [&](const auto& range)
-                    {
-                      for (std::size_t c = range.begin(); c != range.end(); ++c)
-                        fates[c] = fatesOf(scan.columns[c], scan.points, crop, keep);
-                    });
+  forAll(scan.columns.size(), kGrain,
+         [&](std::size_t c) { fates[c] = fatesOf(scan.columns[c], scan.points, crop, keep); });
   CroppedScan cropped;
   std::uint32_t kept = 0;
   for (std::size_t c = 0; c < scan.columns.size(); ++c)

@@ -1,7 +1,6 @@
 #include "preprocessing/Deskew.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
+#include "core/forAll.h"
 
 #include <stdexcept>
 
@@ -40,12 +39,8 @@ PointCloud deskew(Scan scan, const std::vector<Rigid>& reference_T_column)
     throw std::invalid_argument("deskew: one pose per column is needed");
   requirePointsOneAfterTheOther(scan);
   constexpr std::size_t kGrain = 256;  // columns, about 50 us
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, scan.columns.size(), kGrain),
-                    [&](const auto& range)
-                    {
-                      for (std::size_t c = range.begin(); c != range.end(); ++c)
-                        move(scan.columns[c], reference_T_column[c], scan.points);
-                    });
+  forAll(scan.columns.size(), kGrain,
+         [&](std::size_t c) { move(scan.columns[c], reference_T_column[c], scan.points); });
   return std::move(scan.points);
 }
 }  // namespace scanloom

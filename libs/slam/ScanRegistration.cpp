@@ -4,6 +4,7 @@
 #include "core/Matrix6.h"
 #include "ndt/LidarInformation.h"
 #include "ndt/NormalEquations.h"
+#include "ndt/Rivals.h"
 
 #include <algorithm>
 #include <array>
@@ -107,6 +108,30 @@ RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& vi
   return times.measure("fine_alignment", [&] { return align(map, scan, start, options.fine); });
 }
 
+RegistrationResult registerTwice(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
+                                 const ScanRegistrationOptions& options, StageTimes& times)
+{
+  const RegistrationResult rough = registerRoughly(map, views, guess, options, times);
+  return registerFinely(map, views, rough.trustworthy() ? rough.target_T_source : guess.target_T_source, options,
+                        times);
+}
+
+RegistrationResult registerNear(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
+                                double usual_score, const ScanRegistrationOptions& options, StageTimes& times)
+{
+  constexpr double kUsualSurprise = 5, kAsGood = 0.9;  // deviations; share of the score
+  if (!isWithinReach(guess, options.fine_cells)) return registerTwice(map, views, guess, options, times);
+  RegistrationResult fine = registerFinely(map, views, guess.target_T_source, options, times);
+  const bool fits = fine.trustworthy() && fine.score < kAsGood * usual_score;  // scores are negative
+  return fits && surpriseOf(fine, guess) < kUsualSurprise ? fine : registerTwice(map, views, guess, options, times);
+}
+
+double surpriseOf(const RegistrationResult& registration, const PoseGuess& predicted)
+{
+  const PoseGuess both(predicted.target_T_source, *predicted.covariance + registration.covariance);
+  return std::sqrt(surprise(both, registration.target_T_source));
+}
+
 Matrix6d covarianceWithin(const SearchArea& area, const RegistrationResult& found)
 {
   constexpr double kTilt = 15 * kDegree, kHeading = 25 * kDegree;
@@ -127,6 +152,7 @@ std::vector<Rigid> startsWithin(const SearchArea& area)
                          Rigid::fromXyzYawPitchRoll(x * kStep, y * kStep, 0, 2 * M_PI * heading / area.headings, 0, 0));
   return starts;
 }
+
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views,
                                              const std::vector<Rigid>& starts, const NdtOptions& cells,
                                              const RegistrationOptions& options)

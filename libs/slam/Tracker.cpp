@@ -50,13 +50,6 @@ Matrix6d informationAmongOthers(const RegistrationResult& registration, const He
   return informationWithError(registration.information / registrationsPerMeasurement(travel, correlation), turn);
 }
 
-/** Distance from the prediction in standard deviations of both. */
-double surpriseOf(const RegistrationResult& registration, const PoseGuess& predicted)
-{
-  const PoseGuess both(predicted.target_T_source, *predicted.covariance + registration.covariance);
-  return std::sqrt(surprise(both, registration.target_T_source));
-}
-
 NavEstimate newestOf(const FixedLagSmoother& smoother) { return {smoother.newest(), smoother.newestCovariance()}; }
 }  // namespace
 
@@ -169,31 +162,15 @@ void Tracker::locate(const Seen& seen, const Prediction& predicted, TrackerState
   if (estimate.registration->outcome != Outcome::LowOverlap) addRegistration(guess, state, estimate);
 }
 
-/**
- * Fine cells alone do where the prediction is within their reach, and what they find agrees with it and fits as well as
- * the last trusted scan did: of a scan from elsewhere, or after a false reading of the IMU, they know nothing.
- */
 RegistrationResult Tracker::registerScan(const std::vector<View>& views, const PoseGuess& guess,
                                          const TrackerState& state, StageTimes& times) const
 {
-  constexpr double kUsualSurprise = 5, kAsGood = 0.9;  // deviations; share of the score
   const NdtMap& map = state.local_map.ndt();
+  const ScanRegistrationOptions& options = settings_.registration;
+  if (!settings_.slam.tracking.refine) return registerRoughly(map, views, guess, options, times);
   const std::optional<LastSeen>& seen = state.recovery.lastSeen();
-  if (!settings_.slam.tracking.refine || !seen || !isWithinReach(guess, settings_.registration.fine_cells))
-    return registerTwice(map, views, guess, times);
-  RegistrationResult fine = registerFinely(map, views, guess.target_T_source, settings_.registration, times);
-  const bool fits = fine.trustworthy() && fine.score < kAsGood * seen->score;  // scores are negative
-  return fits && surpriseOf(fine, guess) < kUsualSurprise ? fine : registerTwice(map, views, guess, times);
-}
-
-/** Roughly, and finely from there. */
-RegistrationResult Tracker::registerTwice(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
-                                          StageTimes& times) const
-{
-  const RegistrationResult rough = registerRoughly(map, views, guess, settings_.registration, times);
-  if (!settings_.slam.tracking.refine) return rough;
-  const Rigid start = rough.trustworthy() ? rough.target_T_source : guess.target_T_source;
-  return registerFinely(map, views, start, settings_.registration, times);
+  return seen ? registerNear(map, views, guess, seen->score, options, times)
+              : registerTwice(map, views, guess, options, times);
 }
 
 /** The smoother's robust loss follows a registration that contradicts the IMU only slowly; such a one is not trusted.

@@ -71,7 +71,6 @@ class Tracker
   Seen preprocess(Scan, const NavState& before, const std::vector<ImuSample>&, const TrackerState&, StageTimes&) const;
   void locate(const Seen&, const Prediction&, TrackerState&, StateEstimate&, StageTimes&) const;
   RegistrationResult registerScan(const std::vector<View>&, const PoseGuess&, const TrackerState&, StageTimes&) const;
-  RegistrationResult registerTwice(const NdtMap&, const std::vector<View>&, const PoseGuess&, StageTimes&) const;
   void addRegistration(const PoseGuess& predicted, TrackerState&, StateEstimate&) const;
   void smooth(const NavState& before, const std::vector<ImuSample>&, const Prediction&, TrackerState&, StateEstimate&,
               StageTimes&) const;

@@ -152,14 +152,23 @@ TEST(RobosenseDecoder, tellsModelsByTypeAndVersion)
                                                                             : PacketKind::Malformed);
 }
 
-TEST(RobosenseDecoder, readsTheTypeWhereManualsHaveItToo)
+/** Manuals and drivers of some models have it one byte further back than the table of models. */
+TEST(RobosenseDecoder, readsTheTypeOneByteFurtherBack)
 {
-  auto packet = robosensePacket(model("Helios-16P"), {});
-  packet[30] = 0;
-  packet[31] = 6;
-  packet[32] = 3;
-  EXPECT_EQ(robosenseDecoder(model("Helios-16P")).kind(packet), PacketKind::Lidar);
-  EXPECT_EQ(robosenseDecoder(model("Helios-5515")).kind(packet), PacketKind::Foreign);
+  struct Row
+  {
+    const char *written, *other;
+    std::uint8_t type, version;
+  };
+  for (const Row& row : {Row{"Helios-16P", "Helios-5515", 6, 3}, Row{"Bpearl-V4", "Bpearl-V3", 3, 4}})
+  {
+    auto packet = robosensePacket(model(row.written), {});
+    packet[30] = 0;
+    packet[31] = row.type;
+    packet[32] = row.version;
+    EXPECT_EQ(robosenseDecoder(model(row.written)).kind(packet), PacketKind::Lidar);
+    EXPECT_EQ(robosenseDecoder(model(row.other)).kind(packet), PacketKind::Foreign);
+  }
 }
 
 TEST(RobosenseDecoder, takesOldPacketsWithoutAVersionByTheirType)
@@ -171,16 +180,6 @@ TEST(RobosenseDecoder, takesOldPacketsWithoutAVersionByTheirType)
   packet[30] = 7;
   EXPECT_EQ(robosenseDecoder(model("Helios-5515")).kind(packet), PacketKind::Foreign);
   EXPECT_EQ(robosenseDecoder(model("Helios-16P")).kind(packet), PacketKind::Lidar);
-}
-
-TEST(RobosenseDecoder, readsTheTypeOfABpearlWhereDriversHaveIt)
-{
-  auto packet = robosensePacket(model("Bpearl-V4"), {});
-  packet[30] = 0;
-  packet[31] = 3;
-  packet[32] = 4;
-  EXPECT_EQ(robosenseDecoder(model("Bpearl-V4")).kind(packet), PacketKind::Lidar);
-  EXPECT_EQ(robosenseDecoder(model("Bpearl-V3")).kind(packet), PacketKind::Foreign);
 }
 
 TEST(RobosenseDecoder, knowsTheReturnsOf32ChannelsByTheirAzimuths)
