@@ -34,11 +34,11 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
   const Eigen::Vector3d degrees = c.rotation / kDegree;
   finding.says += fmt::format("; best fit of {} turns {:.3f} m (+-{:.3f}) and {:.2f} deg (+-{:.2f}) off", a.turns,
                               c.offset.norm(), c.offset_sigma, degrees.norm(), c.rotation_sigma / kDegree);
-  const auto beyondDoubt = [](double value, double sigma) { return value > 3 * sigma ? value : 0; };
-  const Verdict fit = std::max(
-      grade(beyondDoubt(c.offset.norm(), c.offset_sigma), limits.pose_offset_warning, limits.pose_offset_not_fit),
-      grade(beyondDoubt(degrees.norm(), c.rotation_sigma / kDegree), limits.pose_angle_warning_deg,
-            limits.pose_angle_not_fit_deg));
+  const auto atLeast = [](double value, double sigma) { return value > 3 * sigma ? value - sigma : 0; };
+  const Verdict fit =
+      std::max(grade(atLeast(c.offset.norm(), c.offset_sigma), limits.pose_offset_warning, limits.pose_offset_not_fit),
+               grade(atLeast(degrees.norm(), c.rotation_sigma / kDegree), limits.pose_angle_warning_deg,
+                     limits.pose_angle_not_fit_deg));
   if (fit == Verdict::Ok) return finding;
   finding.verdict = std::max(finding.verdict, fit);
   if (c.offset.norm() > kFarthest || degrees.norm() > kLargestTurn)

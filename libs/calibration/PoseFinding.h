@@ -36,7 +36,10 @@ struct PoseLimits
   }
 };
 
-/** About `lidar`, if the pose of `other` is right. Errors below three standard deviations are none. */
+/**
+ * About `lidar`, if the pose of `other` is right. Errors below three standard deviations are none; larger ones are
+ * compared with the limits less one deviation.
+ */
 Finding poseFinding(const std::string& lidar, const std::string& other, const std::optional<CloudAgreement>&,
                     const PoseLimits&);
 

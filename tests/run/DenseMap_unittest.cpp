@@ -58,6 +58,6 @@ TEST(DenseMap, leavesOutWhatALostMachineSaw)
   EXPECT_THAT(denseMapOf({seenFrom(0), seenFrom(5, Health::Lost)}, 0).places, testing::SizeIs(1));
 }
 
-TEST(DenseMap, refusesAnotherFormat) { EXPECT_THROW(DenseMap::nameOf({false, "laz", 0}), ConfigError); }
+TEST(DenseMap, refusesAnotherFormat) { EXPECT_THROW(DenseMap::nameOf({false, "xyz", 0}), ConfigError); }
 }  // namespace
 }  // namespace scanloom
