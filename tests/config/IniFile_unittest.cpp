@@ -16,7 +16,10 @@ namespace scanloom
 {
 namespace
 {
+using testing::AllOf;
 using testing::ElementsAre;
+using testing::EndsWith;
+using testing::StartsWith;
 
 std::vector<std::string> problemsOf(const std::string& text)
 {
@@ -117,9 +120,9 @@ TEST(IniFile, namesTheNearestDefinition)
 TEST(IniFile, saysWhatIsWrongWithAFormula)
 {
   EXPECT_THAT(problemsOf("[a]\nk = $eval{2*foo}\n"),
-              ElementsAre("x.ini:2: [a] k: $eval{2*foo}: ERR201 - Undefined symbol: 'foo'"));
+              ElementsAre(AllOf(StartsWith("x.ini:2: [a] k: $eval{2*foo}: "), EndsWith("Undefined symbol: 'foo'"))));
   EXPECT_THAT(problemsOf("@define NAME left\n[a]\nk = $eval{NAME+1}\n"),
-              ElementsAre("x.ini:3: [a] k: $eval{NAME+1}: ERR201 - Undefined symbol: 'NAME'"));
+              ElementsAre(AllOf(StartsWith("x.ini:3: [a] k: $eval{NAME+1}: "), EndsWith("Undefined symbol: 'NAME'"))));
 }
 
 TEST(IniFile, reportsAllProblemsOfAFile)

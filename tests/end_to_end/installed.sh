@@ -13,7 +13,7 @@ cmake --install "$build" --prefix "$dir/usr" > /dev/null
   --set simulated_drive.standstill=1 --set simulated_drive.speed_up=1 --set simulated_drive.duration=4 \
   --out-dir "$dir/recording" > /dev/null
 
-cmake -S "$source/doc/example" -B "$dir/example" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$dir/usr" > "$dir/log" &&
+cmake -G Ninja -S "$source/doc/example" -B "$dir/example" -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$dir/usr" > "$dir/log" &&
   cmake --build "$dir/example" >> "$dir/log" || { cat "$dir/log"; exit 1; }
 cd "$dir/recording"
 "$dir/example/merge_and_register" recording.pcap left.json right.json extrinsics.txt > scans.txt

@@ -89,6 +89,8 @@ TEST(SensorHttp, headersWithoutEndAreAnAnswerThatIsTooLarge)
   for (int i = 0; i < 1000; ++i) headers += "X-" + std::to_string(i) + ": " + std::string(80, 'x') + "\r\n";
   const EndlessServer server("HTTP/1.1 200 OK\r\n", headers);
   const double before = mostMegabytes();
-  EXPECT_EQ(faultOf(server.address()), SensorFault::TooLarge);
+  const SensorFault fault = faultOf(server.address());
+  EXPECT_TRUE(fault == SensorFault::TooLarge || fault == SensorFault::Interrupted)  // by newer versions of cpp-httplib
+      << static_cast<int>(fault);
   EXPECT_LT(mostMegabytes() - before, 60) << "they come with hundreds of megabytes a second";
 }
