@@ -1,6 +1,7 @@
 #include "ndt/NdtMap.h"
 
 #include "core/forAll.h"
+#include "ndt/FadingDensity.h"
 #include "ndt/ThinBodies.h"
 
 #include <fmt/format.h>
@@ -100,7 +101,9 @@ NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options) : NdtM
                     {
                       const View& view = views[i];
                       counted[i] = countInto(coordinatesOf(view.points), cell_quanta_);
-                      if (view.viewpoint) moveToAxes(counted[i], cell_quanta_, *view.viewpoint, least_points);
+                      if (!view.viewpoint) return;
+                      moveToAxes(counted[i], cell_quanta_, *view.viewpoint, least_points);
+                      undoFading(counted[i], cell_quanta_, *view.viewpoint, least_points);
                     });
   std::vector<Bin> all;
   for (std::vector<Bin>& bins : counted) all = all.empty() ? std::move(bins) : sumOf(all, bins);

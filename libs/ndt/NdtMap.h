@@ -48,7 +48,10 @@ class NdtMap
   explicit NdtMap(const NdtOptions&);
   NdtMap(const PointCloud&, const NdtOptions&);
   NdtMap(const std::vector<Eigen::Vector3f>&, const NdtOptions&);
-  /** Points of stems and poles are moved onto their axes (see moveToAxes), for views with a viewpoint. */
+  /**
+   * For views with a viewpoint, points of stems and poles are moved onto their axes (moveToAxes), and means to where
+   * they were if points did not get fewer with the range (undoFading).
+   */
   NdtMap(const std::vector<View>&, const NdtOptions&);
 
   /**

@@ -26,7 +26,8 @@ struct TrackingOptions
   {
     visit(o.refine, Field{"refine", "", "align every scan a second time, with [fine_cells]"});
     visit(o.stem_axes,
-          Field{"stem_axes", "", "register stems and poles by their axes, not by the side that the lidars see"});
+          Field{"stem_axes", "",
+                "register stems by their axes and foliage by its middle, not by the side that the lidars see"});
     visit(o.relative, Field{"relative", "",
                             "true: a registration is a pose relative to the first keyframe, whose attitude may still "
                             "be corrected by gravity; false: a pose in the map, as in the paper"});

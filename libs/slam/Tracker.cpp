@@ -369,7 +369,7 @@ void Tracker::addKeyframe(const Seen& seen, TrackerState& state, StateEstimate& 
     if (fine.trustworthy())
     {
       local_T_body = withHeadingOf(estimated, fine, upInBody(estimate.map_T_body), state.heading_doubt);
-      alignment = fine.covariance;
+      alignment = inverse(fine.information + inverse(alignment));
     }
   }
   state.local_map.add(seen.views, local_T_body, alignment);

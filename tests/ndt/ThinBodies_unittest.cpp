@@ -130,18 +130,19 @@ TEST(ThinBodies, withoutAViewpointAStemStandsWhereItIsTouched)
 
 TEST(ThinBodies, wallsAndFoliageStay)
 {
-  View seen{{}, Eigen::Vector3d(10, 0.5, 0.5)};
+  std::vector<Eigen::Vector3f> points;
   for (int i = 0; i < 400; ++i)
   {
     const float a = static_cast<float>(i % 20) / 20 + 0.02F, b = static_cast<float>(i / 20) / 20 + 0.02F;
-    seen.points.emplace_back(0.5F, a, b);                               // a wall
-    seen.points.emplace_back(3 + a, b, static_cast<float>(i % 7) / 7);  // a bush
+    points.emplace_back(0.5F, a, b);                               // a wall
+    points.emplace_back(3 + a, b, static_cast<float>(i % 7) / 7);  // a bush
   }
-  View from_nowhere = seen;
-  from_nowhere.viewpoint.reset();
-  const NdtMap map({seen}, {}), plain({from_nowhere}, {});
-  ASSERT_EQ(map.cells().size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(map.cells()[i].mean, plain.cells()[i].mean);
+  constexpr std::int64_t kMetre = 65536;
+  const std::vector<Bin> before = countInto({&points[0].x(), &points[0].y(), &points[0].z(), 3, points.size()}, kMetre);
+  std::vector<Bin> after = before;
+  moveToAxes(after, kMetre, {10, 0.5, 0.5}, 4);
+  ASSERT_EQ(after.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(after[i].moments.x, before[i].moments.x);
 }
 
 TEST(ThinBodies, thePathPastStemsIsNotShortened)

@@ -1,0 +1,31 @@
+#include "ndt/FadingDensity.h"
+
+#include "core/forAll.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kExtinction = 0.6;  // 1/m, along a ray through foliage
+constexpr double kNearest = 1;       // m: nearer, 1 / r^2 is no exponential across a cell
+}  // namespace
+
+void undoFading(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points)
+{
+  constexpr std::size_t kGrain = 256;
+  const double edge = static_cast<double>(cell_quanta) * Moments::kQuantum;
+  forAll(bins.size(), kGrain,
+         [&](std::size_t i)
+         {
+           if (bins[i].moments.n < least_points) return;
+           const Eigen::Vector3d corner = edge * CellKey::indexOf(bins[i].key).cast<double>();
+           const MeanAndCovariance seen = meanAndCovariance(bins[i].moments, corner);
+           const Eigen::Vector3d view = seen.mean - viewpoint;
+           const double range = std::max(kNearest, view.norm());
+           const Eigen::Vector3d shift = (kExtinction + 2 / range) / range * (seen.covariance * view);
+           bins[i].moments = bins[i].moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
+         });
+}
+}  // namespace scanloom
