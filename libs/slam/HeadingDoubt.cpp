@@ -7,6 +7,9 @@ namespace scanloom
 {
 namespace
 {
+// Displacement that the heading is doubted by, over that of one deviation of depth: by the headings of drives of 120 to
+// 315 m with one lidar (doc/study/localisation.md). With less, the gyroscope's bias follows the registrations.
+constexpr double kDeviations = 4;
 constexpr double kSight = 12;  // m: on less way the same is seen from the same side
 }  // namespace
 
@@ -21,7 +24,7 @@ void HeadingDoubt::add(const RegistrationResult& seen, const Eigen::Vector3d& up
   sideways_ += std::min(1.0, travel / length_) * (across.normalized().dot(seen.one_sided) - sideways_);
 }
 
-double HeadingDoubt::deviation() const { return length_ > 0 ? std::abs(sideways_) / length_ : 0; }
+double HeadingDoubt::deviation() const { return length_ > 0 ? kDeviations * std::abs(sideways_) / length_ : 0; }
 
 Rigid withHeadingOf(const Rigid& estimate, const RegistrationResult& fine, const Eigen::Vector3d& up_in_source,
                     const HeadingDoubt& doubt)

@@ -7,8 +7,8 @@ namespace scanloom
 {
 /**
  * What is seen from one side displaces a registration sideways (RegistrationResult::one_sided): by other amounts where
- * the map begins than where it ends, because the machine saw both from different places. So the heading errs by about
- * the displacement over the length of the map. All registrations to that map share this error: more of them do not
+ * the map begins than where it ends, because the machine saw both from different places. So the heading errs by some
+ * such displacements over the length of the map. All registrations to that map share this error: more of them do not
  * lessen it, and every keyframe hands it on. A gyroscope errs less. With a lidar on each side the displacements cancel,
  * and the doubt is near zero.
  */
