@@ -162,6 +162,15 @@ int noPath(const Calibration& calibration, const std::string& outcome)
   return kQualityGate;
 }
 
+int contradicted(const ImuMountEstimate& imu)
+{
+  fmt::print(stderr,
+             "scanloom calibrate: the drive is localised with the IMU, which contradicts it, so nothing is calibrated. "
+             "Without the IMU (no 'imu_csv', no 'imu_topic') the lidars alone are\n{}",
+             inWords(imu));
+  return kQualityGate;
+}
+
 int runDrive(const CalibrateArguments& arguments)
 {
   const RecordingFiles recording = arguments.recording.given() ? filesOf(arguments.recording) : RecordingFiles{};
@@ -180,6 +189,8 @@ int runDrive(const CalibrateArguments& arguments)
   calibration.reference = indexOf(arguments.reference, calibration.lidars);
   const CalibrationDrive drive = driven(rig, loaded.settings, calibration);
   if (interrupted()) return kInterrupted;
+  if (calibration.imu && calibration.imu->outcome == ImuMountOutcome::Contradicted)
+    return contradicted(*calibration.imu);
   if (!isPath(drive)) return noPath(calibration, drive.run.summary.outcome);
 
   const PoseGiven known = arguments.poses_unknown || !loaded.poses_known ? PoseGiven::No : PoseGiven::Within20Degrees;

@@ -7,7 +7,8 @@ namespace
 constexpr Duration kWidestGap = 500ms;
 }
 
-std::optional<View> viewFrom(const LidarScan& scan, const Mount& mount, const Trajectory& trajectory, Timestamp at)
+std::optional<View> viewFrom(const LidarScan& scan, const Mount& mount, const Trajectory& trajectory, Timestamp at,
+                             Stems stems)
 {
   const std::optional<Rigid> map_T_body = poseAt(trajectory, at, kWidestGap);
   if (!map_T_body) return std::nullopt;
@@ -36,6 +37,8 @@ std::optional<View> viewFrom(const LidarScan& scan, const Mount& mount, const Tr
     }
     view.points.emplace_back(rotation * scan.points[i] + translation);
   }
+  const std::optional<Rigid> here_T_sensor = sensorAt(scan.middle());
+  if (stems == Stems::OnAxes && here_T_sensor) view.viewpoint = here_T_sensor->translation;
   return view;
 }
 }  // namespace scanloom

@@ -10,11 +10,12 @@ namespace scanloom
 namespace
 {
 constexpr std::size_t kBlocks = 20;
-constexpr double kUntold = 10;                                // m
-constexpr double kOpenClock = 0.005;                          // s
-constexpr double kFlat = 1e-4;                                // of the largest curvature
-constexpr double kCommonOffset = 0.002, kCommonShare = 0.06;  // m; of the distance of surfaces
-constexpr double kCommonArm = 10;                             // m: the same error as a turn is this much less
+constexpr double kUntold = 10;                                        // m
+constexpr double kOpenClock = 0.005;                                  // s
+constexpr double kFlat = 1e-4;                                        // of the largest curvature
+constexpr double kCommonOffset = 0.002, kCommonOffsetOnAxes = 0.008;  // m
+constexpr double kCommonShare = 0.045, kCommonShareAtRest = 0.06;     // of the distance of surfaces
+constexpr double kCommonArm = 10;                                     // m: the same error as a turn is this much less
 
 /** The expectation of a scatter's inverse is larger than that of few blocks shows (Hotelling's T2). */
 Matrix7d scatterOf(const std::vector<Vector7d>& gradients, int numbers)
@@ -46,10 +47,9 @@ Matrix7d atSensor(const Eigen::Vector3d& sensor)
 }
 
 /** What all stations, or all cells of one instant, have in common. */
-void addCommon(Matrix7d& covariance, double surface_distance)
+void addCommon(Matrix7d& covariance, double offset)
 {
   Vector7d common;
-  const double offset = std::max(kCommonOffset, kCommonShare * surface_distance);
   common << Eigen::Vector3d::Constant(offset), Eigen::Vector3d::Constant(offset / kCommonArm), 0;
   covariance.diagonal() += common.cwiseQuotient(mountStepOfMetres()).cwiseAbs2();
 }
@@ -72,7 +72,7 @@ Matrix7d sandwich(const Matrix7d& hessian, const std::vector<Vector7d>& gradient
 }
 
 Matrix7d mountCovariance(const Matrix7d& all, const std::vector<Vector7d>& gradients, Clock clock,
-                         const Eigen::Vector3d& sensor_in_body, double surface_distance)
+                         const Eigen::Vector3d& sensor_in_body, double surface_distance, Stems stems)
 {
   Matrix7d hessian = all;
   if (clock == Clock::Kept) withoutClock(hessian);
@@ -81,7 +81,8 @@ Matrix7d mountCovariance(const Matrix7d& all, const std::vector<Vector7d>& gradi
   const Matrix7d at_sensor = atSensor(sensor_in_body);
   Matrix7d covariance = at_sensor * sandwich(hessian, in_metres, clock) * at_sensor.transpose();
   if (clock == Clock::Kept) withoutClock(covariance);
-  addCommon(covariance, surface_distance);
+  const double least = stems == Stems::OnAxes ? kCommonOffsetOnAxes : kCommonOffset;
+  addCommon(covariance, std::max(least, kCommonShare * surface_distance));
   return covariance;
 }
 
@@ -95,7 +96,7 @@ Matrix7d mountCovariance(const Matrix6d& of_correction, const Rigid& correction,
   covariance.topLeftCorner<6, 6>() = of_correction;
   const Matrix7d at_sensor = atSensor(sensor_in_body) * along_body * to_metres.asDiagonal();
   covariance = at_sensor * covariance * at_sensor.transpose();
-  addCommon(covariance, surface_distance);
+  addCommon(covariance, std::max(kCommonOffset, kCommonShareAtRest * surface_distance));
   return covariance;
 }
 

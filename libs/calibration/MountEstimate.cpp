@@ -12,13 +12,15 @@ namespace
 constexpr std::size_t kFewestStations = 10;
 constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
 constexpr int kRounds = 15;
-constexpr double kSettled = 5e-4;        // m, a round's correction
+constexpr double kFarthest = 1;  // m: from there it does not come back
+constexpr double kNear = 1e-2;   // m, a round's correction: enough for the next level
+constexpr double kSettled = 5e-4;
 constexpr double kNearlySettled = 2e-3;  // m: the last round's, where cells come and go at the limit of thickness
 
-constexpr MountLevel kCoarse{2.0, 0.2, 1}, kMiddle{1.0, 0.4, 1};
+constexpr MountLevel kCoarse{2.0, 0.2}, kMiddle{1.0, 0.4};
 // Each lidar sees the near side of bushes and crowns: cells full of leaves pull by 1 cm and 0.1 deg in a dense stand.
 // Of cells of 2 or 3 points the covariance is assumed, and thin enough.
-constexpr MountLevel kFine{1.0, 1.0, std::numeric_limits<std::size_t>::max(), 2, 0.1};
+constexpr MountLevel kFine{1.0, 1.0, std::numeric_limits<std::size_t>::max(), 2, 0.06};
 
 std::vector<Vector6d> twistsOf(const std::vector<Station>& stations)
 {
@@ -53,9 +55,10 @@ class LevelOfDrive
   {
   }
 
-  /** Whether the mount changes no more. */
-  bool improve(Mount& mount) const
+  /** Until a round corrects less than `enough` (m): the last round's correction. */
+  double improve(Mount& mount, double enough) const
   {
+    const Eigen::Vector3d start = mount.body_T_sensor.translation;
     double length = 0;
     for (int round = 0; round < kRounds; ++round)
     {
@@ -64,9 +67,9 @@ class LevelOfDrive
       const MountMinimum minimum = minimiseMount(pairs, twists_, clock_, level_.d2);
       mount = moved(mount, minimum.correction);
       length = lengthOf(minimum.correction);
-      if (length < kSettled) break;
+      if (length < enough || (mount.body_T_sensor.translation - start).norm() > kFarthest) break;
     }
-    return length < kNearlySettled;
+    return length;
   }
 
   /** In metres. */
@@ -76,7 +79,8 @@ class LevelOfDrive
     std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
     const Matrix7d hessian = hessianOf(pairs, twists_, {}, level_.d2);
     const MountEquations equations = mountEquations(pairs, twists_, {}, level_.d2);
-    return mountCovariance(hessian, equations.gradients, clock_, mount.body_T_sensor.translation, surface_distance);
+    return mountCovariance(hessian, equations.gradients, clock_, mount.body_T_sensor.translation, surface_distance,
+                           stations_.front().stems);
   }
 
  private:
@@ -98,9 +102,14 @@ MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& g
   if (stations.size() < kFewestStations) return estimate;
 
   Mount mount = start;
-  for (const MountLevel& level : {kCoarse, kMiddle}) LevelOfDrive(stations, trajectory, level, clock).improve(mount);
+  for (MountLevel level : {kCoarse, kMiddle})
+  {
+    // A station's twist is that of its own scan: with others, too, a clock takes 50 rounds.
+    if (clock == Clock::Estimated) level.scans = 1;
+    LevelOfDrive(stations, trajectory, level, clock).improve(mount, kNear);
+  }
   const LevelOfDrive fine(stations, trajectory, kFine, clock);
-  const bool settled = fine.improve(mount);
+  const bool settled = fine.improve(mount, kSettled) < kNearlySettled;
   const MountFit before = mountFit(stations, given, trajectory), after = mountFit(stations, mount, trajectory);
   estimate.shared_before = before.shared, estimate.distance_before = before.distance;
   estimate.shared_after = after.shared, estimate.distance_after = after.distance;

@@ -11,8 +11,10 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kCompared = 8;  // stations
-constexpr MountLevel kSearchLevels[] = {{4.0, 0.05, 1}, {2.0, 0.2, 1}}, kScoreLevel{1.0, 0.4, 1};
+constexpr std::size_t kCompared = 8;      // stations
+constexpr std::size_t kScansAtStart = 4;  // of a station
+constexpr MountLevel kWide{4.0, 0.05, kScansAtStart}, kNarrow{2.0, 0.5, kScansAtStart},
+    kScored{1.0, 0.4, kScansAtStart};
 
 std::vector<Station> someOf(const std::vector<Station>& all, std::size_t count)
 {
@@ -21,43 +23,60 @@ std::vector<Station> someOf(const std::vector<Station>& all, std::size_t count)
   return some;
 }
 
-Mount refined(Mount mount, const std::vector<Station>& stations, const Trajectory& trajectory)
+/** At some stations. */
+class LevelOfSearch
 {
-  const std::vector<Vector6d> at_rest(stations.size(), Vector6d::Zero());
-  for (const MountLevel& level : kSearchLevels)
+ public:
+  LevelOfSearch(const MountLevel& level, const std::vector<Station>& stations, const Trajectory& trajectory)
+    : level_(level), stations_(stations), trajectory_(trajectory), reference_(mapsOfReference(stations, level))
   {
-    const std::vector<NdtMap> reference = mapsOfReference(stations, level);
-    const StationCells lidar = cellsOfLidar(stations, mount, trajectory, level);
-    std::vector<Neighbourhoods> pairs = stationPairs(reference, lidar);
-    mount.body_T_sensor = minimiseMount(pairs, at_rest, Clock::Kept, level.d2).correction.pose * mount.body_T_sensor;
   }
-  return mount;
-}
 
-/** Points that are where the reference saw something. */
-double scoreOf(const Mount& mount, const std::vector<Station>& stations, const std::vector<NdtMap>& reference,
+  Mount refined(Mount mount) const
+  {
+    const StationCells lidar = cellsOfLidar(stations_, mount, trajectory_, level_);
+    std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
+    mount.body_T_sensor = minimiseMount(pairs, at_rest_, Clock::Kept, level_.d2).correction.pose * mount.body_T_sensor;
+    return mount;
+  }
+
+  /** Points that are where the reference saw something. */
+  double scoreOf(const Mount& mount) const
+  {
+    const StationCells lidar = cellsOfLidar(stations_, mount, trajectory_, level_);
+    std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
+    return mountEquations(pairs, at_rest_, {}, level_.d2).met_points;
+  }
+
+ private:
+  MountLevel level_;
+  const std::vector<Station>& stations_;
+  const Trajectory& trajectory_;
+  std::vector<NdtMap> reference_;
+  std::vector<Vector6d> at_rest_ = std::vector<Vector6d>(stations_.size(), Vector6d::Zero());
+};
+
+/**
+ * Of the starts, as they are and refined, within `farthest` (m) of the guess: lidars that look apart have the more in
+ * common the farther one is moved along the drive.
+ */
+Mount bestFrom(const std::vector<Mount>& starts, const Mount& guess, double farthest, const std::vector<Station>& all,
                const Trajectory& trajectory)
 {
-  const StationCells lidar = cellsOfLidar(stations, mount, trajectory, kScoreLevel);
-  std::vector<Neighbourhoods> pairs = stationPairs(reference, lidar);
-  const std::vector<Vector6d> at_rest(stations.size(), Vector6d::Zero());
-  return mountEquations(pairs, at_rest, {}, kScoreLevel.d2).met_points;
-}
-
-Mount bestFrom(const std::vector<Mount>& starts, const std::vector<Station>& all, const Trajectory& trajectory)
-{
   const std::vector<Station> stations = someOf(all, kCompared);
-  const std::vector<NdtMap> reference = mapsOfReference(stations, kScoreLevel);
-  Mount best = starts.front();
+  const LevelOfSearch wide(kWide, stations, trajectory), narrow(kNarrow, stations, trajectory),
+      scored(kScored, stations, trajectory);
+  Mount best = guess;
   double best_score = -1;
   for (const Mount& start : starts)
-  {
-    const Mount candidate = refined(start, stations, trajectory);
-    const double score = scoreOf(candidate, stations, reference, trajectory);
-    if (score <= best_score) continue;
-    best = candidate;
-    best_score = score;
-  }
+    for (const Mount& candidate : {start, narrow.refined(start), narrow.refined(wide.refined(start))})
+    {
+      const Eigen::Vector3d moved = candidate.body_T_sensor.translation - guess.body_T_sensor.translation;
+      const double score = moved.norm() < farthest ? scored.scoreOf(candidate) : -1;
+      if (score <= best_score) continue;
+      best = candidate;
+      best_score = score;
+    }
   return best;
 }
 
@@ -121,6 +140,7 @@ Mount findStart(const std::vector<Station>& stations, const Mount& given, PoseGi
   std::vector<Mount> starts =
       known == PoseGiven::No ? headingsAround(level, 6, 30 * kDegree) : headingsAround(level, 2, 10 * kDegree);
   starts.push_back(start);
-  return bestFrom(starts, stations, trajectory);
+  const double farthest = known == PoseGiven::No ? 5 : 0.7;  // m
+  return bestFrom(starts, start, farthest, stations, trajectory);
 }
 }  // namespace scanloom

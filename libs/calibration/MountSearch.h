@@ -14,8 +14,8 @@ enum class PoseGiven
 
 /**
  * Roll, pitch and height such that both lidars see the ground in the same plane; then headings, 10 deg apart within 20
- * deg or 30 deg apart all around, are refined with cells of 4 m and 2 m at eight stations. The one with most points
- * where the reference saw something.
+ * deg or 30 deg apart all around, as they are and refined with cells of 4 m and 2 m at eight stations. The one with
+ * most points where the reference saw something.
  */
 Mount findStart(const std::vector<Station>&, const Mount& given, PoseGiven, const std::vector<LidarScan>& of_lidar,
                 const std::vector<LidarScan>& of_reference, const Rigid& body_T_reference, const Trajectory&);

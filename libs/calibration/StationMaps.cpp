@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 
 namespace scanloom
 {
@@ -19,17 +21,37 @@ NdtOptions optionsOf(const MountLevel& level)
   return options;
 }
 
-std::vector<GaussianCell> thinCells(const NdtMap& map, double thickest)
+bool isThin(const GaussianCell& cell, double thickest)
 {
-  if (std::isinf(thickest)) return map.cells();
-  std::vector<GaussianCell> thin;
-  for (const GaussianCell& cell : map.cells())
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+  axes.computeDirect(cell.covariance, Eigen::EigenvaluesOnly);
+  return axes.eigenvalues()[0] <= thickest * thickest;
+}
+
+/** Without the points of thick cells, so that the map has none. */
+std::vector<View> inThinCells(const std::vector<View>& views, const NdtMap& map, double thickest)
+{
+  std::vector<std::uint8_t> thin;
+  for (const GaussianCell& cell : map.cells()) thin.push_back(isThin(cell, thickest) ? 1 : 0);
+  const auto inThin = [&](const Eigen::Vector3f& point)
   {
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-    axes.computeDirect(cell.covariance, Eigen::EigenvaluesOnly);
-    if (axes.eigenvalues()[0] <= thickest * thickest) thin.push_back(cell);
+    std::uint32_t cell = 0;
+    return map.findAround(map.indexOf(point.cast<double>()), 1, &cell) == 1 && thin[cell];
+  };
+  std::vector<View> kept(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i)
+  {
+    std::copy_if(views[i].points.begin(), views[i].points.end(), std::back_inserter(kept[i].points), inThin);
+    kept[i].viewpoint = views[i].viewpoint;
   }
-  return thin;
+  return kept;
+}
+
+NdtMap thinMap(const std::vector<View>& views, const MountLevel& level)
+{
+  const NdtMap map(views, optionsOf(level));
+  if (std::isinf(level.thickest)) return map;
+  return NdtMap(inThinCells(views, map, level.thickest), optionsOf(level));
 }
 
 const GaussianCell* nearestTo(const Eigen::Vector3d& mean, const Neighbourhoods& pair, std::size_t source_cell)
@@ -47,7 +69,7 @@ const GaussianCell* nearestTo(const Eigen::Vector3d& mean, const Neighbourhoods&
 std::vector<NdtMap> mapsOfReference(const std::vector<Station>& stations, const MountLevel& level)
 {
   std::vector<NdtMap> maps;
-  for (const Station& station : stations) maps.emplace_back(station.reference, optionsOf(level));
+  for (const Station& station : stations) maps.push_back(thinMap(station.reference, level));
   return maps;
 }
 
@@ -58,10 +80,12 @@ StationCells cellsOfLidar(const std::vector<Station>& stations, const Mount& mou
   for (const Station& station : stations)
   {
     std::vector<View> views;
-    for (std::size_t i = 0; i < std::min(level.scans, station.scans.size()); ++i)
-      if (std::optional<View> view = viewFrom(*station.scans[i], mount, trajectory, station.at))
+    const std::size_t count = std::min(level.scans, station.scans.size());
+    for (std::size_t i = 0; i < count; ++i)
+      if (std::optional<View> view =
+              viewFrom(*station.scans[i * station.scans.size() / count], mount, trajectory, station.at, station.stems))
         views.push_back(std::move(*view));
-    cells.push_back(thinCells(NdtMap(views, optionsOf(level)), level.thickest));
+    cells.push_back(thinMap(views, level).cells());
   }
   return cells;
 }

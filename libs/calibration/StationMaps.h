@@ -13,10 +13,10 @@ namespace scanloom
 struct MountLevel
 {
   double cell_size, d2;
-  /** At most so many scans of the lidar that is calibrated: one is enough for a start, and quick. */
+  /** At most so many scans of the lidar that is calibrated, evenly chosen: few are enough for a start, and quick. */
   std::size_t scans = std::numeric_limits<std::size_t>::max();
   int min_points = 4;
-  /** Cells of the lidar that are thicker (standard deviation, m) are left out. */
+  /** Cells of either lidar that are thicker (standard deviation, m) are left out. */
   double thickest = std::numeric_limits<double>::infinity();
 };
 

@@ -59,17 +59,17 @@ std::vector<const LidarScan*> scansAround(const Placed& here, const std::vector<
 }
 
 std::vector<View> viewsOf(const std::vector<const LidarScan*>& scans, const Mount& mount, const Trajectory& trajectory,
-                          Timestamp at)
+                          Timestamp at, Stems stems)
 {
   std::vector<View> views;
   for (const LidarScan* scan : scans)
-    if (std::optional<View> view = viewFrom(*scan, mount, trajectory, at)) views.push_back(std::move(*view));
+    if (std::optional<View> view = viewFrom(*scan, mount, trajectory, at, stems)) views.push_back(std::move(*view));
   return views;
 }
 }  // namespace
 
 std::vector<Station> stationsOf(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
-                                const Mount& reference, const Trajectory& trajectory, double reach)
+                                const Mount& reference, const Trajectory& trajectory, const Surroundings& around)
 {
   const std::vector<Placed> all = placesOf(of_lidar, trajectory, kStationStep);
   const std::vector<Placed> own = placesOf(of_lidar, trajectory, kViewStep);
@@ -80,9 +80,10 @@ std::vector<Station> stationsOf(const std::vector<LidarScan>& of_lidar, const st
   {
     const Placed& here = all[i * all.size() / count];
     const Timestamp at = here.scan->middle();
-    stations.push_back({at, scansAround(here, of_lidar, own, reach),
-                        viewsOf(scansAround(here, of_reference, others, reach), reference, trajectory, at),
-                        twistAt(trajectory, at)});
+    const std::vector<const LidarScan*> of_others = scansAround(here, of_reference, others, around.reach);
+    stations.push_back({at, scansAround(here, of_lidar, own, around.reach),
+                        viewsOf(of_others, reference, trajectory, at, around.stems), twistAt(trajectory, at),
+                        around.stems});
   }
   return stations;
 }

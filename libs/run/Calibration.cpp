@@ -1,6 +1,7 @@
 #include "run/Calibration.h"
 
 #include "calibration/ImuMountReport.h"
+#include "calibration/MountFit.h"
 #include "calibration/MountReport.h"
 #include "rig/Extrinsics.h"
 
@@ -9,23 +10,36 @@
 
 namespace scanloom
 {
+namespace
+{
+/** Else they see stems from other sides, and moved onto their axes. */
+bool seeAtOnce(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
+               const Mount& reference, const Trajectory& trajectory, const MountEstimate& estimate)
+{
+  constexpr Surroundings kNone{0};
+  constexpr double kLeast = 0.2;  // of what they see within the drive
+  const std::vector<Station> stations = stationsOf(of_lidar, of_reference, reference, trajectory, kNone);
+  return mountFit(stations, estimate.mount, trajectory).shared > kLeast * estimate.shared_after;
+}
+}  // namespace
+
 LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLidar>& lidars, std::size_t reference,
                                 const CalibrationDrive& drive, Clock clock, PoseGiven known)
 {
-  constexpr double kNear = 3, kFar = 8;  // m
+  constexpr Surroundings kNear{5, Stems::AsSeen}, kFar{7, Stems::OnAxes};
   const std::vector<LidarScan>&own = drive.scans[lidar], &others = drive.scans[reference];
   const Mount of_reference{lidars[reference].body_T_sensor, 0}, given{lidars[lidar].body_T_sensor, 0};
   LidarCalibration calibration;
   calibration.estimate.mount = given;
-  for (const double reach : {kNear, kFar})
+  for (const Surroundings& around : {kNear, kFar})
   {
-    const std::vector<Station> stations = stationsOf(own, others, of_reference, drive.trajectory, reach);
+    const std::vector<Station> stations = stationsOf(own, others, of_reference, drive.trajectory, around);
     if (stations.empty()) return calibration;
     const Mount start = findStart(stations, given, known, own, others, of_reference.body_T_sensor, drive.trajectory);
     const MountEstimate estimate = estimateMount(stations, given, start, drive.trajectory, clock);
     if (estimate.outcome == MountOutcome::StoodStill) return {estimate, {}};
     calibration = {estimate, mountScenes(stations, given, estimate.mount, drive.trajectory)};
-    if (trusted(estimate)) break;
+    if (trusted(estimate) && seeAtOnce(own, others, of_reference, drive.trajectory, estimate)) break;
   }
   return calibration;
 }

@@ -56,6 +56,8 @@ ImuCalibration calibrateImu(const OpenInput& open, std::size_t reference, const 
   drive(withoutImu(settings), std::nullopt);
   std::optional<Mount> start = imuMountByTurns(result.drive.registered, result.drive.imu, given);
   result.imu = withoutImuMount(result.drive.registered, given);
+  // In a dense stand the lidar alone tells the turns badly. By the pose as given, a wrong IMU still fits nothing.
+  if (!start && result.imu.outcome == ImuMountOutcome::Contradicted) start = given;
   for (int i = 0; start && i < kMostDrives; ++i)
   {
     drive(withDistrustedImu(settings), start);
@@ -63,7 +65,7 @@ ImuCalibration calibrateImu(const OpenInput& open, std::size_t reference, const 
     if (!hasNumbers(result.imu) || isNear(result.imu.mount, *start)) break;
     start = result.imu.mount;
   }
-  drive(withImu(settings), result.imu.mount);
+  if (result.imu.outcome != ImuMountOutcome::Contradicted) drive(withImu(settings), result.imu.mount);
   for (const std::string& warning : warnings) warn(warning);
   return result;
 }

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace scanloom;
 
 namespace
@@ -48,10 +50,22 @@ DriveOfTwo driven(double speed, double late = 0)
   return drive;
 }
 
-MountEstimate calibrated(const DriveOfTwo& drive, const Rigid& given, Clock clock, PoseGiven known)
+/** Only what is on the body's side of `forward` (1 or -1). */
+void look(int forward, const Rigid& body_T_sensor, std::vector<LidarScan>& scans)
 {
-  constexpr double kReach = 3;  // m
-  const std::vector<Station> stations = stationsOf(drive.right, drive.left, {kLeft, 0}, drive.trajectory, kReach);
+  for (LidarScan& scan : scans)
+  {
+    const auto isBehind = [&](const Eigen::Vector3f& p)
+    { return forward * (body_T_sensor.rotation * p.cast<double>()).x() < 0; };
+    scan.points.erase(std::remove_if(scan.points.begin(), scan.points.end(), isBehind), scan.points.end());
+    scan.t.resize(scan.points.size());
+  }
+}
+
+MountEstimate calibrated(const DriveOfTwo& drive, const Rigid& given, Clock clock, PoseGiven known,
+                         const Surroundings& around = {5})
+{
+  const std::vector<Station> stations = stationsOf(drive.right, drive.left, {kLeft, 0}, drive.trajectory, around);
   const Mount start = findStart(stations, {given, 0}, known, drive.right, drive.left, kLeft, drive.trajectory);
   return estimateMount(stations, {given, 0}, start, drive.trajectory, clock);
 }
@@ -81,6 +95,49 @@ TEST(MountEstimate, ofALidarTwentyDegreesAndHalfAMetreOffIsItsPose)
 TEST(MountEstimate, ofALidarWithoutAPoseIsItsPose)
 {
   expectRight(calibrated(driven(1), Rigid::identity(), Clock::Kept, PoseGiven::No));
+}
+
+TEST(MountEstimate, ofLidarsThatLookForwardAndBackIsTheirPoseByTheDrive)
+{
+  DriveOfTwo drive = driven(1);
+  look(1, kLeft, drive.left);
+  look(-1, kRight, drive.right);
+  const Rigid given = at(1.55, -1.12, 2.45, -32, 16.5, 26.5);
+  const MountEstimate estimate = calibrated(drive, given, Clock::Kept, PoseGiven::Within20Degrees, {7, Stems::OnAxes});
+  ASSERT_TRUE(trusted(estimate)) << inWords("right", "left", estimate);
+  EXPECT_LT((estimate.mount.body_T_sensor.translation - kRight.translation).norm(), 0.03);
+  EXPECT_LT(estimate.mount.body_T_sensor.rotation.angularDistance(kRight.rotation) / kDegree, 0.2);
+}
+
+TEST(MountSearch, keepsTheGivenPoseRatherThanOneAMetreOff)
+{
+  DriveOfTwo drive = driven(1);
+  look(1, kLeft, drive.left);
+  look(-1, kRight, drive.right);
+  const std::vector<Station> stations = stationsOf(drive.right, drive.left, {kLeft, 0}, drive.trajectory, {7});
+  const Mount start =
+      findStart(stations, {kRight, 0}, PoseGiven::Within20Degrees, drive.right, drive.left, kLeft, drive.trajectory);
+  EXPECT_LT((start.body_T_sensor.translation - kRight.translation).norm(), 1);
+}
+
+TEST(StationMaps, leaveThickCellsOfBothLidarsOut)
+{
+  View view;
+  for (int i = 0; i < 100; ++i)
+  {
+    const auto across = 0.01F * static_cast<float>(i);
+    view.points.emplace_back(across, 0.01F * static_cast<float>(37 * i % 100), 0.5F);  // thin
+    view.points.emplace_back(across, 0.01F * static_cast<float>(37 * i % 100),
+                             2 + 0.01F * static_cast<float>(61 * i % 100));
+  }
+  const LidarScan scan{Timestamp{}, Duration{0}, view.points, std::vector<std::int32_t>(view.points.size(), 0)};
+  const Trajectory at_rest{{Timestamp{-100ms}, {}}, {Timestamp{100ms}, {}}};
+  const std::vector<Station> stations{{Timestamp{}, {&scan}, {view}, Vector6d::Zero()}};
+  MountLevel level{1.0, 1.0};
+  EXPECT_EQ(mapsOfReference(stations, level)[0].cells().size(), 2u);
+  level.thickest = 0.1;
+  EXPECT_EQ(mapsOfReference(stations, level)[0].cells().size(), 1u);
+  EXPECT_EQ(cellsOfLidar(stations, {}, at_rest, level)[0].size(), 1u);
 }
 
 TEST(MountEstimate, findsHowLateALidarsStampsAre)
