@@ -113,7 +113,7 @@ std::optional<Mount> imuMountByTurns(const Trajectory& poses, const std::vector<
 ImuMountEstimate withoutImuMount(const Trajectory& poses, const Mount& given)
 {
   ImuMountEstimate estimate;
-  estimate.mount = given;
+  estimate.mount = estimate.told = given;
   estimate.poses = poses.size();
   if (secondTurnRate(poses) > kLeastTurn) estimate.outcome = ImuMountOutcome::Contradicted;
   return estimate;
@@ -123,7 +123,7 @@ ImuMountEstimate estimateImuMount(const Trajectory& all, const std::vector<ImuSa
                                   const Mount& start, const ImuNoise& noise)
 {
   ImuMountEstimate estimate;
-  estimate.mount = given;
+  estimate.mount = estimate.told = given;
   const Trajectory poses = covered(all, samples);
   estimate.poses = poses.size();
   if (poses.size() < kFewestPoses || extentOf(poses) < kLeastExtent) return estimate;
@@ -138,6 +138,7 @@ ImuMountEstimate estimateImuMount(const Trajectory& all, const std::vector<ImuSa
   estimate.open = openDirections(covariance, kOpenImu);
   estimate.outcome = estimate.open.empty() ? ImuMountOutcome::Estimated : ImuMountOutcome::Open;
   estimate.mount = keepingOpen(given, s.mount, estimate.open);
+  estimate.told = s.mount;
   const Vector7d scale = mountStepOfMetres();
   estimate.covariance = scale.asDiagonal() * covariance * scale.asDiagonal();
   return estimate;

@@ -20,6 +20,7 @@ struct ImuMountEstimate
 {
   ImuMountOutcome outcome = ImuMountOutcome::TurnedTooLittle;
   Mount mount;  // the given one, unless Estimated or Open; its clock offset: how late the IMU's stamps are
+  Mount told;   // the same with the open directions as the drive tells them: better than a pose 20 deg off
   /** Of the errors of position (m), rotation (rad), along the body's axes, and clock (s). */
   Matrix7d covariance = Matrix7d::Zero();
   std::vector<OpenDirection> open;

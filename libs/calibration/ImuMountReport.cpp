@@ -50,8 +50,7 @@ std::string inWords(const ImuMountEstimate& e)
     return "imu: not calibrated: nowhere on the body would it measure the turns that the lidar saw: it is of another "
            "drive, its clock is off by more than 0.5 s, its unit is not rad/s, its axes are left-handed ('scanloom "
            "doctor'), or the lidar alone told the turns badly: drive where it sees stems or walls all around, or give "
-           "the IMU's "
-           "pose to a few degrees\n";
+           "the IMU's pose to a few degrees\n";
   return fmt::format("imu: {}\n", poseInWords(e.mount, e.covariance)) + clockInWords(e) +
          fmt::format("imu: the lidar's {} poses are {:.4f} m and {:.3f} deg off its motion (root mean square)\n",
                      e.poses, e.residual.position, e.residual.rotation / kDegree) +

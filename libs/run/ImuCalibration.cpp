@@ -42,7 +42,7 @@ SlamSettings withDistrustedImu(const SlamSettings& settings)
 ImuCalibration calibrateImu(const OpenInput& open, std::size_t reference, const SlamSettings& settings,
                             const Mount& given, const KeepGoing& keepGoing, const Warn& warn)
 {
-  constexpr int kMostDrives = 2;
+  constexpr int kMostDrives = 3;
   ImuCalibration result;
   std::vector<std::string> warnings;  // those of the last drive count
   const auto drive = [&](const SlamSettings& in_use, const std::optional<Mount>& imu)
@@ -62,10 +62,10 @@ ImuCalibration calibrateImu(const OpenInput& open, std::size_t reference, const 
   {
     drive(withDistrustedImu(settings), start);
     result.imu = estimateImuMount(result.drive.registered, result.drive.imu, given, *start, settings.imu);
-    if (!hasNumbers(result.imu) || isNear(result.imu.mount, *start)) break;
-    start = result.imu.mount;
+    if (!hasNumbers(result.imu) || isNear(result.imu.told, *start)) break;
+    start = result.imu.told;
   }
-  if (result.imu.outcome != ImuMountOutcome::Contradicted) drive(withImu(settings), result.imu.mount);
+  if (result.imu.outcome != ImuMountOutcome::Contradicted) drive(withImu(settings), result.imu.told);
   for (const std::string& warning : warnings) warn(warning);
   return result;
 }
