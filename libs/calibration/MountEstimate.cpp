@@ -11,6 +11,7 @@ namespace
 {
 constexpr std::size_t kFewestStations = 10;
 constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
+constexpr double kFarthestApart = 0.25;  // m, surfaceDistance: twice that of a dense stand; 0.45 m the wrong way round
 constexpr int kRounds = 15;
 constexpr double kFarthest = 1;  // m: from there it does not come back
 constexpr double kNear = 1e-2;   // m, a round's correction: enough for the next level
@@ -117,7 +118,8 @@ MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& g
   estimate.outcome = MountOutcome::NothingShared;
   if (after.shared < kLeastShared) return estimate;
   estimate.outcome = MountOutcome::Unstable;
-  if (!settled || after.shared < before.shared - kMostShareLost) return estimate;
+  const bool fits = after.shared >= before.shared - kMostShareLost && after.distance < kFarthestApart;
+  if (!settled || !fits) return estimate;
   const Matrix7d covariance = fine.covarianceOf(mount, after.distance);
   estimate.open = openDirections(covariance, kOpenLidar);
   estimate.outcome = estimate.open.empty() ? MountOutcome::Estimated : MountOutcome::Open;

@@ -40,7 +40,7 @@ std::string reasonOf(const std::string& reference, const MountEstimate& e)
       return fmt::format(
           "only {:.0f} % of what it saw is where '{}' saw something: it is covered, or its pose is wrong by more than "
           "20 "
-          "deg or 0.5 m, or both see no place in common (a drive: within 8 m of it)",
+          "deg or 0.5 m, or both see no place in common (a drive: within 7 m of it)",
           100 * e.shared_after, reference);
     case MountOutcome::Unstable:
       return "the estimate did not settle: drive where there are stems or walls on all sides";

@@ -13,8 +13,9 @@ namespace
 {
 constexpr std::size_t kCompared = 8;      // stations
 constexpr std::size_t kScansAtStart = 4;  // of a station
-constexpr MountLevel kWide{4.0, 0.05, kScansAtStart}, kNarrow{2.0, 0.5, kScansAtStart},
-    kScored{1.0, 0.4, kScansAtStart};
+constexpr MountLevel kWide{4.0, 0.05, kScansAtStart}, kNarrow{2.0, 0.5, kScansAtStart}, kFine{1.0, 0.4, kScansAtStart};
+// Ground, and crowns, fit nearly as well the wrong way round.
+constexpr MountLevel kScored{1.0, 1.0, kScansAtStart, 2, 0.06};
 
 std::vector<Station> someOf(const std::vector<Station>& all, std::size_t count)
 {
@@ -65,12 +66,13 @@ Mount bestFrom(const std::vector<Mount>& starts, const Mount& guess, double fart
 {
   const std::vector<Station> stations = someOf(all, kCompared);
   const LevelOfSearch wide(kWide, stations, trajectory), narrow(kNarrow, stations, trajectory),
-      scored(kScored, stations, trajectory);
+      fine(kFine, stations, trajectory), scored(kScored, stations, trajectory);
   Mount best = guess;
   double best_score = -1;
   for (const Mount& start : starts)
-    for (const Mount& candidate : {start, narrow.refined(start), narrow.refined(wide.refined(start))})
+    for (const Mount& near : {start, narrow.refined(start), narrow.refined(wide.refined(start))})
     {
+      const Mount candidate = fine.refined(fine.refined(near));
       const Eigen::Vector3d moved = candidate.body_T_sensor.translation - guess.body_T_sensor.translation;
       const double score = moved.norm() < farthest ? scored.scoreOf(candidate) : -1;
       if (score <= best_score) continue;

@@ -155,6 +155,9 @@ TEST(ImuMountEstimate, keepsTheHeightThatGroundNearlyFlatLeavesOpen)
   const Vector7d error = errorOf(estimate);
   EXPECT_LT(error.head<2>().norm(), 0.08) << inWords(estimate);
   EXPECT_NE(inWords(estimate).find("OPEN: z"), std::string::npos) << inWords(estimate);
+  const Eigen::Vector3d &kept = estimate.mount.body_T_sensor.translation,
+                        &told = estimate.told.body_T_sensor.translation;
+  EXPECT_GT(std::abs(told.z() - kept.z()), 0.001);
 }
 
 TEST(ImuMountEstimate, ofAnotherDrivesImuIsNone)
