@@ -20,7 +20,7 @@ struct ImuCalibration
 /**
  * First without the IMU: turns tell its rotation and clock (imuMountByTurns). Then it only deskews: registrations tell
  * its pose (estimateImuMount), once more where that is far from the one before. The last drive is as any other, with
- * the pose found; there is none with an IMU that contradicts. The IMU is that of the body. Throws as runSlam does.
+ * the pose found; there is none where nothing is told of it. The IMU is that of the body. Throws as runSlam does.
  */
 ImuCalibration calibrateImu(const OpenInput&, std::size_t reference, const SlamSettings&, const Mount& given,
                             const KeepGoing&, const Warn&);
