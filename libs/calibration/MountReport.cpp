@@ -43,7 +43,7 @@ std::string reasonOf(const std::string& reference, const MountEstimate& e)
           "deg or 0.5 m, or both see no place in common (a drive: within 7 m of it)",
           100 * e.shared_after, reference);
     case MountOutcome::Unstable:
-      return "the estimate did not settle: drive where there are stems or walls on all sides";
+      return "the estimate did not settle, or does not fit: drive where there are stems or walls on all sides";
     default:
       return "";
   }

@@ -29,7 +29,8 @@ struct LidarCalibration
   std::vector<MountScene> scenes;  // to look at; none where the machine stood still
 };
 
-/** By what both saw at the same places nearly at once; where that is nothing, within more of the drive. */
+/** By what both saw at the same places nearly at once; where that is little, within more of the drive, stems on their
+ * axes. */
 LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLidar>&, std::size_t reference,
                                 const CalibrationDrive&, Clock, PoseGiven);
 
