@@ -29,8 +29,7 @@ struct LidarCalibration
   std::vector<MountScene> scenes;  // to look at; none where the machine stood still
 };
 
-/** By what both saw at the same places nearly at once; where that is little, within more of the drive, stems on their
- * axes. */
+/** By what both saw at the same places nearly at once; where that is little, by more of the drive, stems on axes. */
 LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLidar>&, std::size_t reference,
                                 const CalibrationDrive&, Clock, PoseGiven);
 
