@@ -1,4 +1,4 @@
-/** What `slam` reads: its settings, and its sensors. */
+/** What `slam` reads: its settings, and its sensors. `doctor` reads rawlogs and clouds in the same way. */
 #pragma once
 #include "Arguments.h"
 #include "maps/OctoMapExport.h"
@@ -37,7 +37,8 @@ struct SlamInput
 };
 
 /**
- * The rawlog of `files`, the scene, or the rig of the configuration, which reads the captures or live lidars.
+ * The rawlog or the clouds of `files`, the scene, or the rig of the configuration, which reads the captures or live
+ * lidars.
  * @param lidars names of those to use; empty: all.
  */
 SlamInput openInput(const RecordingFiles& files, const SceneArguments&, const std::vector<std::string>& lidars,

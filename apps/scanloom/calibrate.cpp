@@ -165,8 +165,8 @@ int noPath(const Calibration& calibration, const std::string& outcome)
 int contradicted(const ImuMountEstimate& imu)
 {
   fmt::print(stderr,
-             "scanloom calibrate: the drive is localised with the IMU, which contradicts it, so nothing is calibrated. "
-             "Without the IMU (no 'imu_csv', no 'imu_topic') the lidars alone are\n{}",
+             "scanloom calibrate: the drive is localised with the IMU, which contradicts it, so nothing is calibrated: "
+             "without 'imu_csv' and 'imu_topic' the lidars alone are calibrated\n{}",
              inWords(imu));
   return kQualityGate;
 }

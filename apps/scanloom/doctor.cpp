@@ -2,6 +2,7 @@
 #include "Arguments.h"
 #include "Options.h"
 #include "Settings.h"
+#include "SlamInput.h"
 #include "Verb.h"
 #include "core/AtomicFile.h"
 #include "core/Interruption.h"
@@ -10,8 +11,6 @@
 #include "doctor/DoctorJson.h"
 #include "doctor/Listening.h"
 #include "doctor/ScanEvidence.h"
-#include "mrpt_bridge/RawlogInput.h"
-#include "recordings/CloudsInput.h"
 
 #include <fmt/format.h>
 
@@ -80,17 +79,12 @@ RigEvidence listen(const Rig& rig, bool poses_known, const DoctorArguments& argu
 }
 
 /** Of a rawlog or clouds; clouds name no body frame. */
-RigEvidence read(const RecordingFiles& recording, const DoctorArguments& arguments)
+RigEvidence read(const RecordingFiles& recording, const Configuration& configuration, const DoctorArguments& arguments)
 {
   if (arguments.seconds > 0) throw UsageError("--seconds is for captures and live lidars");
-  const bool is_rawlog = !recording.rawlogs.empty();
-  std::unique_ptr<SensorInput> input;
-  if (is_rawlog)
-    input = std::make_unique<RawlogInput>(recording.rawlogs.front());
-  else
-    input = std::make_unique<CloudsInput>(recording.clouds);
-  RigEvidence evidence = scanEvidence(*input, is_rawlog, [] { return !interrupted(); });
-  for (const std::string& warning : input->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
+  const SlamInput input = openInput(recording, {}, {}, configuration);
+  RigEvidence evidence = scanEvidence(*input.sensors, !recording.rawlogs.empty(), [] { return !interrupted(); });
+  for (const std::string& warning : input.sensors->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
   return evidence;
 }
 
@@ -111,7 +105,8 @@ int run(const DoctorArguments& arguments)
 
   catchInterruption();
   const RigExamination examination =
-      examine(rig ? listen(*rig, loaded.poses_known, arguments) : read(recording, arguments), loaded.settings);
+      examine(rig ? listen(*rig, loaded.poses_known, arguments) : read(recording, loaded.configuration, arguments),
+              loaded.settings);
   const Findings findings = findingsOf(examination, loaded.settings);
   if (arguments.json)
     std::cout << toJson(examination, findings) << '\n';

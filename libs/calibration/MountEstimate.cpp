@@ -13,15 +13,12 @@ constexpr std::size_t kFewestStations = 10;
 constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
 constexpr double kFarthestApart = 0.25;  // m, surfaceDistance: twice that of a dense stand; 0.45 m the wrong way round
 constexpr int kRounds = 15;
-constexpr double kFarthest = 1;  // m: from there it does not come back
+constexpr double kFarthest = 1;  // m, from the start: so far off a level finds nothing any more
 constexpr double kNear = 1e-2;   // m, a round's correction: enough for the next level
 constexpr double kSettled = 5e-4;
 constexpr double kNearlySettled = 2e-3;  // m: the last round's, where cells come and go at the limit of thickness
 
 constexpr MountLevel kCoarse{2.0, 0.2}, kMiddle{1.0, 0.4};
-// Each lidar sees the near side of bushes and crowns: cells full of leaves pull by 1 cm and 0.1 deg in a dense stand.
-// Of cells of 2 or 3 points the covariance is assumed, and thin enough.
-constexpr MountLevel kFine{1.0, 1.0, std::numeric_limits<std::size_t>::max(), 2, 0.06};
 
 std::vector<Vector6d> twistsOf(const std::vector<Station>& stations)
 {
@@ -109,7 +106,7 @@ MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& g
     if (clock == Clock::Estimated) level.scans = 1;
     LevelOfDrive(stations, trajectory, level, clock).improve(mount, kNear);
   }
-  const LevelOfDrive fine(stations, trajectory, kFine, clock);
+  const LevelOfDrive fine(stations, trajectory, kFinestLevel, clock);
   const bool settled = fine.improve(mount, kSettled) < kNearlySettled;
   const MountFit before = mountFit(stations, given, trajectory), after = mountFit(stations, mount, trajectory);
   estimate.shared_before = before.shared, estimate.distance_before = before.distance;

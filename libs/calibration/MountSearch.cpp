@@ -14,8 +14,14 @@ namespace
 constexpr std::size_t kCompared = 8;      // stations
 constexpr std::size_t kScansAtStart = 4;  // of a station
 constexpr MountLevel kWide{4.0, 0.05, kScansAtStart}, kNarrow{2.0, 0.5, kScansAtStart}, kFine{1.0, 0.4, kScansAtStart};
-// Ground, and crowns, fit nearly as well the wrong way round.
-constexpr MountLevel kScored{1.0, 1.0, kScansAtStart, 2, 0.06};
+
+/** Without ground and crowns in thick cells, which fit nearly as well the wrong way round. */
+constexpr MountLevel scoredLevel()
+{
+  MountLevel level = kFinestLevel;
+  level.scans = kScansAtStart;
+  return level;
+}
 
 std::vector<Station> someOf(const std::vector<Station>& all, std::size_t count)
 {
@@ -66,7 +72,7 @@ Mount bestFrom(const std::vector<Mount>& starts, const Mount& guess, double fart
 {
   const std::vector<Station> stations = someOf(all, kCompared);
   const LevelOfSearch wide(kWide, stations, trajectory), narrow(kNarrow, stations, trajectory),
-      fine(kFine, stations, trajectory), scored(kScored, stations, trajectory);
+      fine(kFine, stations, trajectory), scored(scoredLevel(), stations, trajectory);
   Mount best = guess;
   double best_score = -1;
   for (const Mount& start : starts)

@@ -37,8 +37,8 @@ struct PoseLimits
 };
 
 /**
- * About `lidar`, if the pose of `other` is right. Errors below three standard deviations are none; larger ones are
- * compared with the limits less one deviation.
+ * About `lidar`, if the pose of `other` is right. Errors below three standard deviations are none; of larger ones a
+ * standard deviation is subtracted before they are compared with the limits.
  */
 Finding poseFinding(const std::string& lidar, const std::string& other, const std::optional<CloudAgreement>&,
                     const PoseLimits&);

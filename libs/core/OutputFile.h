@@ -22,11 +22,10 @@ class OutputFile
   /** Gives the file its name. No write may follow. Throws std::runtime_error if not all bytes could be written. */
   void commit();
 
-  /**
-   * The same with what `convert` makes of the file: it reads the first of the two and writes the second, which gets the
-   * name. Throws what `convert` throws, too.
-   */
+  /** Reads the first file and writes the second. */
   using Convert = std::function<void(const std::filesystem::path& written, const std::filesystem::path& converted)>;
+
+  /** As commit(), but what `convert` makes of the file gets the name. Throws what `convert` throws, too. */
   void commitConverted(const Convert& convert);
 
   /** The same for a text that could not be written to its end: with the whole lines that it has. */

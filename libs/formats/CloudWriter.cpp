@@ -10,37 +10,51 @@
 
 namespace scanloom
 {
+struct CloudWriter::Format
+{
+  std::string ending;
+  std::unique_ptr<CloudEncoding> (*encoding)(Timestamp origin);
+  OutputFile::Convert finish = nullptr;  // of the encoded file
+};
+
+const std::vector<CloudWriter::Format>& CloudWriter::formats()
+{
+  static const std::vector<Format> formats{
+      {".ply", plyEncoding}, {".pcd", pcdEncoding}, {".las", lasEncoding}, {".laz", lasEncoding, compressLas}};
+  return formats;
+}
+
 const std::vector<std::string>& CloudWriter::endings()
 {
-  static const std::vector<std::string> endings{".ply", ".pcd", ".las", ".laz"};
+  static const std::vector<std::string> endings = []
+  {
+    std::vector<std::string> all;
+    for (const Format& format : formats()) all.push_back(format.ending);
+    return all;
+  }();
   return endings;
 }
 
-CloudWriter::MakeEncoding CloudWriter::encodingOf(const std::filesystem::path& path)
+const CloudWriter::Format& CloudWriter::formatOf(const std::filesystem::path& path)
 {
-  const auto ending = path.extension();
-  if (ending == ".ply") return plyEncoding;
-  if (ending == ".pcd") return pcdEncoding;
-  if (ending == ".las") return lasEncoding;
+  const std::string ending = path.extension().string();
   if (ending == ".laz" && !hasLaszip())
     throw UsageError(
         fmt::format("{}: this scanloom was built without LASzip, which Debian has from release 13 on: "
                     "write a .las file",
                     path.string()));
-  if (ending == ".laz") return lasEncoding;
+  for (const Format& format : formats())
+    if (format.ending == ending) return format;
   throw std::invalid_argument(
       fmt::format("{}: a cloud's file must end in one of {}", path.string(), fmt::join(endings(), ", ")));
 }
 
-CloudWriter::CloudWriter(const std::filesystem::path& path)
-  : make_encoding_(encodingOf(path)), is_laz_(path.extension() == ".laz"), file_(path)
-{
-}
+CloudWriter::CloudWriter(const std::filesystem::path& path) : format_(formatOf(path)), file_(path) {}
 
 void CloudWriter::begin(Timestamp origin)
 {
   origin_ = origin;
-  encoding_ = make_encoding_(origin);
+  encoding_ = format_.encoding(origin);
   file_.stream() << encoding_->header(0);
 }
 
@@ -60,8 +74,8 @@ void CloudWriter::close()
   if (!encoding_) begin(Timestamp{});
   file_.stream().seekp(0);
   file_.stream() << encoding_->header(size_);
-  if (is_laz_)
-    file_.commitConverted(compressLas);
+  if (format_.finish)
+    file_.commitConverted(format_.finish);
   else
     file_.commit();
 }

@@ -42,12 +42,12 @@ class CloudWriter
   std::size_t size() const { return size_; }
 
  private:
-  using MakeEncoding = std::unique_ptr<CloudEncoding> (*)(Timestamp origin);
-  static MakeEncoding encodingOf(const std::filesystem::path&);
+  struct Format;
+  static const std::vector<Format>& formats();
+  static const Format& formatOf(const std::filesystem::path&);
   void begin(Timestamp origin);
 
-  MakeEncoding make_encoding_;
-  bool is_laz_;
+  const Format& format_;
   OutputFile file_;
   std::unique_ptr<CloudEncoding> encoding_;  // none before the first cloud
   Timestamp origin_;

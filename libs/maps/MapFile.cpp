@@ -16,7 +16,14 @@ namespace
 {
 using Paths = std::vector<std::filesystem::path>;
 
-const std::vector<std::string> kEndings{".bt", ".ot", ".ply", ".pcd", ".las", ".laz", ".simplemap", ".3Dscene"};
+std::vector<std::string> allEndings()
+{
+  std::vector<std::string> endings{".bt", ".ot"};
+  const std::vector<std::string>& clouds = CloudWriter::endings();
+  endings.insert(endings.end(), clouds.begin(), clouds.end());
+  endings.insert(endings.end(), {".simplemap", ".3Dscene"});
+  return endings;
+}
 
 class CloudMap : public MapFile
 {
@@ -90,13 +97,14 @@ std::filesystem::path withEnding(const Paths& paths, const std::string& ending)
 
 void requireMapEndings(const Paths& paths)
 {
+  const std::vector<std::string> known = allEndings();
   std::set<std::string> seen;
   for (const std::filesystem::path& path : paths)
   {
     const std::string ending = path.extension().string();
-    if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end())
+    if (std::find(known.begin(), known.end(), ending) == known.end())
       throw UsageError(
-          fmt::format("-o {}: '{}' is no ending of a map: {}", path.string(), ending, suggestion(ending, kEndings)));
+          fmt::format("-o {}: '{}' is no ending of a map: {}", path.string(), ending, suggestion(ending, known)));
     if (!seen.insert(ending).second) throw UsageError(fmt::format("-o: two outputs end in {}", ending));
   }
 }

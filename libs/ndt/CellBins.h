@@ -15,6 +15,12 @@ struct Bin
   Moments moments;
 };
 
+/** Of the points in a bin of a grid of `edge` (m). */
+inline MeanAndCovariance meanAndCovariance(const Bin& bin, double edge)
+{
+  return meanAndCovariance(bin.moments, edge * CellKey::indexOf(bin.key).cast<double>());
+}
+
 /** Positions of points in memory: three arrays, or one of triples. */
 struct Coordinates
 {
@@ -53,6 +59,12 @@ inline std::int64_t quantaOf(double coordinate)
 {
   constexpr std::int64_t kBias = std::int64_t{1} << 40;
   return static_cast<std::int64_t>(coordinate * (1 / Moments::kQuantum) + 0.5 + static_cast<double>(kBias)) - kBias;
+}
+
+/** Moves the points by `shift` (m); they stay in the bin, wherever that takes them. */
+inline void moveBy(const Eigen::Vector3d& shift, Bin& bin)
+{
+  bin.moments = bin.moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
 }
 
 /** Division that rounds down, by a multiplication; |a| < 2^50. */

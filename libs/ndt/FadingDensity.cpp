@@ -20,12 +20,10 @@ void undoFading(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::V
          [&](std::size_t i)
          {
            if (bins[i].moments.n < least_points) return;
-           const Eigen::Vector3d corner = edge * CellKey::indexOf(bins[i].key).cast<double>();
-           const MeanAndCovariance seen = meanAndCovariance(bins[i].moments, corner);
+           const MeanAndCovariance seen = meanAndCovariance(bins[i], edge);
            const Eigen::Vector3d view = seen.mean - viewpoint;
            const double range = std::max(kNearest, view.norm());
-           const Eigen::Vector3d shift = (kExtinction + 2 / range) / range * (seen.covariance * view);
-           bins[i].moments = bins[i].moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
+           moveBy((kExtinction + 2 / range) / range * (seen.covariance * view), bins[i]);
          });
 }
 }  // namespace scanloom

@@ -78,8 +78,7 @@ void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::V
          [&](std::size_t i)
          {
            if (bins[i].moments.n < kFewest) return;
-           const Eigen::Vector3d corner = edge * CellKey::indexOf(bins[i].key).cast<double>();
-           bodies[i] = thinBodyOf(meanAndCovariance(bins[i].moments, corner), viewpoint);
+           bodies[i] = thinBodyOf(meanAndCovariance(bins[i], edge), viewpoint);
          });
   const double typical = typicalRadius(bodies, bins, least_points);
   forAll(bins.size(), kGrain,
@@ -88,8 +87,7 @@ void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::V
            const bool is_measured = bins[i].moments.n >= least_points;
            if (!bodies[i] || (!is_measured && !bodies[i]->stands)) return;
            const double radius = is_measured ? bodies[i]->radius : typical;
-           const Eigen::Vector3d shift = kMeanBeforeAxis * radius * bodies[i]->towards;
-           bins[i].moments = bins[i].moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
+           moveBy(kMeanBeforeAxis * radius * bodies[i]->towards, bins[i]);
          });
 }
 }  // namespace scanloom

@@ -144,10 +144,14 @@ void CountedArchive::follow(const char* bytes, std::size_t count)
     begin(*begun);
 }
 
-/**
- * For each type of values the number of its fields, and for each of these a name and the values. Up to version 2 names
- * of two types come between them, but not for floats, the first type.
- */
+/** Of its name and, as the last, its values. Up to version 2 the names of two types are between, but for floats. */
+int CountedArchive::countsPerField() const
+{
+  constexpr int kFloats = 1;  // the first type
+  return version_ < 3 && field_types_ > kFloats ? 4 : 2;
+}
+
+/** For each type of values the number of its fields, and for each of these its counts. */
 void CountedArchive::followFields(const char* bytes, std::size_t count)
 {
   next_ = Next::Anything;
@@ -156,9 +160,8 @@ void CountedArchive::followFields(const char* bytes, std::size_t count)
   std::uint32_t fields = 0;
   std::memcpy(&fields, bytes, count);
   if (fields > kMostFields) refuse(fmt::format("is damaged: a {} of {} fields", class_->name, fields));
-  counts_per_field_ = version_ < 3 && field_types_ > 0 ? 4 : 2;
   ++field_types_;
-  more_ = static_cast<int>(fields) * counts_per_field_;
+  more_ = static_cast<int>(fields) * countsPerField();
   next_ = afterItems();
 }
 
@@ -256,7 +259,7 @@ void CountedArchive::followCount(std::uint32_t items)
 {
   if (field_types_ == 0)
     points_ = items;
-  else if (more_ % counts_per_field_ == 0 && items != points_)
+  else if (more_ % countsPerField() == 0 && items != points_)
     refuse(fmt::format("is damaged: a {} of {} points, but {} values of a field", class_->name, points_, items));
   const int counts_before = class_->more - more_;
   const std::uint64_t least = field_types_ > 0                                 ? 1

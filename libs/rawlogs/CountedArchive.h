@@ -28,7 +28,10 @@ struct CountedClass
   std::uint64_t second_bytes = 0;  // of an item of the second count, if those are larger than a float
 };
 
-/** More than a dozen members: where in the nested objects of the file the reading is. */
+/**
+ * One half of the members is the file: what is unpacked ahead, and how large the object has become. The other half is
+ * the place in the nested objects of MRPT: the class that is being read, and what its next number means.
+ */
 class CountedArchive : public mrpt::serialization::CArchive
 {
  public:
@@ -71,6 +74,7 @@ class CountedArchive : public mrpt::serialization::CArchive
   void followFields(const char* bytes, std::size_t count);
   void followLists(const char* bytes, std::size_t count);
   void followMovement(const char* bytes, std::size_t count);
+  int countsPerField() const;
   Next afterItems();
   bool follows(std::uint64_t bytes);
   [[noreturn]] void refuseLargeObject();
@@ -81,6 +85,8 @@ class CountedArchive : public mrpt::serialization::CArchive
   std::uint64_t object_ = 0;      // bytes of the object that is being read
   std::vector<char> ahead_;       // unpacked to see whether so many bytes follow
   std::size_t ahead_taken_ = 0;   // bytes of ahead_ that were read
+  std::string refused_;
+
   const CountedClass* class_ = nullptr;
   Next next_ = Next::Anything;
   int arrays_ = 0, more_ = 0;           // that are still to come
@@ -89,10 +95,8 @@ class CountedArchive : public mrpt::serialization::CArchive
   std::vector<std::uint32_t> numbers_;  // of a CActionRobotMovement2D, so far
   int version_ = 0;                     // of class_
   std::uint32_t points_ = 0;            // of a CGenericPointsMap
-  int counts_per_field_ = 2;            // the last of them that of its values
   int field_types_ = 0;                 // of a CGenericPointsMap: lists of fields, one for each type, that have begun
   bool has_velocities_ = false;         // the CSimpleMap's keyframes end with one
   const CountedClass* part_ = nullptr;  // whose version comes, within class_
-  std::string refused_;
 };
 }  // namespace scanloom

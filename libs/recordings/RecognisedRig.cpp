@@ -167,7 +167,7 @@ void addWaysOut(const std::string& extrinsics, const Poses& poses, std::size_t l
 void addImu(const std::string& key, const std::string& imu, const Poses& poses, RecognisedRig& rig, Ini& ini)
 {
   if (imu.empty()) return;
-  const std::string value = ini.from(std::filesystem::path(imu));
+  const std::string value = ini.from(imu);
   if (const auto pose = poses.find("T_body_imu"); pose != poses.end())
   {
     ini.set(key, value);
@@ -269,7 +269,7 @@ RecognisedRig recogniseRig(const RecordingFiles& files, const std::filesystem::p
       rig.poses_from_bag ? posesByFrames(bags, found.lidars, names, imu_topic) : readExtrinsics(extrinsics);
   Ini ini(ini_folder);
   ini.set("pcap_input", ini.from(files.captures));
-  if (!extrinsics.empty()) ini.set("extrinsics", ini.from(std::filesystem::path(extrinsics)));
+  if (!extrinsics.empty()) ini.set("extrinsics", ini.from(extrinsics));
   for (std::size_t i = 0; i < found.lidars.size(); ++i)
   {
     const FoundLidar& lidar = found.lidars[i];

@@ -12,13 +12,16 @@ namespace scanloom
 {
 namespace
 {
-/** Else they see stems from other sides, and moved onto their axes. */
+/**
+ * Whether both lidars see much of the same at the same time. If not, one sees the side of a stem that the other does
+ * not, and stems are compared by their axes.
+ */
 bool seeAtOnce(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
                const Mount& reference, const Trajectory& trajectory, const MountEstimate& estimate)
 {
-  constexpr Surroundings kNone{0};
+  constexpr Surroundings kAtOnce{0};
   constexpr double kLeast = 0.2;  // of what they see within the drive
-  const std::vector<Station> stations = stationsOf(of_lidar, of_reference, reference, trajectory, kNone);
+  const std::vector<Station> stations = stationsOf(of_lidar, of_reference, reference, trajectory, kAtOnce);
   return mountFit(stations, estimate.mount, trajectory).shared > kLeast * estimate.shared_after;
 }
 }  // namespace

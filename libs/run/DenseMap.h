@@ -17,8 +17,8 @@
 namespace scanloom
 {
 /**
- * dense_map.las, .laz, .pcd or .ply: cropped and deskewed points in the map frame, by the poses of trajectory.tum; none of
- * scans where the machine is LOST. A thread writes them in the order of the scans. Memory: 40 to 60 bytes per voxel.
+ * dense_map.las, .laz, .pcd or .ply: cropped and deskewed points in the map frame, by the poses of trajectory.tum; none
+ * of scans where the machine is LOST. A thread writes them in the order of the scans. Memory: 40 to 60 bytes per voxel.
  */
 class DenseMap
 {

@@ -65,7 +65,7 @@ ImuCalibration calibrateImu(const OpenInput& open, std::size_t reference, const 
     if (!hasNumbers(result.imu) || isNear(result.imu.told, *start)) break;
     start = result.imu.told;
   }
-  // Else the drive before serves the lidars: with a pose 3 deg off, one on flat ground was lost.
+  // Without a pose the lidars go by the drive before: by the given one, 3 deg off, a drive on flat ground was lost.
   if (hasNumbers(result.imu)) drive(withImu(settings), result.imu.told);
   for (const std::string& warning : warnings) warn(warning);
   return result;

@@ -7,8 +7,9 @@ namespace scanloom
 {
 namespace
 {
-// Displacement that the heading is doubted by, over that of one deviation of depth: by the headings of drives of 120 to
-// 315 m with one lidar (doc/study/localisation.md). With less, the gyroscope's bias follows the registrations.
+// By how many times the displacement (of cells one deviation farther away) the heading is doubted. Fitted to the
+// headings of drives of 120 to 315 m with one lidar (doc/study/localisation.md): with 1 they err up to three times as
+// much.
 constexpr double kDeviations = 4;
 constexpr double kSight = 12;  // m: on less way the same is seen from the same side
 }  // namespace

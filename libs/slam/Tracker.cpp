@@ -364,7 +364,7 @@ void Tracker::addKeyframe(const Seen& seen, TrackerState& state, StateEstimate& 
   if (!state.local_map.empty())
   {
     const NdtMap source(seen.views, settings_.keyframe_cells);
-    const PoseGuess guess(estimated, state.smoother.newestBodyCovariance());
+    const PoseGuess guess(estimated, alignment);
     const RegistrationResult fine = align(state.local_map.ndt(), source, guess, settings_.registration.fine);
     if (fine.trustworthy())
     {

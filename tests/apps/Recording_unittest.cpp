@@ -133,6 +133,7 @@ TEST(Recording, cloudsOfItGiveItsTrajectory)
   const auto place = [](const Trajectory& poses) { return poses.back().map_T_body.translation; };
   EXPECT_LT((place(of_clouds) - place(of_rawlog)).norm(), 0.01);
   EXPECT_THAT(scanloom(folder.path(), "doctor clouds/lidar").output, HasSubstr("fit for SLAM"));
+  EXPECT_THAT(scanloom(folder.path(), "calibrate clouds/lidar").output, HasSubstr("others the rawlog that 'record'"));
 }
 
 TEST(Recording, ofCloudsIsCountedAndMadeARawlog)

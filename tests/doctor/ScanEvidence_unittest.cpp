@@ -35,6 +35,7 @@ TEST(ScanEvidence, pointsAndImusTellTheSameAsThePacketsDid)
 
   RawlogInput input(temporary / "a.rawlog");
   const RigExamination seen = examine(scanEvidence(input, true, [] { return true; }), {});
+  EXPECT_TRUE(input.takeWarnings().empty()) << "nothing is damaged";
   ASSERT_EQ(seen.lidars.size(), 2u);
   for (const LidarExamination& lidar : seen.lidars)
   {

@@ -9,7 +9,7 @@ set -eu
 project=$(cd "$(dirname "$0")/../.." && pwd)
 folder=${BARE_DEBIAN:-/var/tmp/bare_debian}/arm64
 system=$folder/system
-work=$system/root/scanloom
+work=$system/srv/scanloom
 inside() { unshare --mount --pid --fork --root="$system" --mount-proc env -i PATH="$PATH" HOME=/root sh -c "$1"; }
 linesOf() { awk -v group="$1" '/^# group:/ { here = $3 == group; next } here && /-dev/ && !/none$/ { print $1 }' "$project/apt-packages.txt"; }
 
@@ -26,25 +26,25 @@ if [ ! -f "$folder/ready" ]; then
     apt-get -q -y install --no-install-recommends crossbuild-essential-arm64 qemu-user-static cmake ninja-build pkg-config zstd
     for package in $(echo $(linesOf run) $(linesOf check)); do
       apt-cache show \$package 2>/dev/null | grep -q '^Architecture: all' && echo \$package || echo \$package:arm64
-    done | grep -v libclang > /root/packages
-    apt-get -q -y install --no-install-recommends \$(cat /root/packages)
+    done | grep -v libclang > /srv/packages
+    apt-get -q -y install --no-install-recommends \$(cat /srv/packages)
     # apt takes libmrpt-common-dev of this machine for arm64's, but its config.h tells the processor.
     apt-get -q -o APT::Sandbox::User=root download libmrpt-common-dev:arm64
     dpkg -x libmrpt-common-dev_*_arm64.deb /"
   touch "$folder/ready"
 fi
 
-rm -rf "$work" "$system/root/data"
+rm -rf "$work" "$system/srv/data"
 mkdir -p "$work"
-[ -z "${SCANLOOM_DATA:-}" ] || cp -r "$SCANLOOM_DATA" "$system/root/data"
+[ -z "${SCANLOOM_DATA:-}" ] || cp -r "$SCANLOOM_DATA" "$system/srv/data"
 git -C "$project" archive HEAD | tar -C "$work" -x
 inside "
   set -e
-  cd /root/scanloom
+  cd /srv/scanloom
   cmake --preset release -DCMAKE_TOOLCHAIN_FILE=tests/end_to_end/arm64.toolchain.cmake > /dev/null
   cmake --build --preset release --target scanloom_bits \
     scanloom_test_core scanloom_test_lidar scanloom_test_batching scanloom_test_imu scanloom_test_ndt
-  [ ! -d /root/data ] || export SCANLOOM_DATA=/root/data
+  [ ! -d /srv/data ] || export SCANLOOM_DATA=/srv/data
   ctest --preset release -R '^(core|lidar|batching|imu|ndt)\.' -j $(nproc)"
 
 "$project/build/release/bin/scanloom" simulate -c "$project/params/simulation/demo.ini" --set simulated_drive.standstill=1 \
@@ -52,6 +52,6 @@ inside "
 cd "$work/recording"
 files="recording.pcap left.json right.json extrinsics.txt"
 "$project/build/release/bin/scanloom_bits" $files > here.txt
-inside "cd /root/scanloom/recording && qemu-aarch64-static ../build/release/bin/scanloom_bits $files > arm64.txt"
+inside "cd /srv/scanloom/recording && qemu-aarch64-static ../build/release/bin/scanloom_bits $files > arm64.txt"
 cmp here.txt arm64.txt
 echo "$(wc -l < here.txt) lines of digests and poses are the same bits on arm64"

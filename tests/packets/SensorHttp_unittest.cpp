@@ -2,6 +2,7 @@
 #include "packets/SensorHttp.h"
 
 #include <gtest/gtest.h>
+#include <httplib.h>
 
 #include <netinet/in.h>
 #include <sys/resource.h>
@@ -89,8 +90,10 @@ TEST(SensorHttp, headersWithoutEndAreAnAnswerThatIsTooLarge)
   for (int i = 0; i < 1000; ++i) headers += "X-" + std::to_string(i) + ": " + std::string(80, 'x') + "\r\n";
   const EndlessServer server("HTTP/1.1 200 OK\r\n", headers);
   const double before = mostMegabytes();
-  const SensorFault fault = faultOf(server.address());
-  EXPECT_TRUE(fault == SensorFault::TooLarge || fault == SensorFault::Interrupted)  // by newer versions of cpp-httplib
-      << static_cast<int>(fault);
+#ifdef CPPHTTPLIB_HEADER_MAX_COUNT  // since 0.18.7 or before, cpp-httplib ends it itself
+  EXPECT_EQ(faultOf(server.address()), SensorFault::Interrupted);
+#else
+  EXPECT_EQ(faultOf(server.address()), SensorFault::TooLarge);
+#endif
   EXPECT_LT(mostMegabytes() - before, 60) << "they come with hundreds of megabytes a second";
 }
