@@ -23,10 +23,10 @@ std::optional<Vector6d> solvePositive(const Matrix6d& a, const Vector6d& b)
 
 Matrix6d inverseOfPositive(const Matrix6d& m) { return m.llt().solve(Matrix6d::Identity()); }
 
-Matrix6d informationWithError(const Matrix6d& information, const Vector6d& deviation)
+Matrix6d informationWithError(const Matrix6d& information, const Matrix6d& error)
 {
-  const Vector6d lost = information * deviation;
-  return information - lost * lost.transpose() / (1 + deviation.dot(lost));
+  const Matrix6d left = solve(Matrix6d::Identity() + information * error, information);
+  return 0.5 * (left + left.transpose());
 }
 
 Eigensystem6 eigensystem(const Matrix6d& symmetric)

@@ -23,8 +23,9 @@ std::optional<Vector6d> solvePositive(const Matrix6d& a, const Vector6d& b);
 /** Of a positive definite matrix. */
 Matrix6d inverseOfPositive(const Matrix6d&);
 
-/** Of an estimate that also errs along `deviation` by its length: the inverse of (inverse + deviation deviation'). */
-Matrix6d informationWithError(const Matrix6d& information, const Vector6d& deviation);
+/** Of an estimate that has a further error of this covariance: the inverse of (inverse + error). Both may be singular.
+ */
+Matrix6d informationWithError(const Matrix6d& information, const Matrix6d& error);
 
 /** Eigenvalues in ascending order, and their vectors as columns. */
 struct Eigensystem6

@@ -40,14 +40,14 @@ Eigen::Vector3d upInBody(const Rigid& map_T_body) { return map_T_body.rotation.c
 
 /**
  * Of a registration among others. Errors of the map's cells, leaves seen from one side and occlusions stay the same
- * from scan to scan until the machine has moved by `correlation` m; those of the heading on the length of the map.
+ * from scan to scan until the machine has moved by `correlation` m; those of the attitude on the length of the map.
  */
-Matrix6d informationAmongOthers(const RegistrationResult& registration, const HeadingDoubt& doubt,
+Matrix6d informationAmongOthers(const RegistrationResult& registration, const AttitudeDoubt& doubt,
                                 const Eigen::Vector3d& up, double travel, double correlation)
 {
-  Vector6d turn = Vector6d::Zero();
-  turn.tail<3>() = doubt.deviation() * std::sqrt(registrationsPerMeasurement(travel, doubt.length())) * up;
-  return informationWithError(registration.information / registrationsPerMeasurement(travel, correlation), turn);
+  Matrix6d shared = Matrix6d::Zero();
+  shared.bottomRightCorner<3, 3>() = registrationsPerMeasurement(travel, doubt.length()) * doubt.covariance(up);
+  return informationWithError(registration.information / registrationsPerMeasurement(travel, correlation), shared);
 }
 
 NavEstimate newestOf(const FixedLagSmoother& smoother) { return {smoother.newest(), smoother.newestCovariance()}; }
@@ -190,9 +190,9 @@ void Tracker::addRegistration(const PoseGuess& predicted, TrackerState& state, S
 
   const Eigen::Vector3d up = upInBody(state.map_T_local() * local_T_body);
   const double travel = travelTo(local_T_body, state);
-  state.heading_doubt.add(registration, up, state.local_map.oldest(), travel);
+  state.attitude_doubt.add(registration, up, state.local_map.oldest(), travel);
   const Matrix6d information =
-      informationAmongOthers(registration, state.heading_doubt, up, travel, options.correlation);
+      informationAmongOthers(registration, state.attitude_doubt, up, travel, options.correlation);
   state.last_registered = local_T_body;
   FixedLagSmoother& smoother = state.smoother;
   if (smoother.hasAnchor())
@@ -368,7 +368,7 @@ void Tracker::addKeyframe(const Seen& seen, TrackerState& state, StateEstimate& 
     const RegistrationResult fine = align(state.local_map.ndt(), source, guess, settings_.registration.fine);
     if (fine.trustworthy())
     {
-      local_T_body = withHeadingOf(estimated, fine, upInBody(estimate.map_T_body), state.heading_doubt);
+      local_T_body = withAttitudeOf(estimated, fine, upInBody(estimate.map_T_body), state.attitude_doubt);
       alignment = inverse(fine.information + inverse(alignment));
     }
   }

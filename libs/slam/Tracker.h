@@ -6,7 +6,7 @@
 #include "ndt/View.h"
 #include "preprocessing/Crop.h"
 #include "slam/Assessment.h"
-#include "slam/HeadingDoubt.h"
+#include "slam/AttitudeDoubt.h"
 #include "slam/LocalMap.h"
 #include "slam/Recovery.h"
 #include "slam/SlamSettings.h"
@@ -27,7 +27,7 @@ struct TrackerState
   Trajectory motion_since_last;          // body poses from the state before the newest up to it
   TrustHistory trust;
   Recovery recovery;
-  HeadingDoubt heading_doubt;
+  AttitudeDoubt attitude_doubt;
   std::optional<Timestamp> resting_since;  // lost, and no longer carried by the IMU
 
   Rigid map_T_local() const;

@@ -1,0 +1,48 @@
+#include "slam/AttitudeDoubt.h"
+
+#include "core/Angle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+// Both fitted to drives of 120 to 315 m (doc/study/localisation.md).
+constexpr double kDeviations = 4;        // displacements (of cells one deviation farther away) by which a heading errs
+constexpr double kTilt = 0.1 * kDegree;  // up to 0.5 deg drives of the study drift as little, but starts settle later
+constexpr double kSight = 12;            // m: on less way the same is seen from the same side
+}  // namespace
+
+void AttitudeDoubt::add(const RegistrationResult& seen, const Eigen::Vector3d& up_in_source,
+                        const Eigen::Vector3d& map_begin, double travel)
+{
+  const Eigen::Vector3d back =
+      seen.target_T_source.rotation.conjugate() * (map_begin - seen.target_T_source.translation);
+  length_ = std::max(back.norm(), kSight);
+  const Eigen::Vector3d across = up_in_source.cross(back);
+  if (!(across.norm() > 0)) return;
+  sideways_ += std::min(1.0, travel / length_) * (across.normalized().dot(seen.one_sided) - sideways_);
+}
+
+double AttitudeDoubt::heading() const { return length_ > 0 ? kDeviations * std::abs(sideways_) / length_ : 0; }
+
+Eigen::Matrix3d AttitudeDoubt::covariance(const Eigen::Vector3d& up_in_source) const
+{
+  const Eigen::Matrix3d about_up = up_in_source * up_in_source.transpose();
+  return std::pow(heading(), 2) * about_up + std::pow(kTilt, 2) * (Eigen::Matrix3d::Identity() - about_up);
+}
+
+Rigid withAttitudeOf(const Rigid& estimate, const RegistrationResult& fine, const Eigen::Vector3d& up_in_source,
+                     const AttitudeDoubt& doubt)
+{
+  const Eigen::Vector3d apart = boxMinus(estimate, fine.target_T_source).tail<3>();
+  const double own = up_in_source.dot(fine.covariance.bottomRightCorner<3, 3>() * up_in_source);
+  const double shared = std::pow(doubt.heading(), 2);
+  const double heading_kept = own / (own + shared);
+  Vector6d step = Vector6d::Zero();
+  step.tail<3>() = apart - heading_kept * up_in_source.dot(apart) * up_in_source;
+  return boxPlus(fine.target_T_source, step);
+}
+}  // namespace scanloom
