@@ -29,6 +29,7 @@ class CompressedFile
 
  private:
   class Source;
+  class Plain;
   class Gzip;
   class Zstd;
   [[noreturn]] void fail(const char* what) const;

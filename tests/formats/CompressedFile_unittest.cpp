@@ -111,7 +111,30 @@ TEST(CompressedFile, severalFramesAreOneStream)
   }
 }
 
-TEST(CompressedFile, thatIsNotThereIsNamed)
+TEST(CompressedFile, whatIsBehindGzipIsIgnoredAsByGunzip)
 {
+  const TemporaryFolder folder;
+  const auto path = (folder / "padded").string();
+  runProgram(fmt::format("(echo -n ab | gzip; head -c 600000 /dev/zero) > {}", path));
+  EXPECT_EQ(uncompressedBytes(path), 2U);
+}
+
+TEST(CompressedFile, ofGzipThatIsCutWithinItsHeaderOrItsCheckSumIsCut)
+{
+  const TemporaryFolder folder;
+  const auto path = (folder / "cut").string();
+  runProgram(fmt::format("echo -n ab | gzip > {}", path));
+  for (const int size : {21, 15, 9, 3})  // of 22: 10 of the header, 8 of the checksum
+  {
+    std::filesystem::resize_file(path, size);
+    EXPECT_THAT(messageOfReading(path), testing::EndsWith("cut: the compressed file is cut short")) << size;
+  }
+}
+
+TEST(CompressedFile, thatCannotBeReadIsNamed)
+{
+  const TemporaryFolder folder;
   EXPECT_THAT(messageOfReading("/nowhere/drive.rawlog"), testing::HasSubstr("/nowhere/drive.rawlog: No such file"));
+  std::filesystem::create_directory(folder / "drive.rawlog");
+  EXPECT_THAT(messageOfReading(folder / "drive.rawlog"), testing::EndsWith("drive.rawlog: is a directory"));
 }

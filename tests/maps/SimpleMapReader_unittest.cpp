@@ -1,5 +1,6 @@
 #include "maps/SimpleMapReader.h"
 
+#include "formats/CompressedFile.h"
 #include "rawlogs/Conversions.h"
 #include "support/TemporaryFolder.h"
 #include "support/peakMemory.h"
@@ -9,7 +10,6 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
-#include <zlib.h>
 
 #include <cmath>
 #include <limits>
@@ -162,10 +162,8 @@ TEST(SimpleMapReader, leavesOutPointsThatAreNoNumbers)
 /** So that a byte can be changed without a checksum that tells. */
 std::string uncompressed(const std::filesystem::path& path)
 {
-  gzFile file = gzopen(path.c_str(), "rb");
   std::string bytes(100'000, '\0');
-  bytes.resize(static_cast<std::size_t>(gzread(file, bytes.data(), static_cast<unsigned>(bytes.size()))));
-  gzclose(file);
+  bytes.resize(CompressedFile(path).readUpTo(bytes.data(), bytes.size()));
   return bytes;
 }
 
