@@ -10,9 +10,9 @@ namespace scanloom
 namespace
 {
 // Both fitted to drives of 120 to 315 m (doc/study/localisation.md).
-constexpr double kDeviations = 4;        // displacements (of cells one deviation farther away) by which a heading errs
-constexpr double kTilt = 0.1 * kDegree;  // up to 0.5 deg drives of the study drift as little, but starts settle later
-constexpr double kSight = 12;            // m: on less way the same is seen from the same side
+constexpr double kDeviations = 4;         // displacements (of cells one deviation farther away) by which a heading errs
+constexpr double kTilt = 0.03 * kDegree;  // with more, wrong registrations move a single lidar's poses farther
+constexpr double kSight = 12;             // m: on less way the same is seen from the same side
 }  // namespace
 
 void AttitudeDoubt::add(const RegistrationResult& seen, const Eigen::Vector3d& up_in_source,
@@ -34,15 +34,14 @@ Eigen::Matrix3d AttitudeDoubt::covariance(const Eigen::Vector3d& up_in_source) c
   return std::pow(heading(), 2) * about_up + std::pow(kTilt, 2) * (Eigen::Matrix3d::Identity() - about_up);
 }
 
-Rigid withAttitudeOf(const Rigid& estimate, const RegistrationResult& fine, const Eigen::Vector3d& up_in_source,
-                     const AttitudeDoubt& doubt)
+Rigid withAttitudeOf(const Rigid& estimate, const Matrix6d& covariance, const RegistrationResult& fine,
+                     const Eigen::Vector3d& up_in_source, const AttitudeDoubt& doubt)
 {
   const Eigen::Vector3d apart = boxMinus(estimate, fine.target_T_source).tail<3>();
-  const double own = up_in_source.dot(fine.covariance.bottomRightCorner<3, 3>() * up_in_source);
-  const double shared = std::pow(doubt.heading(), 2);
-  const double heading_kept = own / (own + shared);
+  const Eigen::Matrix3d own = fine.covariance.bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d seen = own + doubt.covariance(up_in_source), known = covariance.bottomRightCorner<3, 3>();
   Vector6d step = Vector6d::Zero();
-  step.tail<3>() = apart - heading_kept * up_in_source.dot(apart) * up_in_source;
+  step.tail<3>() = seen * (seen + known).ldlt().solve(apart);
   return boxPlus(fine.target_T_source, step);
 }
 }  // namespace scanloom

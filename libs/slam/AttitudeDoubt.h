@@ -23,9 +23,6 @@ class AttitudeDoubt
   void add(const RegistrationResult&, const Eigen::Vector3d& up_in_source, const Eigen::Vector3d& map_begin,
            double travel);
 
-  /** rad, standard deviation. */
-  double heading() const;
-
   /** rad², of the rotation error that all registrations to the map share; in the source's frame. */
   Eigen::Matrix3d covariance(const Eigen::Vector3d& up_in_source) const;
 
@@ -33,14 +30,16 @@ class AttitudeDoubt
   double length() const { return length_; }
 
  private:
+  double heading() const;  // rad, standard deviation
+
   double sideways_ = 0;  // m, mean over the length of the map
   double length_ = 0;
 };
 
 /**
- * The pose of the fine registration, whose covariance is positive definite, with the tilt of the estimate, and with a
- * heading that is a mean of both: the more doubt, the nearer to the estimate's.
+ * The pose of the fine registration, but the rotation is a mean of its own and that of the estimate, which has this
+ * covariance, each by how well it is known.
  */
-Rigid withAttitudeOf(const Rigid& estimate, const RegistrationResult& fine, const Eigen::Vector3d& up_in_source,
-                     const AttitudeDoubt&);
+Rigid withAttitudeOf(const Rigid& estimate, const Matrix6d& covariance, const RegistrationResult& fine,
+                     const Eigen::Vector3d& up_in_source, const AttitudeDoubt&);
 }  // namespace scanloom

@@ -218,7 +218,9 @@ void Tracker::compareWithRegistration(const StateEstimate& estimate, TrackerStat
   if (!estimate.registration || !estimate.trusted) return;
   const RegistrationResult& seen = *estimate.registration;
   const Vector6d apart = boxMinus(state.map_T_local().inverse() * estimate.map_T_body, seen.target_T_source);
-  state.trust.separation.add(apart, estimate.covariance + seen.covariance);
+  Matrix6d covariance = estimate.covariance + seen.covariance;
+  covariance.bottomRightCorner<3, 3>() += state.attitude_doubt.covariance(upInBody(estimate.map_T_body));
+  state.trust.separation.add(apart, covariance);
 }
 
 /**
@@ -368,7 +370,7 @@ void Tracker::addKeyframe(const Seen& seen, TrackerState& state, StateEstimate& 
     const RegistrationResult fine = align(state.local_map.ndt(), source, guess, settings_.registration.fine);
     if (fine.trustworthy())
     {
-      local_T_body = withAttitudeOf(estimated, fine, upInBody(estimate.map_T_body), state.attitude_doubt);
+      local_T_body = withAttitudeOf(estimated, alignment, fine, upInBody(estimate.map_T_body), state.attitude_doubt);
       alignment = inverse(fine.information + inverse(alignment));
     }
   }

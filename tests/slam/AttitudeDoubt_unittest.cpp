@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 using namespace scanloom;
 
@@ -28,15 +29,20 @@ AttitudeDoubt after(const Eigen::Vector3d& one_sided)
   return doubt;
 }
 
-/** How far a keyframe is turned from its fine registration to the estimate: deg, about x, y, z. */
-Eigen::Vector3d turnToEstimate(const AttitudeDoubt& doubt)
+/** rad */
+double headingDeviation(const AttitudeDoubt& doubt) { return std::sqrt(doubt.covariance(kUp)(2, 2)); }
+
+/** deg, about x and z: how far a keyframe is turned from its fine registration to an estimate 1 deg away. */
+std::pair<double, double> tiltAndHeading(double deviation_of_estimate, const AttitudeDoubt& doubt)
 {
   RegistrationResult fine = seenFrom(40, {0, 0, 0});
-  fine.covariance = 1e-8 * Matrix6d::Identity();
+  fine.covariance = 1e-12 * Matrix6d::Identity();
   const Rigid estimate = Rigid::fromXyzYawPitchRoll(40.1, 0.1, 0, kDegree, 0, kDegree);
-  const Vector6d step = boxMinus(withAttitudeOf(estimate, fine, kUp, doubt), fine.target_T_source);
+  const Matrix6d covariance = deviation_of_estimate * deviation_of_estimate * Matrix6d::Identity();
+  const Rigid mean = withAttitudeOf(estimate, covariance, fine, kUp, doubt);
+  const Vector6d step = boxMinus(mean, fine.target_T_source) / kDegree;
   EXPECT_EQ(step.head<3>().norm(), 0) << "the position stays";
-  return step.tail<3>() / kDegree;
+  return {step[3], step[5]};
 }
 }  // namespace
 
@@ -44,8 +50,8 @@ TEST(AttitudeDoubt, ofTheHeadingIsFourDisplacementsToTheSideOverTheLengthOfTheMa
 {
   const AttitudeDoubt doubt = after({0.5, 0.2, 0.3});
   EXPECT_EQ(doubt.length(), 40);
-  EXPECT_NEAR(doubt.heading(), 4 * 0.2 / 40, 8e-4);
-  EXPECT_EQ(after({0.5, 0, 0.3}).heading(), 0) << "what displaces along the way turns nothing";
+  EXPECT_NEAR(headingDeviation(doubt), 4 * 0.2 / 40, 8e-4);
+  EXPECT_EQ(headingDeviation(after({0.5, 0, 0.3})), 0) << "what displaces along the way turns nothing";
 }
 
 TEST(AttitudeDoubt, ofTheTiltIsTheSameInAllDirectionsAcrossUp)
@@ -53,7 +59,7 @@ TEST(AttitudeDoubt, ofTheTiltIsTheSameInAllDirectionsAcrossUp)
   const Eigen::Vector3d up = Eigen::Vector3d(0.1, -0.2, 1).normalized();
   const Eigen::Matrix3d doubt = AttitudeDoubt().covariance(up);
   EXPECT_NEAR((doubt * up).norm(), 0, 1e-12);
-  EXPECT_NEAR(doubt.trace(), 2 * std::pow(0.1 * kDegree, 2), 1e-12);
+  EXPECT_NEAR(doubt.trace(), 2 * std::pow(0.03 * kDegree, 2), 1e-12);
 }
 
 TEST(AttitudeDoubt, isTheSameForManyScansAsForFew)
@@ -61,13 +67,26 @@ TEST(AttitudeDoubt, isTheSameForManyScansAsForFew)
   AttitudeDoubt many;
   for (int i = 0; i <= 2000; ++i)
     many.add(seenFrom(0.1 * i, {0, 0.2, 0}), kUp, {std::max(0.0, 0.1 * i - 40.0), 0, 0}, 0.1);
-  EXPECT_NEAR(many.heading(), after({0, 0.2, 0}).heading(), 4e-4);
+  EXPECT_NEAR(headingDeviation(many), headingDeviation(after({0, 0.2, 0})), 4e-4);
 }
 
-TEST(AttitudeDoubt, letsAKeyframeTakeTheTiltOfTheEstimateAndItsHeadingWhereThatIsDoubtful)
+TEST(AttitudeDoubt, turnsAKeyframeToAnEstimateThatIsKnownWell)
 {
-  const Eigen::Vector3d sure = turnToEstimate(after({0, 0, 0}));
-  EXPECT_NEAR(sure.x(), 1, 0.01);
-  EXPECT_NEAR(sure.z(), 0, 0.01);
-  EXPECT_NEAR(turnToEstimate(after({0, 0.2, 0})).z(), 1, 0.02);
+  const auto [tilt, heading] = tiltAndHeading(1e-5, after({0, 0.2, 0}));
+  EXPECT_NEAR(tilt, 1, 0.01);
+  EXPECT_NEAR(heading, 1, 0.01);
+  EXPECT_NEAR(tiltAndHeading(1e-5, after({0, 0, 0})).second, 0, 0.02) << "a heading without doubt stays";
+}
+
+TEST(AttitudeDoubt, turnsAKeyframeHalfwayToAnEstimateThatIsKnownNoBetter)
+{
+  EXPECT_NEAR(tiltAndHeading(0.03 * kDegree, after({0, 0, 0})).first, 0.5, 0.01);
+  EXPECT_NEAR(tiltAndHeading(4 * 0.2 / 40, after({0, 0.2, 0})).second, 0.5, 0.05);
+}
+
+TEST(AttitudeDoubt, leavesAKeyframeWhereTheEstimateIsOpen)
+{
+  const auto [tilt, heading] = tiltAndHeading(1, after({0, 0.2, 0}));
+  EXPECT_NEAR(tilt, 0, 1e-3);
+  EXPECT_NEAR(heading, 0, 1e-3);
 }
