@@ -1,4 +1,5 @@
-# bash: verbs, options and keys for --set, asked of the program itself, once for each shell.
+# bash: verbs, options and keys for --set, asked of the program itself, once for each shell. Its help begins options with
+# "  -c,--config", from CLI11 2.6 on "  -c,      --config"; explanations begin at column 30 or later.
 declare -gA _scanloom_said
 
 _scanloom_lines() {  # AWK ARGUMENTS...: what the program prints for these arguments, as awk selects it

@@ -23,8 +23,7 @@ std::optional<Vector6d> solvePositive(const Matrix6d& a, const Vector6d& b);
 /** Of a positive definite matrix. */
 Matrix6d inverseOfPositive(const Matrix6d&);
 
-/** Of an estimate that has a further error of this covariance: the inverse of (inverse + error). Both may be singular.
- */
+/** Of an estimate with a further error of this covariance: inverse(inverse(information) + error), also if singular. */
 Matrix6d informationWithError(const Matrix6d& information, const Matrix6d& error);
 
 /** Eigenvalues in ascending order, and their vectors as columns. */

@@ -11,7 +11,7 @@ namespace
 {
 // Both fitted to drives of 120 to 315 m (doc/study/localisation.md).
 constexpr double kDeviations = 4;         // displacements (of cells one deviation farther away) by which a heading errs
-constexpr double kTilt = 0.03 * kDegree;  // with more, wrong registrations move a single lidar's poses farther
+constexpr double kTilt = 0.03 * kDegree;  // deviation; with more, one lidar's wrong registrations cost more
 constexpr double kSight = 12;             // m: on less way the same is seen from the same side
 }  // namespace
 
@@ -28,18 +28,21 @@ void AttitudeDoubt::add(const RegistrationResult& seen, const Eigen::Vector3d& u
 
 double AttitudeDoubt::heading() const { return length_ > 0 ? kDeviations * std::abs(sideways_) / length_ : 0; }
 
-Eigen::Matrix3d AttitudeDoubt::covariance(const Eigen::Vector3d& up_in_source) const
+Matrix6d AttitudeDoubt::covariance(const Eigen::Vector3d& up_in_source) const
 {
   const Eigen::Matrix3d about_up = up_in_source * up_in_source.transpose();
-  return std::pow(heading(), 2) * about_up + std::pow(kTilt, 2) * (Eigen::Matrix3d::Identity() - about_up);
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.bottomRightCorner<3, 3>() =
+      std::pow(heading(), 2) * about_up + std::pow(kTilt, 2) * (Eigen::Matrix3d::Identity() - about_up);
+  return covariance;
 }
 
 Rigid withAttitudeOf(const Rigid& estimate, const Matrix6d& covariance, const RegistrationResult& fine,
                      const Eigen::Vector3d& up_in_source, const AttitudeDoubt& doubt)
 {
   const Eigen::Vector3d apart = boxMinus(estimate, fine.target_T_source).tail<3>();
-  const Eigen::Matrix3d own = fine.covariance.bottomRightCorner<3, 3>();
-  const Eigen::Matrix3d seen = own + doubt.covariance(up_in_source), known = covariance.bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d seen = (fine.covariance + doubt.covariance(up_in_source)).bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d known = covariance.bottomRightCorner<3, 3>();
   Vector6d step = Vector6d::Zero();
   step.tail<3>() = seen * (seen + known).ldlt().solve(apart);
   return boxPlus(fine.target_T_source, step);

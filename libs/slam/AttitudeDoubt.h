@@ -23,8 +23,8 @@ class AttitudeDoubt
   void add(const RegistrationResult&, const Eigen::Vector3d& up_in_source, const Eigen::Vector3d& map_begin,
            double travel);
 
-  /** rad², of the rotation error that all registrations to the map share; in the source's frame. */
-  Eigen::Matrix3d covariance(const Eigen::Vector3d& up_in_source) const;
+  /** Of the error that all registrations to the map share, in the tangent of boxPlus: rad² of the rotation, 0 else. */
+  Matrix6d covariance(const Eigen::Vector3d& up_in_source) const;
 
   /** m, of the map: registrations on so much way share the error. */
   double length() const { return length_; }

@@ -45,9 +45,8 @@ Eigen::Vector3d upInBody(const Rigid& map_T_body) { return map_T_body.rotation.c
 Matrix6d informationAmongOthers(const RegistrationResult& registration, const AttitudeDoubt& doubt,
                                 const Eigen::Vector3d& up, double travel, double correlation)
 {
-  Matrix6d shared = Matrix6d::Zero();
-  shared.bottomRightCorner<3, 3>() = registrationsPerMeasurement(travel, doubt.length()) * doubt.covariance(up);
-  return informationWithError(registration.information / registrationsPerMeasurement(travel, correlation), shared);
+  return informationWithError(registration.information / registrationsPerMeasurement(travel, correlation),
+                              registrationsPerMeasurement(travel, doubt.length()) * doubt.covariance(up));
 }
 
 NavEstimate newestOf(const FixedLagSmoother& smoother) { return {smoother.newest(), smoother.newestCovariance()}; }
@@ -218,9 +217,8 @@ void Tracker::compareWithRegistration(const StateEstimate& estimate, TrackerStat
   if (!estimate.registration || !estimate.trusted) return;
   const RegistrationResult& seen = *estimate.registration;
   const Vector6d apart = boxMinus(state.map_T_local().inverse() * estimate.map_T_body, seen.target_T_source);
-  Matrix6d covariance = estimate.covariance + seen.covariance;
-  covariance.bottomRightCorner<3, 3>() += state.attitude_doubt.covariance(upInBody(estimate.map_T_body));
-  state.trust.separation.add(apart, covariance);
+  const Matrix6d shared = state.attitude_doubt.covariance(upInBody(estimate.map_T_body));
+  state.trust.separation.add(apart, estimate.covariance + seen.covariance + shared);
 }
 
 /**
