@@ -11,17 +11,17 @@ folder=${BARE_DEBIAN:-/var/tmp/bare_debian}/$suite
   .ci/install run package &&
   export DEBFULLNAME=Forester DEBEMAIL=forester@debian.org &&
   cmake --preset release -DSCANLOOM_TESTS=OFF -DCMAKE_INSTALL_PREFIX=/usr && cmake --build --preset release &&
-  cd build/release && cpack -G DEB &&
-  for package in *.deb; do dpkg -c "$package"; lintian --allow-root --fail-on error "$package" || exit 1; done'
+  cd build/release && cpack -G DEB && mkdir /srv/packages &&
+  for package in *.deb; do dpkg -c "$package"; lintian --allow-root --fail-on error "$package" && mv "$package" /srv/packages || exit 1; done'
 rm -rf "$folder/packages" "$folder/clean"
 mkdir "$folder/packages" "$folder/clean"
-mv "$folder"/system/root/scanloom/build/release/*.deb "$folder/packages"
+mv "$folder"/system/srv/packages/*.deb "$folder/packages"
 
 tar -C "$folder/clean" -xf "$folder/base.tar"
-cp "$folder"/packages/*.deb "$folder/clean/root"
+cp "$folder"/packages/*.deb "$folder/clean/srv"
 unshare --mount --pid --fork --root="$folder/clean" --mount-proc env -i PATH="$PATH" HOME=/root DEBIAN_FRONTEND=noninteractive sh -c '
   set -e
-  cd /root
+  cd /srv
   apt-get -q update
   apt-get -q -y install --no-install-recommends ./scanloom_*.deb ./scanloom-mrpt-plugin_*.deb mrpt-apps
   scanloom --version
