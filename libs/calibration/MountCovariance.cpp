@@ -115,15 +115,21 @@ std::vector<OpenDirection> openDirections(const Matrix7d& covariance, double lim
   return open;
 }
 
+Vector7d changeInMetres(const Mount& from, const Mount& to)
+{
+  const Rigid &a = from.body_T_sensor, &b = to.body_T_sensor;
+  Vector7d change;
+  change << b.translation - a.translation, logSo3(b.rotation * a.rotation.conjugate()),
+      to.clock_offset - from.clock_offset;
+  return change.cwiseQuotient(mountStepOfMetres());
+}
+
 Mount keepingOpen(const Mount& start, const Mount& estimate, const std::vector<OpenDirection>& open)
 {
-  const Rigid &from = start.body_T_sensor, &to = estimate.body_T_sensor;
-  Vector7d change;
-  change << to.translation - from.translation, logSo3(to.rotation * from.rotation.conjugate()),
-      estimate.clock_offset - start.clock_offset;
-  Vector7d metres = change.cwiseQuotient(mountStepOfMetres());
+  Vector7d metres = changeInMetres(start, estimate);
   for (const OpenDirection& o : open) metres -= o.direction * o.direction.dot(metres);
-  change = metres.cwiseProduct(mountStepOfMetres());
+  const Vector7d change = metres.cwiseProduct(mountStepOfMetres());
+  const Rigid& from = start.body_T_sensor;
   Mount kept;
   kept.body_T_sensor.translation = from.translation + change.head<3>();
   kept.body_T_sensor.rotation = (expSo3(change.segment<3>(3)) * from.rotation).normalized();

@@ -44,6 +44,9 @@ inline constexpr double kOpenLidar = 0.03, kOpenImu = 0.05;
 /** With a standard deviation above `limit` (m), or 5 ms for the clock. */
 std::vector<OpenDirection> openDirections(const Matrix7d& covariance, double limit);
 
+/** Of position, rotation, both along the body's axes, and clock, in metres (mountStepOfMetres). */
+Vector7d changeInMetres(const Mount& from, const Mount& to);
+
 /** The estimate without what it says along the open directions. */
 Mount keepingOpen(const Mount& start, const Mount& estimate, const std::vector<OpenDirection>&);
 }  // namespace scanloom

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace scanloom
 {
@@ -89,6 +90,17 @@ class LevelOfDrive
   std::vector<Vector6d> twists_;
   std::vector<NdtMap> reference_;
 };
+
+/** With the outcome by the covariance, in metres. */
+MountEstimate told(MountEstimate estimate, const Mount& mount, const Matrix7d& covariance, const Mount& given)
+{
+  estimate.open = openDirections(covariance, kOpenLidar);
+  estimate.outcome = estimate.open.empty() ? MountOutcome::Estimated : MountOutcome::Open;
+  estimate.mount = keepingOpen(given, mount, estimate.open);
+  const Vector7d scale = mountStepOfMetres();
+  estimate.covariance = scale.asDiagonal() * covariance * scale.asDiagonal();
+  return estimate;
+}
 }  // namespace
 
 MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& given, const Mount& start,
@@ -117,12 +129,14 @@ MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& g
   estimate.outcome = MountOutcome::Unstable;
   const bool fits = after.shared >= before.shared - kMostShareLost && after.distance < kFarthestApart;
   if (!settled || !fits) return estimate;
-  const Matrix7d covariance = fine.covarianceOf(mount, after.distance);
-  estimate.open = openDirections(covariance, kOpenLidar);
-  estimate.outcome = estimate.open.empty() ? MountOutcome::Estimated : MountOutcome::Open;
-  estimate.mount = keepingOpen(given, mount, estimate.open);
-  const Vector7d scale = mountStepOfMetres();
-  estimate.covariance = scale.asDiagonal() * covariance * scale.asDiagonal();
-  return estimate;
+  return told(std::move(estimate), mount, fine.covarianceOf(mount, after.distance), given);
+}
+
+MountEstimate doubted(MountEstimate estimate, const Mount& by, const Mount& given)
+{
+  const Vector7d to_metres = mountStepOfMetres().cwiseInverse(), between = changeInMetres(estimate.mount, by);
+  const Matrix7d covariance = to_metres.asDiagonal() * estimate.covariance * to_metres.asDiagonal();
+  const Mount mount = estimate.mount;
+  return told(std::move(estimate), mount, covariance + between * between.transpose(), given);
 }
 }  // namespace scanloom

@@ -34,4 +34,10 @@ struct MountEstimate
  */
 MountEstimate estimateMount(const std::vector<Station>&, const Mount& given, const Mount& start, const Trajectory&,
                             Clock);
+
+/**
+ * An estimate that another one, by other scans, contradicts: what lies between the two is added to its covariance as
+ * one standard deviation, so that directions in which they differ by more than a tape measure are open.
+ */
+MountEstimate doubted(MountEstimate, const Mount& by, const Mount& given);
 }  // namespace scanloom

@@ -1,28 +1,27 @@
 #include "run/Calibration.h"
 
+#include "calibration/CommonField.h"
 #include "calibration/ImuMountReport.h"
-#include "calibration/MountFit.h"
 #include "calibration/MountReport.h"
 #include "rig/Extrinsics.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <utility>
+
 namespace scanloom
 {
 namespace
 {
-/**
- * Whether both lidars see much of the same at the same time. If not, one sees the side of a stem that the other does
- * not, and stems are compared by their axes.
- */
-bool seeAtOnce(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
-               const Mount& reference, const Trajectory& trajectory, const MountEstimate& estimate)
+/** If not, one sees the sides that the other does not, and stems are compared by their axes. */
+bool lookAlike(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
+               const Mount& reference, const Trajectory& trajectory, const Mount& mount)
 {
   constexpr Surroundings kAtOnce{0};
-  constexpr double kLeast = 0.2;  // of what they see within the drive
+  constexpr double kLeast = 0.4;  // 0.50 to 0.57 for lidars that see all around, 0.23 to 0.33 for half turns apart
   const std::vector<Station> stations = stationsOf(of_lidar, of_reference, reference, trajectory, kAtOnce);
-  return mountFit(stations, estimate.mount, trajectory).shared > kLeast * estimate.shared_after;
+  return commonField(stations, mount, trajectory) > kLeast;
 }
 }  // namespace
 
@@ -34,15 +33,19 @@ LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLida
   const Mount of_reference{lidars[reference].body_T_sensor, 0}, given{lidars[lidar].body_T_sensor, 0};
   LidarCalibration calibration;
   calibration.estimate.mount = given;
+  std::optional<Mount> near;  // by the scans from near around, stems as seen
   for (const Surroundings& around : {kNear, kFar})
   {
     const std::vector<Station> stations = stationsOf(own, others, of_reference, drive.trajectory, around);
     if (stations.empty()) return calibration;
     const Mount start = findStart(stations, given, known, own, others, of_reference.body_T_sensor, drive.trajectory);
-    const MountEstimate estimate = estimateMount(stations, given, start, drive.trajectory, clock);
+    MountEstimate estimate = estimateMount(stations, given, start, drive.trajectory, clock);
     if (estimate.outcome == MountOutcome::StoodStill) return {estimate, {}};
+    if (near && trusted(estimate)) estimate = doubted(std::move(estimate), *near, given);
     calibration = {estimate, mountScenes(stations, given, estimate.mount, drive.trajectory)};
-    if (trusted(estimate) && seeAtOnce(own, others, of_reference, drive.trajectory, estimate)) break;
+    if (!trusted(estimate)) continue;
+    if (near || lookAlike(own, others, of_reference, drive.trajectory, estimate.mount)) break;
+    near = estimate.mount;
   }
   return calibration;
 }

@@ -29,7 +29,10 @@ struct LidarCalibration
   std::vector<MountScene> scenes;  // to look at; none where the machine stood still
 };
 
-/** By what both saw at the same places nearly at once; where that is little, by more of the drive, stems on axes. */
+/**
+ * By what both saw near the same places. Lidars that look different ways see other sides of the same: by more of the
+ * drive, with stems on their axes, and doubted by the distance of the two results.
+ */
 LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLidar>&, std::size_t reference,
                                 const CalibrationDrive&, Clock, PoseGiven);
 

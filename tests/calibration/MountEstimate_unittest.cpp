@@ -1,6 +1,7 @@
 /** Mounts of lidars from a drive among stems, compared with the poses and clocks by which the drive was made. */
 #include "calibration/MountEstimate.h"
 
+#include "calibration/CommonField.h"
 #include "calibration/MountReport.h"
 #include "calibration/MountSearch.h"
 #include "calibration/seenInWorld.h"
@@ -107,6 +108,40 @@ TEST(MountEstimate, ofLidarsThatLookForwardAndBackIsTheirPoseByTheDrive)
   ASSERT_TRUE(trusted(estimate)) << inWords("right", "left", estimate);
   EXPECT_LT((estimate.mount.body_T_sensor.translation - kRight.translation).norm(), 0.03);
   EXPECT_LT(estimate.mount.body_T_sensor.rotation.angularDistance(kRight.rotation) / kDegree, 0.2);
+}
+
+TEST(CommonField, isWhereBothLidarsLook)
+{
+  const Surroundings at_once{0};
+  DriveOfTwo drive = driven(1);
+  const auto shareOf = [&]
+  {
+    const std::vector<Station> stations = stationsOf(drive.right, drive.left, {kLeft, 0}, drive.trajectory, at_once);
+    return commonField(stations, {kRight, 0}, drive.trajectory);
+  };
+  EXPECT_GT(shareOf(), 0.5);
+  look(1, kLeft, drive.left);
+  EXPECT_NEAR(shareOf(), 0.5, 0.1);
+  look(-1, kRight, drive.right);
+  EXPECT_LT(shareOf(), 0.2);
+}
+
+TEST(MountEstimate, isDoubtedByTheDistanceToAnotherOne)
+{
+  MountEstimate estimate;
+  estimate.outcome = MountOutcome::Estimated;
+  estimate.mount.body_T_sensor = kRight;
+  estimate.covariance.diagonal() << 1e-6, 1e-6, 1e-6, 1e-8, 1e-8, 1e-8, 0;
+  const Mount given{at(1.6, -1.2, 2.5, -30, 15, 25), 0};
+  const auto by = [&](double x) { return doubted(estimate, {at(x, -1.2, 2.5, -30, 15, 25), 0}, given); };
+
+  const MountEstimate near = by(1.52), far = by(1.54);
+  EXPECT_EQ(near.outcome, MountOutcome::Estimated);
+  EXPECT_NEAR(near.covariance(0, 0), 1e-6 + 0.02 * 0.02, 1e-12);
+  EXPECT_NEAR(near.covariance(1, 1), 1e-6, 1e-12);
+  EXPECT_EQ(near.mount.body_T_sensor.translation.x(), 1.5);
+  EXPECT_EQ(far.outcome, MountOutcome::Open);
+  EXPECT_NEAR(far.mount.body_T_sensor.translation.x(), 1.6, 1e-12);
 }
 
 TEST(MountSearch, keepsTheGivenPoseRatherThanOneAMetreOff)
