@@ -39,17 +39,21 @@ MpiDefault=none
 NodeName=$node NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
 PartitionName=all Nodes=ALL Default=YES State=UP
 EOF
+# Newer ones start only with cgroups, which a container or chroot has not, or with this, which Slurm 22 does not know.
+[ "$(slurmd -V | sed 's/[^0-9]*\([0-9]*\).*/\1/')" -lt 23 ] || echo CgroupPlugin=disabled >"$dir/cgroup.conf"
 export SLURM_CONF="$dir/slurm.conf"
 slurmctld -D >/dev/null 2>&1 &
 controller=$!
 slurmd -D >/dev/null 2>&1 &
 daemon=$!
-trap 'kill $controller $daemon; wait; rm -rf "$dir"' EXIT
+trap 'kill $controller $daemon 2>/dev/null; wait; rm -rf "$dir"' EXIT
 
+isIdle() { case $(sinfo -h -o %T 2>/dev/null) in *idle*) ;; *) false ;; esac; }
 for _ in $(seq 60); do
-  case $(sinfo -h -o %T 2>/dev/null) in *idle*) break ;; esac
+  isIdle && break
   sleep 0.5
 done
+isIdle || { echo "the node does not start"; cat "$dir"/*.log; exit 1; }
 
 sweep() { # ENGINE: of its two drives one ends before there is a pose, so its run fails
   status=0
