@@ -29,12 +29,15 @@ SlamSettings withoutImu(const SlamSettings& settings)
   return in_use;
 }
 
-/** For deskewing only: the prediction of a good IMU outvotes the lidar, so registrations would confirm its pose. */
+/**
+ * For deskewing, and where the lidar tells nothing: the prediction of a good IMU outvotes the lidar, so registrations
+ * would confirm its pose. With three times this noise a dense stand was registered no better than without an IMU.
+ */
 SlamSettings withDistrustedImu(const SlamSettings& settings)
 {
   SlamSettings in_use = withImu(settings);
-  in_use.imu.gyro_noise_deg = 3;
-  in_use.imu.accel_noise = 2;
+  in_use.imu.gyro_noise_deg = 1;
+  in_use.imu.accel_noise = 1;
   return in_use;
 }
 }  // namespace
