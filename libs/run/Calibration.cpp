@@ -14,7 +14,10 @@ namespace scanloom
 {
 namespace
 {
-/** If not, one sees the sides that the other does not, and stems are compared by their axes. */
+/**
+ * Whether both lidars see something in much the same directions. If not, each sees sides of stems that the other does
+ * not, and stems must be compared by their axes.
+ */
 bool lookAlike(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
                const Mount& reference, const Trajectory& trajectory, const Mount& mount)
 {

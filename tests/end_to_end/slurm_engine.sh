@@ -39,7 +39,8 @@ MpiDefault=none
 NodeName=$node NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
 PartitionName=all Nodes=ALL Default=YES State=UP
 EOF
-# Newer ones start only with cgroups, which a container or chroot has not, or with this, which Slurm 22 does not know.
+# From Slurm 23 on slurmd does not start without cgroups, as in a container or chroot, unless told so; Slurm 22 does, and
+# does not know the key.
 [ "$(slurmd -V | sed 's/[^0-9]*\([0-9]*\).*/\1/')" -lt 23 ] || echo CgroupPlugin=disabled >"$dir/cgroup.conf"
 export SLURM_CONF="$dir/slurm.conf"
 slurmctld -D >/dev/null 2>&1 &
