@@ -74,10 +74,11 @@ void announce(const MapArguments& arguments, const DriveSize& drive)
 /** Names the files: what an interruption left does not replace a whole map. */
 int finish(StagedFiles& files, std::size_t keyframes)
 {
-  const auto outputs = files.commit(interrupted() ? Completeness::Partial : Completeness::Whole);
+  const bool partial = interrupted();  // asked once: flushing to the disk gives a signal seconds to arrive
+  const auto outputs = files.commit(partial ? Completeness::Partial : Completeness::Whole);
   fmt::print("{} keyframes\n", keyframes);
   for (const Path& output : outputs) fmt::print("{}\n", output.string());
-  return interrupted() ? kInterrupted : kDone;
+  return partial ? kInterrupted : kDone;
 }
 
 int mapKeyframes(const MapArguments& arguments)
