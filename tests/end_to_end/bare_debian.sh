@@ -24,7 +24,10 @@ system=$folder/system
 mkdir -p "$folder"
 if [ ! -f "$folder/base.tar" ]; then
   mirror=${DEBIAN_MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1)}
-  debootstrap --variant=minbase "$suite" "$folder/base" $mirror
+  # A release newer than this debootstrap is set up like sid.
+  script=/usr/share/debootstrap/scripts/$suite
+  [ -e "$script" ] || script=/usr/share/debootstrap/scripts/sid
+  debootstrap --variant=minbase "$suite" "$folder/base" "$mirror" "$script"
   # A mirror may be older than its lists allow.
   echo 'Acquire::Check-Valid-Until "false";' > "$folder/base/etc/apt/apt.conf.d/80mirror"
   tar -C "$folder/base" -cf "$folder/base.tar" .
