@@ -134,13 +134,9 @@ ImuMountEstimate estimateImuMount(const Trajectory& all, const std::vector<ImuSa
   estimate.misfit = s.motion_misfit;
   estimate.outcome = ImuMountOutcome::Contradicted;
   if (!fits(s)) return estimate;
-  const Matrix7d covariance = covarianceOf(s);
-  estimate.open = openDirections(covariance, kOpenImu);
+  static_cast<ToldMount&>(estimate) = toldMount(given, s.mount, covarianceOf(s), kOpenImu);
   estimate.outcome = estimate.open.empty() ? ImuMountOutcome::Estimated : ImuMountOutcome::Open;
-  estimate.mount = keepingOpen(given, s.mount, estimate.open);
   estimate.told = s.mount;
-  const Vector7d scale = mountStepOfMetres();
-  estimate.covariance = scale.asDiagonal() * covariance * scale.asDiagonal();
   return estimate;
 }
 }  // namespace scanloom

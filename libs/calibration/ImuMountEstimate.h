@@ -16,14 +16,11 @@ enum class ImuMountOutcome
   Contradicted,     // no pose makes the IMU measure this drive: another drive's, other units, left-handed axes
 };
 
-struct ImuMountEstimate
+/** The mount is the given one, unless Estimated or Open; its clock offset is how late the IMU's stamps are. */
+struct ImuMountEstimate : ToldMount
 {
   ImuMountOutcome outcome = ImuMountOutcome::TurnedTooLittle;
-  Mount mount;  // the given one, unless Estimated or Open; its clock offset: how late the IMU's stamps are
-  Mount told;   // the same with the open directions as the drive tells them: better than a pose 20 deg off
-  /** Of the errors of position (m), rotation (rad), along the body's axes, and clock (s). */
-  Matrix7d covariance = Matrix7d::Zero();
-  std::vector<OpenDirection> open;
+  Mount told;  // the same with the open directions as the drive tells them: better than a pose 20 deg off
   std::size_t poses = 0;
   PoseNoise residual{0, 0};  // root mean square of the lidar's poses to the IMU's
   double misfit = 0;         // of the IMU's motions, in their standard deviations

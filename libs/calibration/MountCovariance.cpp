@@ -46,12 +46,50 @@ Matrix7d atSensor(const Eigen::Vector3d& sensor)
   return scale.cwiseInverse().asDiagonal() * at_sensor * scale.asDiagonal();
 }
 
+/** How the pose follows the clock: both in metres, per metre of the clock. */
+Vector7d changeWithClock(const Matrix7d& hessian)
+{
+  Vector7d change;
+  change << -hessian.topLeftCorner<6, 6>().ldlt().solve(hessian.topRightCorner<6, 1>()), 1;
+  return change;
+}
+
 /** What all stations, or all cells of one instant, have in common. */
 void addCommon(Matrix7d& covariance, double offset)
 {
   Vector7d common;
   common << Eigen::Vector3d::Constant(offset), Eigen::Vector3d::Constant(offset / kCommonArm), 0;
   covariance.diagonal() += common.cwiseQuotient(mountStepOfMetres()).cwiseAbs2();
+}
+/** Of the pose, and the clock by itself: mixed with the pose it would be judged by the pose's limit. */
+std::vector<OpenDirection> openDirections(const Matrix7d& covariance, double limit)
+{
+  std::vector<OpenDirection> open;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(covariance.topLeftCorner<6, 6>());
+  for (int i = 5; i >= 0; --i)
+  {
+    const double sigma = std::sqrt(std::max(0.0, solver.eigenvalues()[i]));
+    Vector7d direction;
+    direction << solver.eigenvectors().col(i), 0;
+    if (sigma > limit) open.push_back({direction, sigma});
+  }
+  const double of_clock = std::sqrt(covariance(6, 6));
+  if (of_clock > kOpenClock) open.push_back({Vector7d::Unit(6), of_clock});
+  return open;
+}
+
+/** The estimate without what it says along the open directions. */
+Mount keepingOpen(const Mount& start, const Mount& estimate, const std::vector<OpenDirection>& open)
+{
+  Vector7d metres = changeInMetres(start, estimate);
+  for (const OpenDirection& o : open) metres -= o.direction * o.direction.dot(metres);
+  const Vector7d change = metres.cwiseProduct(mountStepOfMetres());
+  const Rigid& from = start.body_T_sensor;
+  Mount kept;
+  kept.body_T_sensor.translation = from.translation + change.head<3>();
+  kept.body_T_sensor.rotation = (expSo3(change.segment<3>(3)) * from.rotation).normalized();
+  kept.clock_offset = start.clock_offset + change[6];
+  return kept;
 }
 }  // namespace
 
@@ -71,18 +109,30 @@ Matrix7d sandwich(const Matrix7d& hessian, const std::vector<Vector7d>& gradient
   return inverse * scatter * inverse + untold;
 }
 
-Matrix7d mountCovariance(const Matrix7d& all, const std::vector<Vector7d>& gradients, Clock clock,
-                         const Eigen::Vector3d& sensor_in_body, double surface_distance, Stems stems)
+double commonOffset(double surface_distance, Stems stems)
+{
+  return std::max(stems == Stems::OnAxes ? kCommonOffsetOnAxes : kCommonOffset, kCommonShare * surface_distance);
+}
+
+Matrix7d sandwichOfMount(const Matrix7d& all, const std::vector<Vector7d>& gradients, Clock clock)
 {
   Matrix7d hessian = all;
   if (clock == Clock::Kept) withoutClock(hessian);
   std::vector<Vector7d> in_metres;
   for (const Vector7d& gradient : gradients) in_metres.emplace_back(mountStepOfMetres().cwiseProduct(gradient));
-  const Matrix7d at_sensor = atSensor(sensor_in_body);
-  Matrix7d covariance = at_sensor * sandwich(hessian, in_metres, clock) * at_sensor.transpose();
+  Matrix7d covariance = sandwich(hessian, in_metres, clock);
   if (clock == Clock::Kept) withoutClock(covariance);
-  const double least = stems == Stems::OnAxes ? kCommonOffsetOnAxes : kCommonOffset;
-  addCommon(covariance, std::max(least, kCommonShare * surface_distance));
+  return covariance;
+}
+
+Matrix7d mountCovariance(const Matrix7d& hessian, const std::vector<Vector7d>& gradients, double clock_deviation,
+                         const Eigen::Vector3d& sensor_in_body, double common_offset)
+{
+  const Matrix7d at_sensor = atSensor(sensor_in_body);
+  const Vector7d with_clock = clock_deviation * changeWithClock(hessian);
+  Matrix7d covariance = sandwichOfMount(hessian, gradients, Clock::Kept) + with_clock * with_clock.transpose();
+  covariance = at_sensor * covariance * at_sensor.transpose();
+  addCommon(covariance, common_offset);
   return covariance;
 }
 
@@ -100,21 +150,6 @@ Matrix7d mountCovariance(const Matrix6d& of_correction, const Rigid& correction,
   return covariance;
 }
 
-std::vector<OpenDirection> openDirections(const Matrix7d& covariance, double limit)
-{
-  constexpr double kMostly = 0.7;
-  std::vector<OpenDirection> open;
-  const Eigen::SelfAdjointEigenSolver<Matrix7d> solver(covariance);
-  for (int i = 6; i >= 0; --i)
-  {
-    const Vector7d direction = solver.eigenvectors().col(i);
-    const double sigma = std::sqrt(std::max(0.0, solver.eigenvalues()[i]));
-    const bool of_clock = std::abs(direction[6]) > kMostly;
-    if (sigma > (of_clock ? kOpenClock : limit)) open.push_back({direction, sigma});
-  }
-  return open;
-}
-
 Vector7d changeInMetres(const Mount& from, const Mount& to)
 {
   const Rigid &a = from.body_T_sensor, &b = to.body_T_sensor;
@@ -124,16 +159,13 @@ Vector7d changeInMetres(const Mount& from, const Mount& to)
   return change.cwiseQuotient(mountStepOfMetres());
 }
 
-Mount keepingOpen(const Mount& start, const Mount& estimate, const std::vector<OpenDirection>& open)
+ToldMount toldMount(const Mount& given, const Mount& estimate, const Matrix7d& covariance, double limit)
 {
-  Vector7d metres = changeInMetres(start, estimate);
-  for (const OpenDirection& o : open) metres -= o.direction * o.direction.dot(metres);
-  const Vector7d change = metres.cwiseProduct(mountStepOfMetres());
-  const Rigid& from = start.body_T_sensor;
-  Mount kept;
-  kept.body_T_sensor.translation = from.translation + change.head<3>();
-  kept.body_T_sensor.rotation = (expSo3(change.segment<3>(3)) * from.rotation).normalized();
-  kept.clock_offset = start.clock_offset + change[6];
-  return kept;
+  ToldMount told;
+  told.open = openDirections(covariance, limit);
+  told.mount = keepingOpen(given, estimate, told.open);
+  const Vector7d scale = mountStepOfMetres();
+  told.covariance = scale.asDiagonal() * covariance * scale.asDiagonal();
+  return told;
 }
 }  // namespace scanloom

@@ -2,6 +2,7 @@
 
 #include "calibration/MountFit.h"
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -26,6 +27,14 @@ std::vector<Vector6d> twistsOf(const std::vector<Station>& stations)
   std::vector<Vector6d> twists;
   for (const Station& station : stations) twists.push_back(station.twist);
   return twists;
+}
+
+/** Root mean square, m/s. */
+double speedOf(const std::vector<Vector6d>& twists)
+{
+  double sum = 0;
+  for (const Vector6d& twist : twists) sum += twist.head<3>().squaredNorm();
+  return std::sqrt(sum / static_cast<double>(twists.size()));
 }
 
 Mount moved(const Mount& mount, const MountCorrection& correction)
@@ -72,17 +81,37 @@ class LevelOfDrive
   }
 
   /** In metres. */
-  Matrix7d covarianceOf(const Mount& mount, double surface_distance) const
+  Matrix7d covarianceOf(const Mount& mount, double clock_deviation, double surface_distance) const
+  {
+    const Curvature at = curvatureAt(mount);
+    const double common = commonOffset(surface_distance, stations_.front().stems);
+    // What moves the points of all stations alike may be an error of the clock as well, at the body's speed.
+    const double deviation = clock_deviation == 0 ? 0 : std::hypot(clock_deviation, common / speedOf(twists_));
+    return mountCovariance(at.hessian, at.gradients, deviation, mount.body_T_sensor.translation, common);
+  }
+
+  /** In s. */
+  double clockDeviation(const Mount& mount) const
+  {
+    const Curvature at = curvatureAt(mount);
+    return std::sqrt(sandwichOfMount(at.hessian, at.gradients, clock_)(6, 6));
+  }
+
+ private:
+  struct Curvature
+  {
+    Matrix7d hessian;
+    std::vector<Vector7d> gradients;
+  };
+
+  Curvature curvatureAt(const Mount& mount) const
   {
     const StationCells lidar = cellsOfLidar(stations_, mount, trajectory_, level_);
     std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
     const Matrix7d hessian = hessianOf(pairs, twists_, {}, level_.d2);
-    const MountEquations equations = mountEquations(pairs, twists_, {}, level_.d2);
-    return mountCovariance(hessian, equations.gradients, clock_, mount.body_T_sensor.translation, surface_distance,
-                           stations_.front().stems);
+    return {hessian, mountEquations(pairs, twists_, {}, level_.d2).gradients};
   }
 
- private:
   const std::vector<Station>& stations_;
   const Trajectory& trajectory_;
   MountLevel level_;
@@ -91,17 +120,42 @@ class LevelOfDrive
   std::vector<NdtMap> reference_;
 };
 
-/** With the outcome by the covariance, in metres. */
-MountEstimate told(MountEstimate estimate, const Mount& mount, const Matrix7d& covariance, const Mount& given)
+/** Near the last level's mount, with the final clock. */
+struct Approach
 {
-  estimate.open = openDirections(covariance, kOpenLidar);
-  estimate.outcome = estimate.open.empty() ? MountOutcome::Estimated : MountOutcome::Open;
-  estimate.mount = keepingOpen(given, mount, estimate.open);
-  const Vector7d scale = mountStepOfMetres();
-  estimate.covariance = scale.asDiagonal() * covariance * scale.asDiagonal();
-  return estimate;
+  Mount mount;
+  double clock_deviation = 0;  // s
+  bool settled = true;
+};
+
+/** A station's twist is that of its own scan. Among scans with other twists the clock is not seen. */
+MountLevel ofOwnScan(MountLevel level)
+{
+  level.scans = 1;
+  return level;
+}
+
+Approach approachFrom(const Mount& start, const std::vector<Station>& stations, const Trajectory& trajectory,
+                      Clock clock)
+{
+  Approach approach{start};
+  for (const MountLevel& level : {kCoarse, kMiddle})
+    LevelOfDrive(stations, trajectory, clock == Clock::Kept ? level : ofOwnScan(level), clock)
+        .improve(approach.mount, kNear);
+  if (clock == Clock::Kept) return approach;
+  const LevelOfDrive own(stations, trajectory, ofOwnScan(kFinestLevel), clock);
+  approach.settled = own.improve(approach.mount, kSettled) < kNearlySettled;
+  approach.clock_deviation = own.clockDeviation(approach.mount);
+  return approach;
 }
 }  // namespace
+
+MountEstimate told(MountEstimate estimate, const Mount& mount, const Matrix7d& covariance, const Mount& given)
+{
+  static_cast<ToldMount&>(estimate) = toldMount(given, mount, covariance, kOpenLidar);
+  estimate.outcome = estimate.open.empty() ? MountOutcome::Estimated : MountOutcome::Open;
+  return estimate;
+}
 
 MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& given, const Mount& start,
                             const Trajectory& trajectory, Clock clock)
@@ -111,15 +165,10 @@ MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& g
   estimate.stations = stations.size();
   if (stations.size() < kFewestStations) return estimate;
 
-  Mount mount = start;
-  for (MountLevel level : {kCoarse, kMiddle})
-  {
-    // A station's twist is that of its own scan: with others, too, a clock takes 50 rounds.
-    if (clock == Clock::Estimated) level.scans = 1;
-    LevelOfDrive(stations, trajectory, level, clock).improve(mount, kNear);
-  }
-  const LevelOfDrive fine(stations, trajectory, kFinestLevel, clock);
-  const bool settled = fine.improve(mount, kSettled) < kNearlySettled;
+  const Approach approach = approachFrom(start, stations, trajectory, clock);
+  Mount mount = approach.mount;
+  const LevelOfDrive fine(stations, trajectory, kFinestLevel, Clock::Kept);
+  const bool settled = fine.improve(mount, kSettled) < kNearlySettled && approach.settled;
   const MountFit before = mountFit(stations, given, trajectory), after = mountFit(stations, mount, trajectory);
   estimate.shared_before = before.shared, estimate.distance_before = before.distance;
   estimate.shared_after = after.shared, estimate.distance_after = after.distance;
@@ -129,7 +178,7 @@ MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& g
   estimate.outcome = MountOutcome::Unstable;
   const bool fits = after.shared >= before.shared - kMostShareLost && after.distance < kFarthestApart;
   if (!settled || !fits) return estimate;
-  return told(std::move(estimate), mount, fine.covarianceOf(mount, after.distance), given);
+  return told(std::move(estimate), mount, fine.covarianceOf(mount, approach.clock_deviation, after.distance), given);
 }
 
 MountEstimate doubted(MountEstimate estimate, const Mount& by, const Mount& given)

@@ -16,17 +16,17 @@ enum class MountOutcome
   Unstable,       // it did not settle
 };
 
-struct MountEstimate
+/** The mount is the given one, unless Estimated or Open. */
+struct MountEstimate : ToldMount
 {
   MountOutcome outcome = MountOutcome::StoodStill;
-  Mount mount;  // the given one, unless Estimated or Open
-  /** Of the errors of position (m), rotation (rad), along the body's axes, and clock (s); zero if not estimated. */
-  Matrix7d covariance = Matrix7d::Zero();
-  std::vector<OpenDirection> open;
   std::size_t stations = 0;
   double shared_before = 0, shared_after = 0;      // share of points that are where the reference saw something
   double distance_before = 0, distance_after = 0;  // m, surfaceDistance
 };
+
+/** Estimated or Open, by the covariance (in metres, see toldMount). */
+MountEstimate told(MountEstimate, const Mount& estimate, const Matrix7d& covariance, const Mount& given);
 
 /**
  * D2D NDT (ndt/Registration.h) from `start` (findStart), with cells of 2 m, then 1 m; scans are deskewed anew with each

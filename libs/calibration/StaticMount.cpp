@@ -104,12 +104,7 @@ MountEstimate estimateFrom(const StaticLidar& lidar, const StaticLidar& referenc
 
   const Matrix7d covariance =
       mountCovariance(result.covariance, result.target_T_source, mount.body_T_sensor.translation, after.distance);
-  const Vector7d scale = mountStepOfMetres();
-  estimate.open = openDirections(covariance, kOpenLidar);
-  estimate.outcome = estimate.open.empty() ? MountOutcome::Estimated : MountOutcome::Open;
-  estimate.mount = keepingOpen(given, mount, estimate.open);
-  estimate.covariance = scale.asDiagonal() * covariance * scale.asDiagonal();
-  return estimate;
+  return told(std::move(estimate), mount, covariance, given);
 }
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace scanloom
@@ -25,6 +26,14 @@ bool lookAlike(const std::vector<LidarScan>& of_lidar, const std::vector<LidarSc
   constexpr double kLeast = 0.4;  // 0.50 to 0.57 for lidars that see all around, 0.23 to 0.33 for half turns apart
   const std::vector<Station> stations = stationsOf(of_lidar, of_reference, reference, trajectory, kAtOnce);
   return commonField(stations, mount, trajectory) > kLeast;
+}
+
+/** More of the drive, from farther away, does not tell a clock better. */
+bool tellsPose(const MountEstimate& estimate)
+{
+  const auto isClock = [](const OpenDirection& open) { return open.isClock(); };
+  return trusted(estimate) ||
+         (estimate.outcome == MountOutcome::Open && std::all_of(estimate.open.begin(), estimate.open.end(), isClock));
 }
 }  // namespace
 
@@ -44,9 +53,9 @@ LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLida
     const Mount start = findStart(stations, given, known, own, others, of_reference.body_T_sensor, drive.trajectory);
     MountEstimate estimate = estimateMount(stations, given, start, drive.trajectory, clock);
     if (estimate.outcome == MountOutcome::StoodStill) return {estimate, {}};
-    if (near && trusted(estimate)) estimate = doubted(std::move(estimate), *near, given);
+    if (near && tellsPose(estimate)) estimate = doubted(std::move(estimate), *near, given);
     calibration = {estimate, mountScenes(stations, given, estimate.mount, drive.trajectory)};
-    if (!trusted(estimate)) continue;
+    if (!tellsPose(estimate)) continue;
     if (near || lookAlike(own, others, of_reference, drive.trajectory, estimate.mount)) break;
     near = estimate.mount;
   }

@@ -109,8 +109,11 @@ CalibrationDrive driveForCalibration(SensorInput& input, std::size_t reference, 
   drive.imu = one.imu();
   // Without an IMU the motion within a scan is not seen: the pose fits its middle.
   const std::vector<LidarScan>& own = drive.scans[reference];
-  if (settings.slam.imu == "none" && !own.empty())
+  if (!drive.run.with_imu && !own.empty())
+  {
     for (StampedPose& pose : drive.registered) pose.stamp -= own.front().period / 2;
+    drive.trajectory = drive.registered;
+  }
   return drive;
 }
 

@@ -8,7 +8,8 @@ namespace scanloom
 {
 struct CalibrationDrive
 {
-  Trajectory trajectory;  // of the body by the reference lidar and the IMU, at the IMU's stamps
+  Trajectory trajectory;  // of the body by the reference lidar and the IMU, at the IMU's stamps; without an IMU as
+                          // `registered`
   Trajectory registered;  // of the body in the local map, by registration alone: at the ends of scans; without an IMU,
                           // at their middles
   std::vector<ImuSample> imu;                 // of the body's IMU, as it stamped them

@@ -87,6 +87,7 @@ class SlamRun
     const RigAccount account = input_.account();
     const bool silent = !silentLidars(account).empty();
     result.passed = counts_.passed() && whole && !silent && !check_.warned();
+    result.with_imu = imu_.has_value();
     summary.imu = check_.imu();
     summary.lidars = check_.lidars();
     summary.outcome = interrupted ? "INTERRUPTED" : whole ? counts_.outcome() : "LOST";

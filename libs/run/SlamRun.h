@@ -39,6 +39,7 @@ struct SlamRunResult
    * (RigCheck).
    */
   bool passed = true;
+  bool with_imu = false;  // else constant velocity and turn rate were assumed
 };
 
 /**
