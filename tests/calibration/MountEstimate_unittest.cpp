@@ -179,7 +179,25 @@ TEST(MountEstimate, findsHowLateALidarsStampsAre)
 {
   const MountEstimate estimate = calibrated(driven(1, kLate), kRight, Clock::Estimated, PoseGiven::Within20Degrees);
   expectRight(estimate);
-  EXPECT_NEAR(estimate.mount.clock_offset, kLate, 0.003);
+  const double sigma = std::sqrt(estimate.covariance(6, 6));
+  EXPECT_LT(sigma, 0.005);
+  EXPECT_NEAR(estimate.mount.clock_offset, kLate, std::min(0.003, 3 * sigma));
+}
+
+TEST(ToldMount, judgesAClockByItselfHoweverItGoesWithThePose)
+{
+  constexpr double kX = 0.02, kClock = 0.006, kCorrelation = 0.99;
+  const Mount given{kRight, 0}, estimate{at(1.52, -1.2, 2.5, -30, 15, 25), 0.03};
+  Matrix7d covariance = 1e-6 * Matrix7d::Identity();
+  covariance(0, 0) = kX * kX, covariance(6, 6) = kClock * kClock;
+  covariance(0, 6) = covariance(6, 0) = kCorrelation * kX * kClock;
+
+  const ToldMount told = toldMount(given, estimate, covariance, kOpenLidar);
+  ASSERT_EQ(told.open.size(), 1u);
+  EXPECT_TRUE(told.open[0].isClock());
+  EXPECT_NEAR(told.open[0].sigma, kClock, 1e-12);
+  EXPECT_EQ(told.mount.clock_offset, 0);
+  EXPECT_NEAR(told.mount.body_T_sensor.translation.x(), 1.52, 1e-12);
 }
 
 TEST(MountEstimate, ofAMachineThatStandsStillIsNone)
