@@ -1,6 +1,6 @@
 #include "ndt/GaussianCell.h"
 
-#include <Eigen/Eigenvalues>
+#include "ndt/EigenLanes.h"
 
 #include <algorithm>
 
@@ -22,6 +22,19 @@ Eigen::Matrix3d assumedCovariance(const Eigen::Matrix3d& covariance, std::int64_
   constexpr double kDeviation = 0.08;  // m
   const double n = static_cast<double>(points);
   return ((n - 1) * covariance + kDeviation * kDeviation * Eigen::Matrix3d::Identity()) / n;
+}
+/** Raises eigenvalues that are too small, and sets the structure. */
+void limit(const EigenBlock& eigen, std::size_t lane, double edge, double min_deviation, GaussianCell& cell)
+{
+  const Eigen::Array3d seen = eigen.valuesOf(lane), variances = seen.max(min_deviation * min_deviation);
+  const Eigen::Array3d thin = (1 - variances / (edge * edge / 12)).max(0.0).sqrt();
+  for (int i = 0; i < 3; ++i)
+  {
+    const Eigen::Vector3d axis = eigen.vectorOf(static_cast<std::size_t>(i), lane);
+    const Eigen::Matrix3d projector = axis * axis.transpose();
+    cell.covariance += (variances[i] - seen[i]) * projector;
+    cell.structure += thin[i] * projector;
+  }
 }
 }  // namespace
 
@@ -66,17 +79,22 @@ MeanAndCovariance meanAndCovariance(const Moments& m, const Eigen::Vector3d& cor
           (products - n * mean * mean.transpose()) * (Moments::kQuantum * Moments::kQuantum / freedom)};
 }
 
-GaussianCell gaussianOf(const Moments& m, const Eigen::Vector3d& corner, double edge, double min_deviation)
+std::array<GaussianCell, kGaussiansAtOnce> gaussiansOf(const CellPoints* cells, std::size_t count, double edge,
+                                                       double min_deviation)
 {
-  const auto [mean, seen] = meanAndCovariance(m, corner);
-  const Eigen::Matrix3d covariance = m.n < GaussianCell::kMinPointsForCovariance ? assumedCovariance(seen, m.n) : seen;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(covariance);
-  const Eigen::Array3d variances = eigen.eigenvalues().array().max(min_deviation * min_deviation);
-  const Eigen::Vector3d missing = variances - eigen.eigenvalues().array();
-  const Eigen::Vector3d thin = (1 - variances / (edge * edge / 12)).max(0.0).sqrt();
-  const auto along = [&](const Eigen::Vector3d& v) -> Eigen::Matrix3d
-  { return eigen.eigenvectors() * v.asDiagonal() * eigen.eigenvectors().transpose(); };
-  return {mean, covariance + along(missing), static_cast<std::uint32_t>(m.n), along(thin)};
+  std::array<GaussianCell, kGaussiansAtOnce> gaussians;
+  SymmetricBlock covariances{};
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Moments& m = cells[i].moments;
+    const auto [mean, seen] = meanAndCovariance(m, cells[i].corner);
+    const bool few = m.n < GaussianCell::kMinPointsForCovariance;
+    gaussians[i] = {mean, few ? assumedCovariance(seen, m.n) : seen, static_cast<std::uint32_t>(m.n)};
+    put(gaussians[i].covariance, covariances, i);
+  }
+  EigenBlock eigen;
+  eigensystemsOf(covariances, eigen);
+  for (std::size_t i = 0; i < count; ++i) limit(eigen, i, edge, min_deviation, gaussians[i]);
+  return gaussians;
 }
 }  // namespace scanloom

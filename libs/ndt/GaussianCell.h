@@ -1,7 +1,10 @@
 /** The points of a cell as sums, and as a normal distribution. */
 #pragma once
+#include "ndt/SymmetricBlock.h"
+
 #include <Eigen/Core>
 
+#include <array>
 #include <cstdint>
 
 namespace scanloom
@@ -13,7 +16,7 @@ struct GaussianCell
   Eigen::Matrix3d covariance;  // m^2, eigenvalues at least NdtOptions::min_deviation squared
   std::uint32_t points = 0;
 
-  /** With fewer points the covariance is assumed (see gaussianOf). */
+  /** With fewer points the covariance is assumed (see gaussiansOf). */
   static constexpr int kMinPointsForCovariance = 4;
 
   /**
@@ -62,11 +65,20 @@ struct MeanAndCovariance
 /** Of points whose sums are about `corner`. The covariance of a single point is zero. */
 MeanAndCovariance meanAndCovariance(const Moments&, const Eigen::Vector3d& corner);
 
+/** The points of a cell by their sums about its corner. */
+struct CellPoints
+{
+  Moments moments;
+  Eigen::Vector3d corner;  // m
+};
+
 /**
- * The Gaussian of the points in a cell of `edge` m whose sums are about its `corner`. Eigenvalues below
+ * The Gaussians of up to kGaussiansAtOnce cells of `edge` m; the rest of the result is not set. Eigenvalues below
  * min_deviation^2 are raised to it, because the noise of thin walls and stems is not known better. For fewer than
  * kMinPointsForCovariance points the covariance is computed with one point more, of 8 cm standard deviation along each
  * axis: far away a beam hits a stem or branch, but where on it is not known.
  */
-GaussianCell gaussianOf(const Moments&, const Eigen::Vector3d& corner, double edge, double min_deviation);
+constexpr std::size_t kGaussiansAtOnce = SymmetricBlock::kLanes;
+std::array<GaussianCell, kGaussiansAtOnce> gaussiansOf(const CellPoints* cells, std::size_t count, double edge,
+                                                       double min_deviation);
 }  // namespace scanloom

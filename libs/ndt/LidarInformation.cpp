@@ -67,18 +67,16 @@ struct InformationSums
   PoseSum resistance, structure, unsure_means;
 };
 
-std::vector<StructureBlock> structuresOf(const Neighbourhoods& all, const Neighbourhoods::Chunk& chunk)
+std::vector<SymmetricBlock> structuresOf(const Neighbourhoods& all, const Neighbourhoods::Chunk& chunk)
 {
-  std::vector<StructureBlock> structures(chunk.blocks.size());
+  std::vector<SymmetricBlock> structures(chunk.blocks.size());
   for (std::size_t i = 0; i < chunk.cells.size(); ++i)
   {
-    StructureBlock* block = structures.data() + chunk.ranges[i].first;
+    SymmetricBlock* block = structures.data() + chunk.ranges[i].first;
     std::size_t lane = 0;
     for (const std::uint32_t j : all.of(chunk.first + i))
     {
-      const Matrix3d& s = all.target()[j].structure;
-      block->xx[lane] = s(0, 0), block->xy[lane] = s(0, 1), block->xz[lane] = s(0, 2);
-      block->yy[lane] = s(1, 1), block->yz[lane] = s(1, 2), block->zz[lane] = s(2, 2);
+      put(all.target()[j].structure, *block, lane);
       if (++lane == TargetBlock::kLanes) ++block, lane = 0;
     }
   }
@@ -321,8 +319,11 @@ LidarInformation lidarInformation(const Neighbourhoods& all, const Rigid& target
                        [&]
                        { information.degenerate = directionsWithoutStructure(evidence, all, target_T_source, d2); });
   const Matrix6d target_of_step = targetOfMetres(target_T_source);
+  Vector6d gradient = Vector6d::Zero();
   Matrix6d curvature = Matrix6d::Zero();
-  for (const Place& place : places) curvature += place.curvature.matrix();
+  for (const Place& place : places) gradient += place.force, curvature += place.curvature.matrix();
+  information.gradient = targetOfStep(target_T_source).transpose() * gradient;
+  information.curvature = congruent(curvature, targetOfStep(target_T_source));
   const Matrix6d bend = safeInverse(congruent(curvature, target_of_step));
   Matrix6d metres = kUnmodelled * covarianceOf(places, curvature, bend, evidence.unsure_means, target_of_step);
   metres.diagonal().head<3>().array() += kTranslationFloor * kTranslationFloor;

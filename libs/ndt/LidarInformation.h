@@ -23,6 +23,10 @@ struct LidarInformation
   Matrix6d covariance = Matrix6d::Zero();  // with floor; 10 m along the degenerate directions
   std::vector<Vector6d> degenerate;        // as by degenerateDirections
   Eigen::Vector3d one_sided{0, 0, 0};      // see RegistrationResult
+  /** As in NormalEquations, but the curvature is the second derivative of the score with B held: it may be indefinite.
+   */
+  Vector6d gradient = Vector6d::Zero();
+  Matrix6d curvature = Matrix6d::Zero();
 };
 
 /** Orthonormal steps in metres that no structure resists. The neighbourhoods must have been moved to the pose. */

@@ -174,8 +174,21 @@ void NdtMap::combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(
     cells.emplace_back();
   }
   while (mine != bins_.cend()) keep(*mine++);
-  constexpr std::size_t kGrain = 128;  // Gaussians, about 20 us
-  forAll(changed.size(), kGrain, [&](std::size_t i) { cells[changed[i].cell] = gaussianOfBin(bins[changed[i].bin]); });
+  constexpr std::size_t kGrain = 16;  // groups of Gaussians, about 20 us
+  forAll((changed.size() + kGaussiansAtOnce - 1) / kGaussiansAtOnce, kGrain,
+         [&](std::size_t group)
+         {
+           const std::size_t first = group * kGaussiansAtOnce;
+           const std::size_t count = std::min(kGaussiansAtOnce, changed.size() - first);
+           std::array<CellPoints, kGaussiansAtOnce> points;
+           for (std::size_t i = 0; i < count; ++i)
+           {
+             const Bin& bin = bins[changed[first + i].bin];
+             points[i] = {bin.moments, edge() * CellKey::indexOf(bin.key).cast<double>()};
+           }
+           const auto gaussians = gaussiansOf(points.data(), count, edge(), options_.min_deviation);
+           for (std::size_t i = 0; i < count; ++i) cells[changed[first + i].cell] = gaussians[i];
+         });
   bins_ = std::move(bins);
   cells_ = std::move(cells);
   indexBlocks();
@@ -187,12 +200,6 @@ void NdtMap::requireSameCells(const NdtMap& other) const
   throw std::invalid_argument(
       fmt::format("NdtMap: cells of {} m do not add to cells of {} m: give both maps one cell_size",
                   other.options_.cell_size, options_.cell_size));
-}
-
-GaussianCell NdtMap::gaussianOfBin(const Bin& bin) const
-{
-  const double edge = static_cast<double>(cell_quanta_) * Moments::kQuantum;
-  return gaussianOf(bin.moments, edge * CellKey::indexOf(bin.key).cast<double>(), edge, options_.min_deviation);
 }
 
 void NdtMap::indexBlocks()

@@ -92,7 +92,7 @@ class NdtMap
   void combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(const Moments&));
   void requireSameCells(const NdtMap& other) const;
   bool hasGaussian(const Bin& bin) const { return bin.moments.n >= options_.min_points; }
-  GaussianCell gaussianOfBin(const Bin&) const;
+  double edge() const { return static_cast<double>(cell_quanta_) * Moments::kQuantum; }
   void indexBlocks();
 
   NdtOptions options_;

@@ -6,7 +6,7 @@ namespace scanloom
 {
 namespace
 {
-SCANLOOM_INLINE void loadAll(const StructureBlock& from, SymmetricLanes& lanes)
+SCANLOOM_INLINE void loadAll(const SymmetricBlock& from, SymmetricLanes& lanes)
 {
   load(from.xx, lanes.xx), load(from.xy, lanes.xy), load(from.xz, lanes.xz);
   load(from.yy, lanes.yy), load(from.yz, lanes.yz), load(from.zz, lanes.zz);
@@ -24,7 +24,7 @@ SCANLOOM_INLINE void totals(const SymmetricLanes& sum, Symmetric3& result)
 }
 
 SCANLOOM_INLINE void gatherOf(const TurnedCell& cell, const BlockRange& range, const TargetBlock* blocks,
-                              const StructureBlock* structures, double d2, PairEvidence& evidence)
+                              const SymmetricBlock* structures, double d2, PairEvidence& evidence)
 {
   Lanes fx{}, fy{}, fz{};
   SymmetricLanes weight{}, structured{}, pull{};
@@ -52,32 +52,32 @@ SCANLOOM_INLINE void gatherOf(const TurnedCell& cell, const BlockRange& range, c
   totals(pull, evidence.pull);
 }
 
-SCANLOOM_INLINE void gatherAll(const PairBatch& batch, const StructureBlock* structures, double d2,
+SCANLOOM_INLINE void gatherAll(const PairBatch& batch, const SymmetricBlock* structures, double d2,
                                PairEvidence* evidence)
 {
   for (std::size_t i = 0; i < batch.count; ++i)
     gatherOf(batch.cells[i], batch.ranges[i], batch.blocks, structures, d2, evidence[i]);
 }
 
-void gatherPortable(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence)
+void gatherPortable(const PairBatch& batch, const SymmetricBlock* structures, double d2, PairEvidence* evidence)
 {
   gatherAll(batch, structures, d2, evidence);
 }
 
-SCANLOOM_AVX2 void gatherAvx2(const PairBatch& batch, const StructureBlock* structures, double d2,
+SCANLOOM_AVX2 void gatherAvx2(const PairBatch& batch, const SymmetricBlock* structures, double d2,
                               PairEvidence* evidence)
 {
   gatherAll(batch, structures, d2, evidence);
 }
 
-SCANLOOM_AVX512 void gatherAvx512(const PairBatch& batch, const StructureBlock* structures, double d2,
+SCANLOOM_AVX512 void gatherAvx512(const PairBatch& batch, const SymmetricBlock* structures, double d2,
                                   PairEvidence* evidence)
 {
   gatherAll(batch, structures, d2, evidence);
 }
 }  // namespace
 
-void gatherEvidence(const PairBatch& batch, const StructureBlock* structures, double d2, PairEvidence* evidence,
+void gatherEvidence(const PairBatch& batch, const SymmetricBlock* structures, double d2, PairEvidence* evidence,
                     Kernel kernel)
 {
   switch (kernel)

@@ -2,16 +2,10 @@
 #pragma once
 #include "ndt/PairSums.h"
 #include "ndt/Symmetric3.h"
+#include "ndt/SymmetricBlock.h"
 
 namespace scanloom
 {
-/** GaussianCell::structure of the cells of a TargetBlock; zero where there is no cell. */
-struct alignas(64) StructureBlock
-{
-  double xx[TargetBlock::kLanes], xy[TargetBlock::kLanes], xz[TargetBlock::kLanes];
-  double yy[TargetBlock::kLanes], yz[TargetBlock::kLanes], zz[TargetBlock::kLanes];
-};
-
 /** With u = Bm and w as in PairSums; T is the target's structure. */
 struct PairEvidence
 {
@@ -21,8 +15,10 @@ struct PairEvidence
   Symmetric3 pull;        // sum w (B - d2 u u'): derivative of the force by the distance
 };
 
-/** Writes one PairEvidence per source cell; `structures` belong to the blocks. The bits are the same for every kernel.
+/**
+ * Writes one PairEvidence per source cell; `structures` are GaussianCell::structure of the blocks' cells, zero where
+ * there is none. The bits are the same for every kernel.
  */
-void gatherEvidence(const PairBatch&, const StructureBlock* structures, double d2, PairEvidence* evidence,
+void gatherEvidence(const PairBatch&, const SymmetricBlock* structures, double d2, PairEvidence* evidence,
                     Kernel = widestKernel());
 }  // namespace scanloom

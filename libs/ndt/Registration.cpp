@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace scanloom
@@ -15,6 +16,7 @@ namespace scanloom
 namespace
 {
 constexpr double kLoose = 30;  // factor on the tolerance where a more accurate search follows
+constexpr double kEarly = 10;  // the same where a last step by the second derivative follows
 
 // Share of a level's cell size: a guess that is farther off needs the coarser level before it.
 constexpr double kReachOfCells = 0.3;
@@ -39,6 +41,15 @@ Minimum search(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, 
   return minimum;
 }
 
+/** The same from the minimum that an early end left. */
+Minimum searchOn(Neighbourhoods& neighbourhoods, const Expectation& expectation, const RegistrationOptions& options,
+                 const Minimum& first)
+{
+  Minimum minimum = minimise(neighbourhoods, first.target_T_source, expectation, options, {});
+  minimum.iterations += first.iterations;
+  return minimum;
+}
+
 /** Motion along a degenerate direction was noise: the search is repeated from the start without it. */
 Minimum searchAgain(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, const Expectation& expectation,
                     const RegistrationOptions& options, const std::vector<Vector6d>& degenerate, const Minimum& first)
@@ -48,14 +59,38 @@ Minimum searchAgain(Neighbourhoods& neighbourhoods, const Rigid& start, bool wid
   return minimum;
 }
 
+/**
+ * The step into the minimum by the score's second derivative, which the search has not; none where the objective is not
+ * convex, or where it leads farther than a search that ended with `tolerance` (m) can be off.
+ */
+std::optional<Vector6d> lastStep(const Rigid& pose, const LidarInformation& lidar, const Expectation& expectation,
+                                 double d2, double tolerance)
+{
+  constexpr double kFarthest = 10;
+  NormalEquations equations{0, lidar.gradient, lidar.curvature, 0};
+  expectation.addTo(equations, pose, d2);
+  const std::optional<Vector6d> back = solvePositive(equations.curvature, equations.gradient);
+  if (!back || back->cwiseQuotient(stepOfMetres()).norm() > kFarthest * tolerance) return std::nullopt;
+  return -*back;
+}
+
+/** The search ends early, because the covariance has what a better last step takes. */
 Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool widely, const Expectation& expectation,
                    const RegistrationOptions& options)
 {
+  RegistrationOptions early = options;
+  early.tolerance = kEarly * options.tolerance;
   Neighbourhoods neighbourhoods(level.target, level.source, options.neighbours);
-  Minimum minimum = search(neighbourhoods, start, widely, expectation, options, {});
+  Minimum minimum = search(neighbourhoods, start, widely, expectation, early, {});
   LidarInformation lidar = lidarInformation(neighbourhoods, minimum.target_T_source, options.d2);
-  if (lidar.degenerate.empty()) return {minimum, lidar};
-  return {searchAgain(neighbourhoods, start, widely, expectation, options, lidar.degenerate, minimum), lidar};
+  if (!lidar.degenerate.empty())
+    return {searchAgain(neighbourhoods, start, widely, expectation, options, lidar.degenerate, minimum), lidar};
+  Rigid& pose = minimum.target_T_source;
+  if (const std::optional<Vector6d> step = lastStep(pose, lidar, expectation, options.d2, early.tolerance))
+    pose = boxPlus(pose, *step);
+  else
+    minimum = searchOn(neighbourhoods, expectation, options, minimum);
+  return {minimum, lidar};
 }
 
 /** The start of the next level. `may_slide`: a coarser level left a direction open. */

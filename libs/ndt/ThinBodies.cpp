@@ -2,9 +2,10 @@
 
 #include "core/Statistics.h"
 #include "core/forAll.h"
+#include "ndt/EigenLanes.h"
 
-#include <Eigen/Eigenvalues>
-
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -39,25 +40,79 @@ struct ThinBody
 };
 
 /** Nothing for a body that is too thick, or seen along its axis. */
-std::optional<ThinBody> thinBodyOf(const MeanAndCovariance& seen, const Eigen::Vector3d& viewpoint)
+std::optional<ThinBody> thinBodyOf(const MeanAndCovariance& seen, const EigenBlock& eigen, std::size_t lane,
+                                   const Eigen::Vector3d& viewpoint)
 {
-  if (!mayBeThin(seen.covariance)) return std::nullopt;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(seen.covariance);
-  const Eigen::Vector3d& variances = eigen.eigenvalues();
-  const Eigen::Vector3d axis = eigen.eigenvectors().col(2);
+  const Eigen::Vector3d variances = eigen.valuesOf(lane);
+  Eigen::Index longest = 0;
+  const double most = variances.maxCoeff(&longest);
+  const double second = std::max(variances[(longest + 1) % 3], variances[(longest + 2) % 3]);
+  const Eigen::Vector3d axis = eigen.vectorOf(static_cast<std::size_t>(longest), lane);
   const double range = (seen.mean - viewpoint).norm();
   const Eigen::Vector3d sight = (seen.mean - viewpoint) / range;
   const Eigen::Vector3d across = sight - sight.dot(axis) * axis;
-  if (!(variances[2] > kSlimness * kSlimness * variances[1] && across.norm() > kLeastAcross)) return std::nullopt;
+  if (!(most > kSlimness * kSlimness * second && across.norm() > kLeastAcross)) return std::nullopt;
   const Eigen::Vector3d towards = across.normalized(), sideways = axis.cross(towards);
   const double radius = std::sqrt(3 * std::max(0.0, sideways.dot(seen.covariance * sideways)));
   if (radius > kMostRadius) return std::nullopt;
   return ThinBody{radius, towards, range, std::abs(axis.z()) > kSteep};
 }
 
+using Bodies = std::vector<std::optional<ThinBody>>;
+
+/** Cells that may hold a thin body, as many as are decomposed at a time. */
+class Candidates
+{
+ public:
+  Candidates(const Eigen::Vector3d& viewpoint, Bodies& bodies) : viewpoint_(viewpoint), bodies_(bodies) {}
+
+  void add(std::size_t bin, const MeanAndCovariance& seen)
+  {
+    bins_[count_] = bin, seen_[count_] = seen;
+    put(seen.covariance, covariances_, count_);
+    if (++count_ == SymmetricBlock::kLanes) finish();
+  }
+
+  void finish()
+  {
+    EigenBlock eigen;
+    eigensystemsOf(covariances_, eigen);
+    for (std::size_t i = 0; i < count_; ++i) bodies_[bins_[i]] = thinBodyOf(seen_[i], eigen, i, viewpoint_);
+    count_ = 0;
+  }
+
+ private:
+  const Eigen::Vector3d& viewpoint_;
+  Bodies& bodies_;
+  std::size_t count_ = 0;
+  std::array<std::size_t, SymmetricBlock::kLanes> bins_;
+  std::array<MeanAndCovariance, SymmetricBlock::kLanes> seen_;
+  SymmetricBlock covariances_{};
+};
+
+/** By bin. */
+Bodies thinBodiesOf(const std::vector<Bin>& bins, double edge, const Eigen::Vector3d& viewpoint)
+{
+  constexpr std::size_t kPart = 128;   // bins, about 20 us
+  constexpr std::int64_t kFewest = 2;  // show the direction of an axis
+  Bodies bodies(bins.size());
+  forAll((bins.size() + kPart - 1) / kPart, 1,
+         [&](std::size_t part)
+         {
+           Candidates candidates(viewpoint, bodies);
+           for (std::size_t i = part * kPart; i < std::min((part + 1) * kPart, bins.size()); ++i)
+           {
+             if (bins[i].moments.n < kFewest) continue;
+             const MeanAndCovariance seen = meanAndCovariance(bins[i], edge);
+             if (mayBeThin(seen.covariance)) candidates.add(i, seen);
+           }
+           candidates.finish();
+         });
+  return bodies;
+}
+
 /** Zero if too few bodies are near enough to be measured. */
-double typicalRadius(const std::vector<std::optional<ThinBody>>& bodies, const std::vector<Bin>& bins, int least_points)
+double typicalRadius(const Bodies& bodies, const std::vector<Bin>& bins, int least_points)
 {
   constexpr std::size_t kFewest = 5;
   std::vector<double> radii;
@@ -71,15 +126,7 @@ double typicalRadius(const std::vector<std::optional<ThinBody>>& bodies, const s
 void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points)
 {
   constexpr std::size_t kGrain = 128;
-  constexpr std::int64_t kFewest = 2;  // show the direction of an axis
-  const double edge = static_cast<double>(cell_quanta) * Moments::kQuantum;
-  std::vector<std::optional<ThinBody>> bodies(bins.size());
-  forAll(bins.size(), kGrain,
-         [&](std::size_t i)
-         {
-           if (bins[i].moments.n < kFewest) return;
-           bodies[i] = thinBodyOf(meanAndCovariance(bins[i], edge), viewpoint);
-         });
+  const Bodies bodies = thinBodiesOf(bins, static_cast<double>(cell_quanta) * Moments::kQuantum, viewpoint);
   const double typical = typicalRadius(bodies, bins, least_points);
   forAll(bins.size(), kGrain,
          [&](std::size_t i)

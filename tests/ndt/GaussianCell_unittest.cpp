@@ -20,6 +20,12 @@ Moments momentsOf(const std::vector<Eigen::Vector3d>& points, const Eigen::Vecto
   return m;
 }
 
+GaussianCell gaussianOf(const Moments& moments, const Eigen::Vector3d& corner, double edge, double min_deviation)
+{
+  const CellPoints points{moments, corner};
+  return gaussiansOf(&points, 1, edge, min_deviation)[0];
+}
+
 std::vector<Eigen::Vector3d> randomPoints(int n, const Eigen::Vector3d& deviations)
 {
   std::mt19937_64 random(5);

@@ -112,18 +112,18 @@ TEST(PairSums, areThoseOfTheFormulaPairByPair)
   }
 }
 
-std::vector<StructureBlock> randomStructures(std::size_t count)
+std::vector<SymmetricBlock> randomStructures(std::size_t count)
 {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> entry(-0.5, 1);
-  std::vector<StructureBlock> blocks(count);
-  for (StructureBlock& b : blocks)
+  std::vector<SymmetricBlock> blocks(count);
+  for (SymmetricBlock& b : blocks)
     for (double* values : {b.xx, b.xy, b.xz, b.yy, b.yz, b.zz})
       for (std::size_t lane = 0; lane < TargetBlock::kLanes; ++lane) values[lane] = entry(random);
   return blocks;
 }
 
-std::vector<PairEvidence> evidenceOf(const Pairs& pairs, const std::vector<StructureBlock>& structures, Kernel kernel)
+std::vector<PairEvidence> evidenceOf(const Pairs& pairs, const std::vector<SymmetricBlock>& structures, Kernel kernel)
 {
   std::vector<PairEvidence> evidence(pairs.cells.size());
   gatherEvidence({pairs.cells.data(), pairs.ranges.data(), pairs.cells.size(), pairs.blocks.data()}, structures.data(),
@@ -158,7 +158,7 @@ TEST(PairEvidence, isThatOfTheFormulaPairByPair)
       for (std::size_t k = 0; k < TargetBlock::kLanes; ++k)
       {
         const TargetBlock& t = pairs.blocks[pairs.ranges[i].first + block];
-        const StructureBlock& x = structures[pairs.ranges[i].first + block];
+        const SymmetricBlock& x = structures[pairs.ranges[i].first + block];
         const Eigen::Matrix3d thin = matrixOf(x.xx[k], x.xy[k], x.xz[k], x.yy[k], x.yz[k], x.zz[k]);
         const Eigen::Vector3d m = Eigen::Vector3d(s.x, s.y, s.z) - Eigen::Vector3d(t.x[k], t.y[k], t.z[k]);
         const Eigen::Matrix3d b = (matrixOf(s.xx, s.xy, s.xz, s.yy, s.yz, s.zz) +
