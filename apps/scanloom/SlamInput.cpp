@@ -33,7 +33,7 @@ std::unique_ptr<SensorInput> readAhead(std::unique_ptr<SensorInput> input)
 }  // namespace
 
 SlamInput openInput(const RecordingFiles& files, const SceneArguments& scene, const std::vector<std::string>& lidars,
-                    const Configuration& configuration)
+                    const Configuration& configuration, Duration body_imu_ahead)
 {
   if (!files.rawlogs.empty()) return {readAhead(std::make_unique<RawlogInput>(files.rawlogs.front(), lidars))};
   if (!files.clouds.empty())
@@ -48,7 +48,8 @@ SlamInput openInput(const RecordingFiles& files, const SceneArguments& scene, co
             static_cast<std::uint64_t>(std::ceil(simulated.scene->span.duration)), "s"};
   }
   const std::string section = rigSection(configuration);
-  const Rig rig = makeRig(readRigSettings(configuration, section), lidars);
+  Rig rig = makeRig(readRigSettings(configuration, section), lidars);
+  rig.body_imu_ahead = body_imu_ahead;
   if (rig.captures.empty()) return openLive(rig, configuration, section);
   const std::uint64_t megabytes = megabytesOf(rig.captures);
   return {readAhead(openRig(rig)), megabytes};

@@ -40,9 +40,10 @@ struct SlamInput
  * The rawlog or the clouds of `files`, the scene, or the rig of the configuration, which reads the captures or live
  * lidars.
  * @param lidars names of those to use; empty: all.
+ * @param body_imu_ahead of captures (Rig).
  */
 SlamInput openInput(const RecordingFiles& files, const SceneArguments&, const std::vector<std::string>& lidars,
-                    const Configuration&);
+                    const Configuration&, Duration body_imu_ahead = {});
 
 /** Throws ConfigError if the settings name an IMU that the input does not have. */
 void refuseUnknownImu(const SlamInput&, const SlamOptions&);

@@ -195,7 +195,9 @@ int run(SlamArguments arguments)
   std::vector<std::string> names{kConfigurationFile};
   for (std::string& name : SlamFiles::names(loaded.settings.output)) names.push_back(std::move(name));
   refuseExisting(arguments.output, names);
-  const SlamInput input = openInput(recording, arguments.scene, arguments.lidars, loaded.configuration);
+  // With the samples that tell the start, scans need not wait for it in memory.
+  const Duration to_start = fromSeconds(loaded.settings.start.duration);
+  const SlamInput input = openInput(recording, arguments.scene, arguments.lidars, loaded.configuration, to_start);
   if (!input.live) refuseSeconds(arguments.seconds);
   if (arguments.configuration.dry_run)
   {

@@ -1,6 +1,7 @@
 #include "batching/ImuOrder.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 namespace scanloom
@@ -38,11 +39,16 @@ std::uint64_t ImuOrder::dropAfter(int sensor, Timestamp latest)
 
 std::vector<SensorImu> ImuOrder::release(Timestamp horizon)
 {
-  for (; !body_.empty() && body_.front().stamp < horizon; body_.pop_front()) add({SensorImu::kBody, body_.front()});
   released_until_ = std::max(released_until_, horizon);
+  const Timestamp of_body = horizon > Timestamp::max() - body_ahead_ ? Timestamp::max() : horizon + body_ahead_;
+  std::vector<SensorImu> body;
+  for (; !body_.empty() && body_.front().stamp < of_body; body_.pop_front())
+    body.push_back({SensorImu::kBody, body_.front()});
   const auto end = std::partition_point(waiting_.begin(), waiting_.end(),
                                         [horizon](const SensorImu& imu) { return imu.sample.stamp < horizon; });
-  std::vector<SensorImu> released(waiting_.begin(), end);
+  std::vector<SensorImu> released;
+  released.reserve(body.size() + static_cast<std::size_t>(end - waiting_.begin()));
+  std::merge(body.begin(), body.end(), waiting_.begin(), end, std::back_inserter(released), before);
   waiting_.erase(waiting_.begin(), end);
   return released;
 }

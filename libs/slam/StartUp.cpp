@@ -32,7 +32,8 @@ std::optional<TrackerState> startUp(const WaitingScans& waiting, const ImuBuffer
 {
   if (waiting.scans().empty() || imu.empty()) return std::nullopt;
   const Scan& first = waiting.scans().front();
-  if (placed.assumed && !waiting.inputEnded() && waiting.scans().size() < kTrialScans) return std::nullopt;
+  const bool enough_for_trial = waiting.inputEnded() || waiting.scans().size() >= kTrialScans;
+  if (placed.assumed && !enough_for_trial) return std::nullopt;
   const Timestamp enough = placed.assumed ? waiting.scans()[std::min(waiting.scans().size(), kTrialScans) - 1].end()
                                           : first.start + fromSeconds(options.duration);
   if (!waiting.inputEnded() && !imu.covers(first.start, enough)) return std::nullopt;
@@ -44,6 +45,7 @@ std::optional<TrackerState> startUp(const WaitingScans& waiting, const ImuBuffer
   std::optional<NavEstimate> initial;
   if (!placed.assumed) initial = initialiseAtRest(samples, placed.body_T_imu, options, bias_sigma);
   const bool at_rest = initial.has_value();
+  if (!at_rest && !enough_for_trial) return std::nullopt;
   if (!at_rest)
     initial = placed.assumed ? levelWithBody(first.start) : gravityOnly(samples, placed.body_T_imu, bias_sigma);
   initial->state.stamp = first.start;

@@ -36,3 +36,19 @@ TEST(ImuOrder, countsWhatComesAfterItsPlaceWasGivenOut)
   EXPECT_EQ(order.late(), 1u);
   EXPECT_TRUE(order.release(Timestamp{1s}).empty());
 }
+
+TEST(ImuOrder, givesTheBodysSamplesAheadWhereThatIsAsked)
+{
+  ImuOrder order(25ms);
+  order.addBody(
+      {imu(SensorImu::kBody, 10ms).sample, imu(SensorImu::kBody, 50ms).sample, imu(SensorImu::kBody, 60ms).sample});
+  order.add(imu(0, 20ms));
+  order.add(imu(0, 40ms));
+  const auto released = order.release(Timestamp{30ms});
+  ASSERT_EQ(released.size(), 3u);
+  EXPECT_EQ(released[0].sample.stamp, Timestamp{10ms});
+  EXPECT_EQ(released[1].sensor, 0);
+  EXPECT_EQ(released[2].sample.stamp, Timestamp{50ms});
+  EXPECT_EQ(order.release(Timestamp::max()).size(), 2u);
+  EXPECT_EQ(order.late(), 0u);
+}
