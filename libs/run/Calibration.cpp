@@ -28,6 +28,12 @@ bool lookAlike(const std::vector<LidarScan>& of_lidar, const std::vector<LidarSc
   return commonField(stations, mount, trajectory) > kLeast;
 }
 
+/** Beside the machine it saw nothing in most scans, so that its few places do not mean that the machine stood still. */
+bool isCovered(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference)
+{
+  return 2 * of_lidar.size() < of_reference.size();
+}
+
 /** More of the drive, from farther away, does not tell a clock better. */
 bool tellsPose(const MountEstimate& estimate)
 {
@@ -45,6 +51,8 @@ LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLida
   const Mount of_reference{lidars[reference].body_T_sensor, 0}, given{lidars[lidar].body_T_sensor, 0};
   LidarCalibration calibration;
   calibration.estimate.mount = given;
+  calibration.estimate.outcome = MountOutcome::NothingShared;
+  if (isCovered(own, others)) return calibration;
   std::optional<Mount> near;  // by the scans from near around, stems as seen
   for (const Surroundings& around : {kNear, kFar})
   {
