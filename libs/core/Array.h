@@ -12,14 +12,14 @@
 namespace scanloom
 {
 /**
- * A vector of numbers that is written in place: room() returns uninitialised memory past the end, grow() makes it part
+ * A vector of numbers, or of structs of numbers, that is written in place: room() returns uninitialised memory past the end, grow() makes it part
  * of the array. std::vector writes zeros first, and with an allocator that does not, decoding still takes 10 to 20 %
  * longer, since resize() is not inlined. Memory is aligned to a cache line.
  */
 template <typename T>
 class Array
 {
-  static_assert(std::is_arithmetic_v<T>);
+  static_assert(std::is_trivially_copyable_v<T>);
 
  public:
   using value_type = T;

@@ -45,6 +45,15 @@ Coordinates coordinatesOf(const PointCloud& cloud)
   return {cloud.x.data(), cloud.y.data(), cloud.z.data(), 1, cloud.size()};
 }
 
+/** How many are set. Compilers call a function for it where the processor may have no instruction. */
+std::uint32_t bitsOf(std::uint64_t v)
+{
+  v -= v >> 1 & 0x5555555555555555;
+  v = (v & 0x3333333333333333) + (v >> 2 & 0x3333333333333333);
+  v = (v + (v >> 4)) & 0x0f0f0f0f0f0f0f0f;
+  return static_cast<std::uint32_t>(v * 0x0101010101010101 >> 56);
+}
+
 /** The part of one axis that lies in one block: the cells from -1 to 1 around the centre, and the centre alone. */
 struct AxisInBlock
 {
@@ -258,7 +267,7 @@ std::size_t NdtMap::findAround(const Eigen::Vector3i& index, int neighbours, std
         for (std::uint64_t left = cells & wanted; left != 0; left &= left - 1)
         {
           const std::uint64_t before = (left & -left) - 1;
-          *end++ = block->second.first + static_cast<std::uint32_t>(__builtin_popcountll(cells & before));
+          *end++ = block->second.first + bitsOf(cells & before);
         }
       }
   return static_cast<std::size_t>(end - found);

@@ -48,7 +48,8 @@ Neighbourhoods::Neighbourhoods(const NdtMap& target, const std::vector<GaussianC
     chunk.first = first;
     chunk.cells.resize(count);
     chunk.ranges.assign(count, {0, 0});
-    chunk.blocks.reserve(2 * count);  // enough for a scan of a forest
+    chunk.blocks.reserve(count *
+                         ((static_cast<std::size_t>(neighbours) + TargetBlock::kLanes - 1) / TargetBlock::kLanes));
     chunk.found.resize(count * static_cast<std::size_t>(neighbours));
     chunk.counts.assign(count, 0);
     chunk.centres.assign(count, Eigen::Vector3i::Constant(std::numeric_limits<int>::min()));
@@ -82,12 +83,20 @@ void Neighbourhoods::lookUp(Chunk& chunk, std::size_t i, const Eigen::Vector3i& 
   chunk.centres[i] = centre;
   chunk.counts[i] = static_cast<std::uint32_t>(count);
 
+  // They are spread over megabytes.
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const GaussianCell& cell = target_.cells()[found[k]];
+    __builtin_prefetch(&cell.mean);
+    __builtin_prefetch(&cell.covariance(2, 2));
+  }
   const auto blocks = static_cast<std::uint32_t>((count + TargetBlock::kLanes - 1) / TargetBlock::kLanes);
   BlockRange& range = chunk.ranges[i];
   if (blocks > range.count)
   {
     range.first = static_cast<std::uint32_t>(chunk.blocks.size());
-    chunk.blocks.resize(chunk.blocks.size() + blocks);
+    chunk.blocks.room(blocks);  // written below
+    chunk.blocks.grow(blocks);
   }
   range.count = blocks;
   static const GaussianCell kNowhere = nowhere();

@@ -1,5 +1,6 @@
 /** The target cells that each source cell is compared with. */
 #pragma once
+#include "core/Array.h"
 #include "core/Rigid.h"
 #include "ndt/NdtMap.h"
 #include "ndt/PairSums.h"
@@ -42,7 +43,7 @@ class Neighbourhoods
     std::size_t first = 0;           // index of its first source cell
     std::vector<TurnedCell> cells;   // as moved by moveTo()
     std::vector<BlockRange> ranges;  // of each, into `blocks`
-    std::vector<TargetBlock> blocks;
+    Array<TargetBlock> blocks;
     std::vector<std::uint32_t> found;  // room for all neighbours of each source cell
     std::vector<std::uint32_t> counts;
     std::vector<Eigen::Vector3i> centres;  // target cells whose neighbours were last looked up

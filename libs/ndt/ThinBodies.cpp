@@ -75,6 +75,7 @@ class Candidates
 
   void finish()
   {
+    if (count_ == 0) return;
     EigenBlock eigen;
     eigensystemsOf(covariances_, eigen);
     for (std::size_t i = 0; i < count_; ++i) bodies_[bins_[i]] = thinBodyOf(seen_[i], eigen, i, viewpoint_);
