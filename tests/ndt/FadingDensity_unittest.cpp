@@ -27,15 +27,15 @@ void addLeaves(const Eigen::Vector3d& corner, double radius, const Eigen::Vector
   const auto share = [&](double r) { return std::exp(-kExtinction * (r - nearest)) * nearest * nearest / (r * r); };
   for (int i = 0; i < 2000; ++i)
   {
-    const Eigen::Vector3d p = corner + Eigen::Vector3d(even(random), even(random), even(random));
+    const Eigen::Vector3d p = corner + Eigen::Vector3d{even(random), even(random), even(random)};  // braces: in this order
     if ((p - middle).norm() < radius && even(random) < share((p - eye).norm())) view.points.push_back(p.cast<float>());
   }
 }
 
 /** A hedge on both sides of a lane along x, seen from x = `along`, in the frame of the eye. */
-View hedgesFrom(double along)
+View hedgesFrom(double along, unsigned seed)
 {
-  std::mt19937 random(static_cast<unsigned>(1000 * along + 1));
+  std::mt19937 random(static_cast<unsigned>(1000 * along) + seed);
   const Eigen::Vector3d eye(along, 0.3, 1.4);
   View view{{}, eye};
   for (int x = -10; x < 14; ++x)
@@ -76,9 +76,16 @@ TEST(FadingDensity, leavesHaveTheirMeanInTheMiddleFromWhereverTheyAreSeen)
 
 TEST(FadingDensity, thePathThroughFoliageIsNotShortened)
 {
-  const View here = hedgesFrom(0), there = hedgesFrom(4);
-  EXPECT_LT(stepFound(withoutViewpoint(here), withoutViewpoint(there), 4), 4 - 0.005) << "what this is about";
-  EXPECT_NEAR(stepFound(here, there, 4), 4, 0.005);
+  constexpr unsigned kHedges = 8;  // in each the error is another, of 5 mm
+  double seen = 0, moved = 0;
+  for (unsigned seed = 1; seed <= kHedges; ++seed)
+  {
+    const View here = hedgesFrom(0, seed), there = hedgesFrom(4, seed);
+    seen += stepFound(withoutViewpoint(here), withoutViewpoint(there), 4) / kHedges;
+    moved += stepFound(here, there, 4) / kHedges;
+  }
+  EXPECT_LT(seen, 4 - 0.008) << "what this is about";
+  EXPECT_NEAR(moved, 4, 0.007);
 }
 
 TEST(FadingDensity, aWallStaysInItsPlane)
