@@ -27,7 +27,8 @@ void addLeaves(const Eigen::Vector3d& corner, double radius, const Eigen::Vector
   const auto share = [&](double r) { return std::exp(-kExtinction * (r - nearest)) * nearest * nearest / (r * r); };
   for (int i = 0; i < 2000; ++i)
   {
-    const Eigen::Vector3d in_cube{even(random), even(random), even(random)};  // braces: in this order on every processor
+    // Braces: drawn in this order on every processor.
+    const Eigen::Vector3d in_cube{even(random), even(random), even(random)};
     const Eigen::Vector3d p = corner + in_cube;
     if ((p - middle).norm() < radius && even(random) < share((p - eye).norm())) view.points.push_back(p.cast<float>());
   }
