@@ -34,11 +34,11 @@ class KeptWithoutBoxes
   bool operator()(double x, double y, double z, std::uint32_t millimetres) const
   {
     const double range = 1e-3 * millimetres;
-    const bool finite = (x - x == 0) & (y - y == 0) & (z - z == 0);
-    const bool inside =
-        (x >= low_.x()) & (x <= high_.x()) & (y >= low_.y()) & (y <= high_.y()) & (z >= low_.z()) & (z <= high_.z());
-    const bool near = (millimetres != 0) & (range < min_range_);
-    return finite & !inside & !near & !(range > max_range_);
+    const int finite = int{x - x == 0} & int{y - y == 0} & int{z - z == 0};
+    const int inside = int{x >= low_.x()} & int{x <= high_.x()} & int{y >= low_.y()} & int{y <= high_.y()} &
+                       int{z >= low_.z()} & int{z <= high_.z()};
+    const int near = int{millimetres != 0} & int{range < min_range_};
+    return (finite & (1 - inside) & (1 - near) & int{!(range > max_range_)}) != 0;
   }
 
  private:
