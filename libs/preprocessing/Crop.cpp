@@ -22,41 +22,13 @@ std::uint64_t CropCounts::*fateOf(const PointCloud& points, std::size_t i, const
   return range > crop.max_range ? &CropCounts::too_far : &CropCounts::kept;
 }
 
-/** Whether fateOf() is `kept` where no lidar has a box; without a branch, because most points are kept. */
-class KeptWithoutBoxes
-{
- public:
-  explicit KeptWithoutBoxes(const Crop& crop)
-    : low_(crop.machine.min()), high_(crop.machine.max()), min_range_(crop.min_range), max_range_(crop.max_range)
-  {
-  }
-
-  bool operator()(double x, double y, double z, std::uint32_t millimetres) const
-  {
-    const double range = 1e-3 * millimetres;
-    const int finite = int{x - x == 0} & int{y - y == 0} & int{z - z == 0};
-    const int inside = int{x >= low_.x()} & int{x <= high_.x()} & int{y >= low_.y()} & int{y <= high_.y()} &
-                       int{z >= low_.z()} & int{z <= high_.z()};
-    const int near = int{millimetres != 0} & int{range < min_range_};
-    return (finite & (1 - inside) & (1 - near) & int{!(range > max_range_)}) != 0;
-  }
-
- private:
-  Eigen::Vector3d low_, high_;
-  double min_range_, max_range_;
-};
-
 /** Marks the column's points that are kept. */
 CropCounts fatesOf(const Column& column, const PointCloud& points, const Crop& crop, std::vector<std::uint8_t>& keep)
 {
-  const std::size_t end = std::size_t{column.first_point} + column.count;
-  const KeptWithoutBoxes isKept(crop);
-  const bool boxes = !crop.lidar_boxes.empty();
   CropCounts counts;
-  for (std::size_t i = column.first_point; i < end; ++i)
+  for (std::size_t i = column.first_point; i < std::size_t{column.first_point} + column.count; ++i)
   {
-    const bool kept = !boxes && isKept(points.x[i], points.y[i], points.z[i], points.range[i]);
-    const auto fate = kept ? &CropCounts::kept : fateOf(points, i, crop);
+    const auto fate = fateOf(points, i, crop);
     ++(counts.*fate);
     keep[i] = fate == &CropCounts::kept;
   }
