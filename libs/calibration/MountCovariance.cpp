@@ -61,6 +61,7 @@ void addCommon(Matrix7d& covariance, double offset)
   common << Eigen::Vector3d::Constant(offset), Eigen::Vector3d::Constant(offset / kCommonArm), 0;
   covariance.diagonal() += common.cwiseQuotient(mountStepOfMetres()).cwiseAbs2();
 }
+
 /** Of the pose, and the clock by itself: mixed with the pose it would be judged by the pose's limit. */
 std::vector<OpenDirection> openDirections(const Matrix7d& covariance, double limit)
 {

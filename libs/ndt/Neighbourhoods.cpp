@@ -83,7 +83,7 @@ void Neighbourhoods::lookUp(Chunk& chunk, std::size_t i, const Eigen::Vector3i& 
   chunk.centres[i] = centre;
   chunk.counts[i] = static_cast<std::uint32_t>(count);
 
-  // They are spread over megabytes.
+  // The cells that are copied below lie all over the map's megabytes: all are fetched at once.
   for (std::size_t k = 0; k < count; ++k)
   {
     const GaussianCell& cell = target_.cells()[found[k]];
