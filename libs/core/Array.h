@@ -13,8 +13,8 @@ namespace scanloom
 {
 /**
  * A vector of numbers, or of structs of numbers, that is written in place: room() returns uninitialised memory past the
- * end, grow() makes it part of the array. std::vector writes zeros first, and with an allocator that does not, decoding still takes 10 to 20 %
- * longer, since resize() is not inlined. Memory is aligned to a cache line.
+ * end, grow() makes it part of the array. std::vector writes zeros first, and with an allocator that does not, decoding
+ * still takes 10 to 20 % longer, since resize() is not inlined. Memory is aligned to a cache line.
  */
 template <typename T>
 class Array
