@@ -15,6 +15,13 @@ struct Bin
   Moments moments;
 };
 
+/** Points counted into the cells of a grid: what NdtMap::add() needs of them, in a third of a map's memory. */
+struct BinnedPoints
+{
+  std::int64_t cell_quanta;  // edge of a cell in Moments::kQuantum
+  std::vector<Bin> bins;     // sorted by key
+};
+
 /** Of the points in a bin of a grid of `edge` (m). */
 inline MeanAndCovariance meanAndCovariance(const Bin& bin, double edge)
 {

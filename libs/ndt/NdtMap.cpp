@@ -45,6 +45,14 @@ Coordinates coordinatesOf(const PointCloud& cloud)
   return {cloud.x.data(), cloud.y.data(), cloud.z.data(), 1, cloud.size()};
 }
 
+std::int64_t quantaOfCell(const NdtOptions& options) { return std::llround(options.cell_size / Moments::kQuantum); }
+
+std::vector<Bin> thinned(std::vector<Bin> bins, const NdtOptions& options)
+{
+  if (options.max_cells == 0) return bins;
+  return thinned(bins, options.min_points, static_cast<std::size_t>(options.max_cells));
+}
+
 /** How many are set. Compilers call a function for it where the processor may have no instruction. */
 std::uint32_t bitsOf(std::uint64_t v)
 {
@@ -80,10 +88,27 @@ int splitAxis(std::int64_t index, Spread&& spread, std::array<AxisInBlock, 2>& p
 }
 }  // namespace
 
-NdtMap::NdtMap(const NdtOptions& options)
-  : options_((check(options), options)), cell_quanta_(std::llround(options.cell_size / Moments::kQuantum))
+BinnedPoints binned(const std::vector<View>& views, const NdtOptions& options)
 {
+  check(options);
+  const std::int64_t cell_quanta = quantaOfCell(options);
+  const int least_points = std::max(options.min_points, GaussianCell::kMinPointsForCovariance);
+  std::vector<std::vector<Bin>> counted(views.size());
+  tbb::parallel_for(std::size_t{0}, views.size(),
+                    [&](std::size_t i)
+                    {
+                      const View& view = views[i];
+                      counted[i] = countInto(coordinatesOf(view.points), cell_quanta);
+                      if (!view.viewpoint) return;
+                      moveToAxes(counted[i], cell_quanta, *view.viewpoint, least_points);
+                      undoFading(counted[i], cell_quanta, *view.viewpoint, least_points);
+                    });
+  std::vector<Bin> all;
+  for (std::vector<Bin>& bins : counted) all = all.empty() ? std::move(bins) : sumOf(all, bins);
+  return {cell_quanta, thinned(std::move(all), options)};
 }
+
+NdtMap::NdtMap(const NdtOptions& options) : options_((check(options), options)), cell_quanta_(quantaOfCell(options)) {}
 
 NdtMap::NdtMap(const NdtOptions& options, std::int64_t cell_quanta, const std::vector<Bin>& bins)
   : options_(options), cell_quanta_(cell_quanta)
@@ -93,48 +118,29 @@ NdtMap::NdtMap(const NdtOptions& options, std::int64_t cell_quanta, const std::v
 
 NdtMap::NdtMap(const PointCloud& points, const NdtOptions& options) : NdtMap(options)
 {
-  begin(countInto(coordinatesOf(points), cell_quanta_));
+  combine(thinned(countInto(coordinatesOf(points), cell_quanta_), options), &Moments::operator+=);
 }
 
 NdtMap::NdtMap(const std::vector<Eigen::Vector3f>& points, const NdtOptions& options) : NdtMap(options)
 {
-  begin(countInto(coordinatesOf(points), cell_quanta_));
+  combine(thinned(countInto(coordinatesOf(points), cell_quanta_), options), &Moments::operator+=);
 }
 
 NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options) : NdtMap(options)
 {
-  const int least_points = std::max(options_.min_points, GaussianCell::kMinPointsForCovariance);
-  std::vector<std::vector<Bin>> counted(views.size());
-  tbb::parallel_for(std::size_t{0}, views.size(),
-                    [&](std::size_t i)
-                    {
-                      const View& view = views[i];
-                      counted[i] = countInto(coordinatesOf(view.points), cell_quanta_);
-                      if (!view.viewpoint) return;
-                      moveToAxes(counted[i], cell_quanta_, *view.viewpoint, least_points);
-                      undoFading(counted[i], cell_quanta_, *view.viewpoint, least_points);
-                    });
-  std::vector<Bin> all;
-  for (std::vector<Bin>& bins : counted) all = all.empty() ? std::move(bins) : sumOf(all, bins);
-  begin(all);
+  add(binned(views, options));
 }
 
-void NdtMap::begin(const std::vector<Bin>& counted)
+void NdtMap::add(const BinnedPoints& points)
 {
-  if (options_.max_cells == 0) return combine(counted, &Moments::operator+=);
-  combine(thinned(counted, options_.min_points, static_cast<std::size_t>(options_.max_cells)), &Moments::operator+=);
+  requireSameCells(points);
+  combine(points.bins, &Moments::operator+=);
 }
 
-void NdtMap::add(const NdtMap& other)
+void NdtMap::remove(const BinnedPoints& points)
 {
-  requireSameCells(other);
-  combine(other.bins_, &Moments::operator+=);
-}
-
-void NdtMap::remove(const NdtMap& other)
-{
-  requireSameCells(other);
-  combine(other.bins_, &Moments::operator-=);
+  requireSameCells(points);
+  combine(points.bins, &Moments::operator-=);
 }
 
 NdtMap NdtMap::coarser(int factor) const
@@ -203,12 +209,12 @@ void NdtMap::combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(
   indexBlocks();
 }
 
-void NdtMap::requireSameCells(const NdtMap& other) const
+void NdtMap::requireSameCells(const BinnedPoints& points) const
 {
-  if (cell_quanta_ == other.cell_quanta_) return;
-  throw std::invalid_argument(
-      fmt::format("NdtMap: cells of {} m do not add to cells of {} m: give both maps one cell_size",
-                  other.options_.cell_size, options_.cell_size));
+  if (cell_quanta_ == points.cell_quanta) return;
+  throw std::invalid_argument(fmt::format("NdtMap: cells of {} m do not add to cells of {} m: give both one cell_size",
+                                          static_cast<double>(points.cell_quanta) * Moments::kQuantum,
+                                          options_.cell_size));
 }
 
 void NdtMap::indexBlocks()

@@ -35,6 +35,13 @@ struct NdtOptions
 };
 
 /**
+ * The views' points in cells of these options, which throw std::invalid_argument if out of their bounds. For views with
+ * a viewpoint, points of stems and poles are moved onto their axes (moveToAxes), and means to where they were if points
+ * did not get fewer with the range (undoFading).
+ */
+BinnedPoints binned(const std::vector<View>&, const NdtOptions&);
+
+/**
  * Sums of points per cell, and the Gaussians of the cells that have enough points.
  *
  * The same points give the same bits in any order, whether added at once or map by map, on any number of threads (see
@@ -48,18 +55,15 @@ class NdtMap
   explicit NdtMap(const NdtOptions&);
   NdtMap(const PointCloud&, const NdtOptions&);
   NdtMap(const std::vector<Eigen::Vector3f>&, const NdtOptions&);
-  /**
-   * For views with a viewpoint, points of stems and poles are moved onto their axes (moveToAxes), and means to where
-   * they were if points did not get fewer with the range (undoFading).
-   */
+  /** Of binned(). */
   NdtMap(const std::vector<View>&, const NdtOptions&);
 
   /**
-   * Adds or removes the points of a map in the same frame; only the cells of `other` are computed anew. Throws
-   * std::invalid_argument if the cell sizes differ, or if the points were never added.
+   * Adds or removes points of the same frame; only their cells are computed anew. Throws std::invalid_argument if the
+   * cell sizes differ, or if the points were never added.
    */
-  void add(const NdtMap& other);
-  void remove(const NdtMap& other);
+  void add(const BinnedPoints&);
+  void remove(const BinnedPoints&);
 
   /** The same points in cells of `factor` (2 or more) times the edge, from the sums. */
   NdtMap coarser(int factor) const;
@@ -88,9 +92,8 @@ class NdtMap
 
   NdtMap(const NdtOptions&, std::int64_t cell_quanta, const std::vector<Bin>&);
 
-  void begin(const std::vector<Bin>&);
   void combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(const Moments&));
-  void requireSameCells(const NdtMap& other) const;
+  void requireSameCells(const BinnedPoints&) const;
   bool hasGaussian(const Bin& bin) const { return bin.moments.n >= options_.min_points; }
   double edge() const { return static_cast<double>(cell_quanta_) * Moments::kQuantum; }
   void indexBlocks();

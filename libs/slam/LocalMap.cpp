@@ -58,13 +58,13 @@ void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_b
   const Matrix6d drift = empty() ? Matrix6d::Zero() : Matrix6d(handedOn(map_T_body) + kHandedOn * alignment);
   std::vector<View> in_map;
   for (const View& view : seen_from_body) in_map.push_back(movedBy(map_T_body, view));
-  keyframes_.push_back({map_T_body, NdtMap(in_map, ndt_.options()), drift});
+  keyframes_.push_back({map_T_body, binned(in_map, ndt_.options()), drift});
   for (std::size_t i = 0; i < keyframes_.size(); ++i)
   {
     Keyframe& keyframe = keyframes_[i];
     const bool belongs = this->belongs(keyframe, keyframes_.size() - 1 - i);
-    if (belongs && !keyframe.in_map) ndt_.add(keyframe.ndt);
-    if (!belongs && keyframe.in_map) ndt_.remove(keyframe.ndt);
+    if (belongs && !keyframe.in_map) ndt_.add(keyframe.points);
+    if (!belongs && keyframe.in_map) ndt_.remove(keyframe.points);
     keyframe.in_map = belongs;
   }
   if (options_.radius == 0 && !keyframes_.front().in_map) keyframes_.pop_front();

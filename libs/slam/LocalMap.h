@@ -64,8 +64,8 @@ class LocalMap
   struct Keyframe
   {
     Rigid map_T_body;
-    NdtMap ndt;      // of this keyframe alone, in the map frame
-    Matrix6d drift;  // of its pose, without that of the way's length
+    BinnedPoints points;  // in the map frame
+    Matrix6d drift;       // of its pose, without that of the way's length
     bool in_map = false;
   };
 

@@ -37,6 +37,11 @@ Points together(Points a, const Points& b)
   return a;
 }
 
+BinnedPoints counted(const Points& points, const NdtOptions& options = {})
+{
+  return binned({{points, std::nullopt}}, options);
+}
+
 bool sameBits(const NdtMap& a, const NdtMap& b)
 {
   return std::equal(a.cells().begin(), a.cells().end(), b.cells().begin(), b.cells().end(),
@@ -89,17 +94,18 @@ TEST(NdtMap, givesTheSameBitsForAnyOrderOfPoints)
 
 TEST(NdtMap, mergesAndForgetsKeyframesToTheBit)
 {
-  const NdtMap a(scanFrom(forest(1), Rigid::identity(), 2), {}), b(scanFrom(forest(1), Rigid::identity(), 3), {});
-  NdtMap merged(a);
-  merged.add(b);
-  NdtMap rebuilt(scanFrom(forest(1), Rigid::identity(), 3), {});
-  rebuilt.add(NdtMap(scanFrom(forest(1), Rigid::identity(), 2), {}));
+  const Points a = scanFrom(forest(1), Rigid::identity(), 2), b = scanFrom(forest(1), Rigid::identity(), 3);
+  const NdtMap of_b(b, {});
+  NdtMap merged(a, {});
+  merged.add(counted(b));
+  NdtMap rebuilt(of_b);
+  rebuilt.add(counted(a));
   EXPECT_TRUE(sameBits(merged, rebuilt));
-  EXPECT_FALSE(sameBits(merged, b));
+  EXPECT_FALSE(sameBits(merged, of_b));
 
-  merged.remove(a);
-  EXPECT_TRUE(sameBits(merged, b));
-  EXPECT_EQ(merged.points(), b.points());
+  merged.remove(counted(a));
+  EXPECT_TRUE(sameBits(merged, of_b));
+  EXPECT_EQ(merged.points(), of_b.points());
 }
 
 /** Every cell's Gaussian by its index, found by looking at all cells. */
@@ -185,9 +191,9 @@ TEST(NdtMap, needsEnoughPointsForAGaussianButKeepsTheOthersForLater)
 {
   NdtMap map({});
   const Points block = blockAt({0, 0, 0});
-  map.add(NdtMap(Points(block.begin(), block.begin() + 3), {}));
+  map.add(counted({block.begin(), block.begin() + 3}));
   EXPECT_TRUE(map.cells().empty());
-  map.add(NdtMap(Points(block.begin() + 3, block.end()), {}));
+  map.add(counted({block.begin() + 3, block.end()}));
 
   ASSERT_EQ(map.cells().size(), 1u);
   EXPECT_EQ(map.cells()[0].points, 27u);
@@ -203,8 +209,8 @@ TEST(NdtMap, refusesOptionsAndMergesThatMakeNoSense)
   NdtOptions coarse;
   coarse.cell_size = 2;
   NdtMap fine({});
-  EXPECT_THROW(fine.add(NdtMap(coarse)), std::invalid_argument);
-  EXPECT_THROW(fine.remove(NdtMap(blockAt({0, 0, 0}), {})), std::invalid_argument);
+  EXPECT_THROW(fine.add(counted({}, coarse)), std::invalid_argument);
+  EXPECT_THROW(fine.remove(counted(blockAt({0, 0, 0}))), std::invalid_argument);
 }
 }  // namespace
 }  // namespace scanloom
