@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 set(share ${CMAKE_INSTALL_DATADIR}/scanloom)
 
 install(TARGETS scanloom RUNTIME COMPONENT program)
-install(TARGETS scanloom_program LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/scanloom COMPONENT program)
+install(TARGETS scanloom_program scanloom_devices LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/scanloom COMPONENT program)
 install(DIRECTORY params DESTINATION ${share} COMPONENT program)
 install(DIRECTORY libs/live_view/page/ DESTINATION ${share}/live_view COMPONENT program)
 install(FILES completions/scanloom.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions

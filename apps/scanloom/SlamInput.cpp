@@ -1,10 +1,9 @@
 #include "SlamInput.h"
 
+#include "Devices.h"
 #include "core/ConfigError.h"
 #include "core/Progress.h"
-#include "mrpt_bridge/ImuDriverInput.h"
 #include "mrpt_bridge/RawlogInput.h"
-#include "mrpt_bridge/configuredImu.h"
 #include "recordings/CloudsInput.h"
 #include "rig/ReadAhead.h"
 #include "rig/RigOptions.h"
@@ -12,17 +11,34 @@
 #include "run/ImuInUse.h"
 #include "simulation/SimulatedRig.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 namespace scanloom
 {
 namespace
 {
+/**
+ * The section that has a `driver` and is not that of the lidars: the body's IMU. Throws ConfigError if there are
+ * several.
+ */
+std::optional<std::string> imuSection(const Configuration& configuration, const std::string& section_of_lidars)
+{
+  std::vector<std::string> found;
+  for (const std::string& section : configuration.sections())
+    if (configuration.isSensor(section) && section != section_of_lidars) found.push_back(section);
+  if (found.size() > 1)
+    throw ConfigError(fmt::format(
+        "sections [{}] and [{}] both have a driver: only one, the IMU, can be beside the lidars", found[0], found[1]));
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
 SlamInput openLive(const Rig& rig, const Configuration& configuration, const std::string& section)
 {
   std::unique_ptr<SensorInput> sensors = openRig(rig);
-  if (auto imu = openConfiguredImu(configuration, section))
-    sensors = std::make_unique<ImuDriverInput>(std::move(sensors), std::move(imu));
+  if (const std::optional<std::string> imu = imuSection(configuration, section))
+    sensors = devices().addImu(std::move(sensors), configuration, *imu);
   return {std::move(sensors), 0, "", true};
 }
 

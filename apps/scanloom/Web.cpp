@@ -65,7 +65,7 @@ Web::Web(const WebArguments& arguments, const ViewedWork& work, SensorInput& inp
 {
   if (arguments.window)
   {
-    window_ = std::make_unique<LiveWindow>("scanloom " + work.verb, exchange_, LiveWindow::Priority::BelowAll);
+    window_ = devices().showLive("scanloom " + work.verb, exchange_, Devices::Priority::BelowAll);
     return;
   }
   const SensorAddress address = webAddress(arguments);

@@ -1,6 +1,6 @@
 /** --web and --window: a page or a window that shows what a verb does (doc/live_view.md). */
 #pragma once
-#include "LiveWindow.h"
+#include "Devices.h"
 #include "Options.h"
 #include "live_view/LiveServer.h"
 #include "live_view/WatchedInput.h"
@@ -50,7 +50,7 @@ class Web
   LiveFeed feed_;
   WatchedInput input_;
   std::unique_ptr<LiveServer> server_;
-  std::unique_ptr<LiveWindow> window_;
+  std::unique_ptr<Window> window_;
   LiveFeed::Clock::time_point accounted_{};
 };
 

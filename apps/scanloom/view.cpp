@@ -1,5 +1,6 @@
 /** `scanloom view`: plays a recording, or shows another file, in a window or on a page, or draws it. */
 #include "Arguments.h"
+#include "Devices.h"
 #include "Recording.h"
 #include "Verb.h"
 #include "Web.h"
@@ -24,10 +25,8 @@
 #include "rig/openRig.h"
 
 #include <fmt/format.h>
-#include <mrpt/gui/CDisplayWindow3D.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -139,20 +138,9 @@ SceneBuilder sceneOf(const ViewArguments& arguments)
 
 int show(const mrpt::opengl::COpenGLScene::Ptr& scene, const ViewArguments& arguments)
 {
-  using namespace std::chrono_literals;
-  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
-    throw std::runtime_error("there is no display: use --png FILE, which needs none");
-  mrpt::gui::CDisplayWindow3D window(arguments.file.filename().string(), static_cast<unsigned>(arguments.width),
-                                     static_cast<unsigned>(arguments.height));
-  const mrpt::opengl::CCamera camera = scene->getViewport()->getCamera();
-  window.get3DSceneAndLock() = scene;
-  window.unlockAccess3DScene();
-  window.setCameraPointingToPoint(camera.getPointingAtX(), camera.getPointingAtY(), camera.getPointingAtZ());
-  window.setCameraZoom(camera.getZoomDistance());
-  window.setCameraAzimuthDeg(camera.getAzimuthDegrees());
-  window.setCameraElevationDeg(camera.getElevationDegrees());
-  window.repaint();
-  while (window.isOpen() && !window.keyHit() && !interrupted()) std::this_thread::sleep_for(50ms);
+  const std::unique_ptr<Window> window =
+      devices().showScene(arguments.file.filename().string(), scene, arguments.width, arguments.height);
+  while (window->isOpen() && !interrupted()) std::this_thread::sleep_for(50ms);
   return interrupted() ? kInterrupted : kDone;
 }
 
@@ -174,9 +162,9 @@ int play(const ViewArguments& arguments)
   Player player(openerOf(arguments.file), std::move(poses), exchange);
   if (!arguments.web.given())
   {
-    const LiveWindow window("scanloom view " + arguments.file.filename().string(), exchange,
-                            LiveWindow::Priority::Usual);
-    player.run([&] { return window.isOpen() && !interrupted(); });
+    const std::unique_ptr<Window> window =
+        devices().showLive("scanloom view " + arguments.file.filename().string(), exchange, Devices::Priority::Usual);
+    player.run([&] { return window->isOpen() && !interrupted(); });
     return kDone;
   }
   const SensorAddress address = webAddress(arguments.web);

@@ -1,6 +1,11 @@
 /** libscanloom_mrpt.so: `rawlog-grabber -p`, `rawlog-edit -p` and `RawLogViewer -l` learn our classes by loading it. */
 #include "mrpt_bridge/registerClasses.h"
+#include "mrpt_sensors/CMultiLidarSensor.h"
 
 #include <mrpt/core/initializer.h>
 
-MRPT_INITIALIZER(registerScanloom) { scanloom::registerClasses(); }
+MRPT_INITIALIZER(registerScanloom)
+{
+  scanloom::registerClasses();
+  scanloom::CMultiLidarSensor::doRegister();
+}

@@ -1,13 +1,10 @@
 #include "mrpt_bridge/registerClasses.h"
 
 #include "mrpt_bridge/CGenericPointsMap.h"
-#include "mrpt_bridge/CMultiLidarSensor.h"
+
+#include <mrpt/rtti/CObject.h>
 
 namespace scanloom
 {
-void registerClasses()
-{
-  mrpt::rtti::registerClass(CLASS_ID(mrpt::maps::CGenericPointsMap));
-  CMultiLidarSensor::doRegister();
-}
+void registerClasses() { mrpt::rtti::registerClass(CLASS_ID(mrpt::maps::CGenericPointsMap)); }
 }  // namespace scanloom

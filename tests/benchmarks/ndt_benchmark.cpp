@@ -84,8 +84,8 @@ BENCHMARK(AlignmentWithPreparationOfTheScan)->Arg(1)->Arg(2)->UseRealTime()->Uni
 
 void MergingAKeyframe(benchmark::State& state)
 {
-  const NdtMap target = mapOf(targetPoints(), 1.0), source = mapOf(sourcePoints(), 1.0);
-  NdtMap local = target;
+  NdtMap local = mapOf(targetPoints(), 1.0);
+  const BinnedPoints source = binned({{sourcePoints(), std::nullopt}}, local.options());
   for (auto _ : state)
   {
     local.add(source);

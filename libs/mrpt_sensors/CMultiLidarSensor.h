@@ -1,7 +1,7 @@
 #pragma once
-#include "mrpt_bridge/HandedOver.h"
-#include "mrpt_bridge/ObservationFeed.h"
 #include "mrpt_bridge/RigObservations.h"
+#include "mrpt_sensors/HandedOver.h"
+#include "mrpt_sensors/ObservationFeed.h"
 #include "rig/RigOptions.h"
 
 #include <mrpt/hwdrivers/CGenericSensor.h>

@@ -1,6 +1,6 @@
-#include "mrpt_bridge/ImuDriverInput.h"
+#include "mrpt_sensors/ImuDriverInput.h"
 
-#include "mrpt_bridge/ImuDriver.h"
+#include "mrpt_sensors/ImuDriver.h"
 
 #include <algorithm>
 #include <utility>

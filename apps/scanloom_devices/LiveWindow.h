@@ -1,5 +1,5 @@
 #pragma once
-#include "live_view/LiveExchange.h"
+#include "Devices.h"
 
 #include <atomic>
 #include <memory>
@@ -16,28 +16,22 @@ namespace scanloom
  * Keys: Space plays or pauses, S steps, + and - change the speed, the arrows left and right go back and on by 5 s
  * (where a recording is played), F follows the machine or not, M marks an event, Q closes the window.
  */
-class LiveWindow
+class LiveWindow : public Window
 {
  public:
-  enum class Priority
-  {
-    BelowAll,  // of the thread that makes the scene: beside work that must not be delayed
-    Usual      // of a player, which has nothing else to do
-  };
-
-  /** The exchange must outlive it, and is this window's alone. Throws std::runtime_error if there is no display. */
-  LiveWindow(const std::string& title, LiveExchange&, Priority);
-  ~LiveWindow();
+  /** Throws std::runtime_error if there is no display. */
+  LiveWindow(const std::string& title, LiveExchange&, Devices::Priority);
+  ~LiveWindow() override;
   LiveWindow(const LiveWindow&) = delete;
   LiveWindow& operator=(const LiveWindow&) = delete;
 
   /** False once a person has closed it. */
-  bool isOpen() const { return open_; }
+  bool isOpen() override { return open_; }
 
  private:
   class Drawing;
 
-  void show(Priority);
+  void show(Devices::Priority);
 
   std::unique_ptr<Drawing> drawing_;
   std::atomic<bool> open_{true}, stopping_{false};

@@ -1,4 +1,4 @@
-#include "mrpt_bridge/CMultiLidarSensor.h"
+#include "mrpt_sensors/CMultiLidarSensor.h"
 
 #include "core/Interruption.h"
 #include "mrpt_bridge/readByAll.h"

@@ -1,4 +1,4 @@
-#include "mrpt_bridge/HandedOver.h"
+#include "mrpt_sensors/HandedOver.h"
 
 #include <algorithm>
 

@@ -1,9 +1,8 @@
-#include "mrpt_bridge/CMultiLidarSensor.h"
+#include "mrpt_sensors/CMultiLidarSensor.h"
 
 #include "core/ConfigError.h"
 #include "mrpt_bridge/Observations.h"
 #include "mrpt_bridge/RawlogReader.h"
-#include "mrpt_bridge/registerClasses.h"
 #include "support/TestData.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +33,7 @@ std::string sectionFor(const fs::path& capture, const fs::path& metadata)
 
 std::unique_ptr<mrpt::hwdrivers::CGenericSensor> sensorOf(const std::string& configuration)
 {
-  registerClasses();
+  CMultiLidarSensor::doRegister();
   std::unique_ptr<mrpt::hwdrivers::CGenericSensor> sensor(
       mrpt::hwdrivers::CGenericSensor::createSensor("CMultiLidarSensor"));
   dynamic_cast<mrpt::system::COutputLogger&>(*sensor).setMinLoggingLevel(mrpt::system::LVL_ERROR);

@@ -3,14 +3,13 @@
 #include "LiveScene.h"
 #include "live_view/LiveMap.h"
 #include "live_view/yieldToAll.h"
+#include "requireDisplay.h"
 
 #include <fmt/format.h>
 #include <mrpt/gui/CDisplayWindow3D.h>
 #include <mrpt/gui/keycodes.h>
 
 #include <cctype>
-#include <cstdlib>
-#include <stdexcept>
 #include <utility>
 
 namespace scanloom
@@ -153,10 +152,9 @@ class LiveWindow::Drawing
   bool follow_ = true;
 };
 
-LiveWindow::LiveWindow(const std::string& title, LiveExchange& exchange, Priority priority)
+LiveWindow::LiveWindow(const std::string& title, LiveExchange& exchange, Devices::Priority priority)
 {
-  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
-    throw std::runtime_error("there is no display for a window: use --web");
+  requireDisplay("use --web");
   drawing_ = std::make_unique<Drawing>(title, exchange);  // by this thread: one that yields may be too late for MRPT
   thread_ = std::thread([this, priority] { show(priority); });
 }
@@ -167,9 +165,9 @@ LiveWindow::~LiveWindow()
   thread_.join();
 }
 
-void LiveWindow::show(Priority priority)
+void LiveWindow::show(Devices::Priority priority)
 {
-  if (priority == Priority::BelowAll) yieldToAll();
+  if (priority == Devices::Priority::BelowAll) yieldToAll();
   while (!stopping_ && drawing_->update()) std::this_thread::sleep_for(kDrawEvery);
   open_ = false;
 }

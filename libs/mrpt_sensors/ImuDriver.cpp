@@ -1,4 +1,4 @@
-#include "mrpt_bridge/ImuDriver.h"
+#include "mrpt_sensors/ImuDriver.h"
 
 #include "mrpt_bridge/Observations.h"
 

@@ -1,4 +1,4 @@
-#include "mrpt_bridge/ObservationFeed.h"
+#include "mrpt_sensors/ObservationFeed.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationComment.h>

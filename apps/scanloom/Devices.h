@@ -1,0 +1,55 @@
+/** The windows of a display and the drivers of IMUs, both MRPT's. */
+#pragma once
+#include "config/Configuration.h"
+#include "live_view/LiveExchange.h"
+#include "rig/SensorInput.h"
+
+#include <mrpt/opengl/COpenGLScene.h>
+
+#include <memory>
+#include <string>
+
+namespace scanloom
+{
+/** Open until a person closes it, or it is deleted. */
+class Window
+{
+ public:
+  virtual ~Window() = default;
+  virtual bool isOpen() = 0;
+};
+
+/**
+ * What libscanloom_devices.so can do. With it come half of MRPT's libraries, which take 0.1 s to load and 40 MB of
+ * memory (doc/performance.md): only verbs that show a window or listen to a driver load it.
+ */
+class Devices
+{
+ public:
+  virtual ~Devices() = default;
+
+  enum class Priority
+  {
+    BelowAll,  // of the thread that makes the scene: beside work that must not be delayed
+    Usual      // of a player, which has nothing else to do
+  };
+
+  /**
+   * A window that shows what a LiveFeed hands over: see LiveWindow.h. The exchange must outlive it, and is this
+   * window's alone. Throws std::runtime_error if there is no display.
+   */
+  virtual std::unique_ptr<Window> showLive(const std::string& title, LiveExchange&, Priority) const = 0;
+
+  /** A window of a scene that does not change. Closes at a key, too. Throws std::runtime_error if there is no display.
+   */
+  virtual std::unique_ptr<Window> showScene(const std::string& title, const mrpt::opengl::COpenGLScene::Ptr&, int width,
+                                            int height) const = 0;
+
+  /** The lidars' events with samples of the IMU whose driver the section describes: see ImuDriverInput.h. */
+  virtual std::unique_ptr<SensorInput> addImu(std::unique_ptr<SensorInput> lidars, const Configuration&,
+                                              const std::string& section_of_imu) const = 0;
+};
+
+/** Loaded by the first call. Throws std::runtime_error if it cannot be. */
+const Devices& devices();
+}  // namespace scanloom

@@ -1,0 +1,20 @@
+#include "SceneWindow.h"
+
+#include "requireDisplay.h"
+
+namespace scanloom
+{
+SceneWindow::SceneWindow(const std::string& title, const mrpt::opengl::COpenGLScene::Ptr& scene, int width, int height)
+  : window_((requireDisplay("use --png FILE, which needs none"), title), static_cast<unsigned>(width),
+            static_cast<unsigned>(height))
+{
+  const mrpt::opengl::CCamera camera = scene->getViewport()->getCamera();
+  window_.get3DSceneAndLock() = scene;
+  window_.unlockAccess3DScene();
+  window_.setCameraPointingToPoint(camera.getPointingAtX(), camera.getPointingAtY(), camera.getPointingAtZ());
+  window_.setCameraZoom(camera.getZoomDistance());
+  window_.setCameraAzimuthDeg(camera.getAzimuthDegrees());
+  window_.setCameraElevationDeg(camera.getElevationDegrees());
+  window_.repaint();
+}
+}  // namespace scanloom

@@ -1,0 +1,41 @@
+/** libscanloom_devices.so: what apps/scanloom/Devices.h promises. */
+#include "Devices.h"
+#include "LiveWindow.h"
+#include "SceneWindow.h"
+#include "mrpt_sensors/ImuDriverInput.h"
+#include "mrpt_sensors/configuredImu.h"
+
+#include <utility>
+
+namespace scanloom
+{
+namespace
+{
+class MrptDevices : public Devices
+{
+ public:
+  std::unique_ptr<Window> showLive(const std::string& title, LiveExchange& exchange, Priority priority) const override
+  {
+    return std::make_unique<LiveWindow>(title, exchange, priority);
+  }
+
+  std::unique_ptr<Window> showScene(const std::string& title, const mrpt::opengl::COpenGLScene::Ptr& scene, int width,
+                                    int height) const override
+  {
+    return std::make_unique<SceneWindow>(title, scene, width, height);
+  }
+
+  std::unique_ptr<SensorInput> addImu(std::unique_ptr<SensorInput> lidars, const Configuration& configuration,
+                                      const std::string& section) const override
+  {
+    return std::make_unique<ImuDriverInput>(std::move(lidars), openConfiguredImu(configuration, section));
+  }
+};
+}  // namespace
+}  // namespace scanloom
+
+extern "C" const scanloom::Devices* scanloomDevices()
+{
+  static const scanloom::MrptDevices devices;
+  return &devices;
+}
