@@ -9,6 +9,7 @@ namespace scanloom
 namespace
 {
 constexpr double kExtinction = 0.6;  // 1/m, along a ray through foliage
+constexpr double kShare = 0.5;       // of the shift by both: see the header
 constexpr double kNearest = 1;       // m: nearer, 1 / r^2 is no exponential across a cell
 }  // namespace
 
@@ -23,7 +24,7 @@ void undoFading(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::V
            const MeanAndCovariance seen = meanAndCovariance(bins[i], edge);
            const Eigen::Vector3d view = seen.mean - viewpoint;
            const double range = std::max(kNearest, view.norm());
-           moveBy((kExtinction + 2 / range) / range * (seen.covariance * view), bins[i]);
+           moveBy(kShare * (kExtinction + 2 / range) / range * (seen.covariance * view), bins[i]);
          });
 }
 }  // namespace scanloom

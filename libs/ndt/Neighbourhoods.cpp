@@ -1,5 +1,7 @@
 #include "ndt/Neighbourhoods.h"
 
+#include "core/forAll.h"
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
@@ -27,6 +29,9 @@ void put(const GaussianCell& cell, TargetBlock& block, std::size_t lane)
   block.yy[lane] = c(1, 1), block.yz[lane] = c(1, 2), block.zz[lane] = c(2, 2);
 }
 
+/** No cell of any map. */
+Eigen::Vector3i noCentre() { return Eigen::Vector3i::Constant(std::numeric_limits<int>::min()); }
+
 GaussianCell nowhere()
 {
   constexpr double kFar = 1e9;  // m
@@ -52,9 +57,45 @@ Neighbourhoods::Neighbourhoods(const NdtMap& target, const std::vector<GaussianC
                          ((static_cast<std::size_t>(neighbours) + TargetBlock::kLanes - 1) / TargetBlock::kLanes));
     chunk.found.resize(count * static_cast<std::size_t>(neighbours));
     chunk.counts.assign(count, 0);
-    chunk.centres.assign(count, Eigen::Vector3i::Constant(std::numeric_limits<int>::min()));
+    chunk.centres.assign(count, noCentre());
     chunks_.push_back(std::move(chunk));
   }
+}
+
+void Neighbourhoods::keepCommon(const Rigid& target_T_source)
+{
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> own(source_.size(), kNone);
+  constexpr std::size_t kGrain = 256;
+  forAll(own.size(), kGrain,
+         [&](std::size_t i) { target_.findAround(target_.indexOf(target_T_source * source_[i].mean), 1, &own[i]); });
+  is_common_.assign(target().size(), 0);
+  for (const std::uint32_t cell : own)
+    if (cell != kNone) is_common_[cell] = 1;
+  forgetCentres();
+}
+
+void Neighbourhoods::keepAll()
+{
+  if (is_common_.empty()) return;
+  is_common_.clear();
+  forgetCentres();
+}
+
+/** All neighbours will be looked up again. */
+void Neighbourhoods::forgetCentres()
+{
+  for (Chunk& chunk : chunks_) std::fill(chunk.centres.begin(), chunk.centres.end(), noCentre());
+}
+
+/** Those that count; `found` has room for all. */
+std::size_t Neighbourhoods::findAround(const Eigen::Vector3i& centre, std::uint32_t* found) const
+{
+  if (std::uint32_t own = 0; !is_common_.empty() && target_.findAround(centre, 1, &own) == 0) return 0;
+  const std::size_t count = target_.findAround(centre, neighbours_, found);
+  if (is_common_.empty()) return count;
+  const auto end = std::remove_if(found, found + count, [&](std::uint32_t cell) { return is_common_[cell] == 0; });
+  return static_cast<std::size_t>(end - found);
 }
 
 void Neighbourhoods::moveTo(const Rigid& target_T_source)
@@ -79,7 +120,7 @@ void Neighbourhoods::moveTo(const Rigid& target_T_source, std::size_t index)
 void Neighbourhoods::lookUp(Chunk& chunk, std::size_t i, const Eigen::Vector3i& centre)
 {
   std::uint32_t* found = chunk.found.data() + i * static_cast<std::size_t>(neighbours_);
-  const std::size_t count = target_.findAround(centre, neighbours_, found);
+  const std::size_t count = findAround(centre, found);
   chunk.centres[i] = centre;
   chunk.counts[i] = static_cast<std::uint32_t>(count);
 

@@ -37,6 +37,16 @@ class Neighbourhoods
   /** Looks neighbours up again only for means that have moved to another target cell. */
   void moveTo(const Rigid& target_T_source, std::size_t chunk);
 
+  /**
+   * From now on only cells count that both maps have at this pose: source cells whose mean lies in a cube with a target
+   * cell, and target cells whose cube holds the mean of a source cell. The neighbours of others pull: what only one of
+   * the maps has seen lies to one side of what both have seen, farther out or back along the way.
+   */
+  void keepCommon(const Rigid& target_T_source);
+
+  /** All cells count, as in the beginning. */
+  void keepAll();
+
   /** A chunk's source cells in the target's frame, and the target cells of each. */
   struct Chunk
   {
@@ -76,11 +86,14 @@ class Neighbourhoods
 
  private:
   void lookUp(Chunk&, std::size_t i, const Eigen::Vector3i& centre);
+  std::size_t findAround(const Eigen::Vector3i& centre, std::uint32_t* found) const;
+  void forgetCentres();
 
   const NdtMap& target_;
   const std::vector<GaussianCell>& source_;
   double source_edge_;
   int neighbours_;
   std::vector<Chunk> chunks_;
+  std::vector<char> is_common_;  // by target cell; empty: all count
 };
 }  // namespace scanloom

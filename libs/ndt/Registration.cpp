@@ -18,6 +18,10 @@ namespace
 constexpr double kLoose = 30;  // factor on the tolerance where a more accurate search follows
 constexpr double kEarly = 10;  // the same where a last step by the second derivative follows
 
+// Share of a cell: of two that hold the same, one mean or the other seldom lies in another cube after so small a
+// motion.
+constexpr double kStillNear = 0.15;
+
 // Share of a level's cell size: a guess that is farther off needs the coarser level before it.
 constexpr double kReachOfCells = 0.3;
 
@@ -46,6 +50,25 @@ Minimum searchOn(Neighbourhoods& neighbourhoods, const Expectation& expectation,
                  const Minimum& first)
 {
   Minimum minimum = minimise(neighbourhoods, first.target_T_source, expectation, options, {});
+  minimum.iterations += first.iterations;
+  return minimum;
+}
+
+/** Among the cells that both maps have: at the start if that is near, else where a search among all cells ends. */
+Minimum searchCommon(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, const Expectation& expectation,
+                     const RegistrationOptions& options, const std::vector<Vector6d>& locked)
+{
+  neighbourhoods.keepAll();
+  // A large source cell has several target cells for its own.
+  if (neighbourhoods.sourceEdge() > neighbourhoods.targetMap().options().cell_size)
+    return search(neighbourhoods, start, widely, expectation, options, locked);
+  const bool is_near = options.first_d2 >= options.d2;
+  if (is_near) neighbourhoods.keepCommon(start);
+  const Minimum first = search(neighbourhoods, start, widely, expectation, options, locked);
+  const double moved = boxMinus(first.target_T_source, start).cwiseQuotient(stepOfMetres()).norm();
+  if (is_near && moved < kStillNear * neighbourhoods.sourceEdge()) return first;
+  neighbourhoods.keepCommon(first.target_T_source);
+  Minimum minimum = minimise(neighbourhoods, first.target_T_source, expectation, options, locked);
   minimum.iterations += first.iterations;
   return minimum;
 }
@@ -81,10 +104,15 @@ Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool wide
   RegistrationOptions early = options;
   early.tolerance = kEarly * options.tolerance;
   Neighbourhoods neighbourhoods(level.target, level.source, options.neighbours);
-  Minimum minimum = search(neighbourhoods, start, widely, expectation, early, {});
+  Minimum minimum = searchCommon(neighbourhoods, start, widely, expectation, early, {});
   LidarInformation lidar = lidarInformation(neighbourhoods, minimum.target_T_source, options.d2);
   if (!lidar.degenerate.empty())
-    return {searchAgain(neighbourhoods, start, widely, expectation, options, lidar.degenerate, minimum), lidar};
+  {
+    const int iterations = minimum.iterations;
+    minimum = searchCommon(neighbourhoods, start, widely, expectation, options, lidar.degenerate);
+    minimum.iterations += iterations;
+    return {minimum, lidar};
+  }
   Rigid& pose = minimum.target_T_source;
   if (const std::optional<Vector6d> step = lastStep(pose, lidar, expectation, options.d2, early.tolerance))
     pose = boxPlus(pose, *step);

@@ -80,7 +80,7 @@ struct SlamSettings
   CropOptions crop;
   ScanRegistrationOptions registration{cells(2.5), thinned(farCells(1.0)), reach(0.3), reach(1.0)};
   NdtOptions map_cells = farCells(1.0);
-  NdtOptions keyframe_cells = thinned(farCells(0.5));
+  NdtOptions keyframe_cells = thinned(farCells(0.75));
   LocalMapOptions local_map;
   SmootherOptions smoother;
 
