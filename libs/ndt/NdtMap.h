@@ -35,9 +35,9 @@ struct NdtOptions
 };
 
 /**
- * The views' points in cells of these options, which throw std::invalid_argument if out of their bounds. For views with
- * a viewpoint, points of stems and poles are moved onto their axes (moveToAxes), and means to where they were if points
- * did not get fewer with the range (undoFading).
+ * The views' points, counted into cells. For views with a viewpoint, points of stems and poles are moved onto their
+ * axes (moveToAxes), and means half-way to where they were if points did not get fewer with the range (undoFading).
+ * Throws std::invalid_argument if an option is out of its bounds.
  */
 BinnedPoints binned(const std::vector<View>&, const NdtOptions&);
 
