@@ -72,19 +72,6 @@ void Neighbourhoods::keepCommon(const Rigid& target_T_source)
   is_common_.assign(target().size(), 0);
   for (const std::uint32_t cell : own)
     if (cell != kNone) is_common_[cell] = 1;
-  forgetCentres();
-}
-
-void Neighbourhoods::keepAll()
-{
-  if (is_common_.empty()) return;
-  is_common_.clear();
-  forgetCentres();
-}
-
-/** All neighbours will be looked up again. */
-void Neighbourhoods::forgetCentres()
-{
   for (Chunk& chunk : chunks_) std::fill(chunk.centres.begin(), chunk.centres.end(), noCentre());
 }
 

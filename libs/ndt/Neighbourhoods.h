@@ -44,9 +44,6 @@ class Neighbourhoods
    */
   void keepCommon(const Rigid& target_T_source);
 
-  /** All cells count, as in the beginning. */
-  void keepAll();
-
   /** A chunk's source cells in the target's frame, and the target cells of each. */
   struct Chunk
   {
@@ -87,7 +84,6 @@ class Neighbourhoods
  private:
   void lookUp(Chunk&, std::size_t i, const Eigen::Vector3i& centre);
   std::size_t findAround(const Eigen::Vector3i& centre, std::uint32_t* found) const;
-  void forgetCentres();
 
   const NdtMap& target_;
   const std::vector<GaussianCell>& source_;

@@ -54,19 +54,21 @@ Minimum searchOn(Neighbourhoods& neighbourhoods, const Expectation& expectation,
   return minimum;
 }
 
-/** Among the cells that both maps have: at the start if that is near, else where a search among all cells ends. */
+/**
+ * Where the start is near, which a score that is narrow from the first step says: among the cells that both maps have
+ * there.
+ */
 Minimum searchCommon(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, const Expectation& expectation,
                      const RegistrationOptions& options, const std::vector<Vector6d>& locked)
 {
-  neighbourhoods.keepAll();
   // A large source cell has several target cells for its own.
-  if (neighbourhoods.sourceEdge() > neighbourhoods.targetMap().options().cell_size)
+  const bool is_large = neighbourhoods.sourceEdge() > neighbourhoods.targetMap().options().cell_size;
+  if (is_large || options.first_d2 < options.d2)
     return search(neighbourhoods, start, widely, expectation, options, locked);
-  const bool is_near = options.first_d2 >= options.d2;
-  if (is_near) neighbourhoods.keepCommon(start);
-  const Minimum first = search(neighbourhoods, start, widely, expectation, options, locked);
+  neighbourhoods.keepCommon(start);
+  const Minimum first = minimise(neighbourhoods, start, expectation, options, locked);
   const double moved = boxMinus(first.target_T_source, start).cwiseQuotient(stepOfMetres()).norm();
-  if (is_near && moved < kStillNear * neighbourhoods.sourceEdge()) return first;
+  if (moved < kStillNear * neighbourhoods.sourceEdge()) return first;
   neighbourhoods.keepCommon(first.target_T_source);
   Minimum minimum = minimise(neighbourhoods, first.target_T_source, expectation, options, locked);
   minimum.iterations += first.iterations;
