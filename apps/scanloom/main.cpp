@@ -1,4 +1,4 @@
-/** The program `scanloom`: libscanloom_program.so, but for --version: MRPT and what it needs take 0.2 s to load. */
+/** The program `scanloom`: libscanloom_program.so, but for --version: MRPT and what it needs take 0.1 s to load. */
 #include "Version.h"
 #include "core/ExitCode.h"
 
