@@ -20,7 +20,7 @@ class Window
 };
 
 /**
- * What libscanloom_devices.so can do. With it come half of MRPT's libraries, which take 0.2 s to load and 40 MB of
+ * What libscanloom_devices.so can do. With it come half of MRPT's libraries, which take 0.2 s to load and 48 MB of
  * memory (doc/performance.md): only verbs that show a window or listen to a driver load it.
  */
 class Devices

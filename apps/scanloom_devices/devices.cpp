@@ -2,8 +2,10 @@
 #include "Devices.h"
 #include "LiveWindow.h"
 #include "SceneWindow.h"
+#include "mrpt_sensors/ImuDriver.h"
 #include "mrpt_sensors/ImuDriverInput.h"
-#include "mrpt_sensors/configuredImu.h"
+
+#include <mrpt/config/CConfigFileMemory.h>
 
 #include <utility>
 
@@ -28,7 +30,10 @@ class MrptDevices : public Devices
   std::unique_ptr<SensorInput> addImu(std::unique_ptr<SensorInput> lidars, const Configuration& configuration,
                                       const std::string& section) const override
   {
-    return std::make_unique<ImuDriverInput>(std::move(lidars), openConfiguredImu(configuration, section));
+    mrpt::config::CConfigFileMemory as_mrpt;
+    for (const std::string& key : configuration.keys(section))
+      as_mrpt.write(section, key, configuration.text(section, key));
+    return std::make_unique<ImuDriverInput>(std::move(lidars), std::make_unique<ImuDriver>(as_mrpt, section));
   }
 };
 }  // namespace

@@ -39,8 +39,8 @@ class Neighbourhoods
 
   /**
    * From now on only cells count that both maps have at this pose: source cells whose mean lies in a cube with a target
-   * cell, and target cells whose cube holds the mean of a source cell. The neighbours of others pull: what only one of
-   * the maps has seen lies to one side of what both have seen, farther out or back along the way.
+   * cell, and target cells whose cube holds the mean of a source cell. Cells that one map alone has seen would pull at
+   * their neighbours in the other: they lie to one side of what both have seen, farther out or back along the way.
    */
   void keepCommon(const Rigid& target_T_source);
 

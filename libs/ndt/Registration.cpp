@@ -18,8 +18,8 @@ namespace
 constexpr double kLoose = 30;  // factor on the tolerance where a more accurate search follows
 constexpr double kEarly = 10;  // the same where a last step by the second derivative follows
 
-// Share of a cell: of two that hold the same, one mean or the other seldom lies in another cube after so small a
-// motion.
+// Share of a cell: where a search ends farther from its start, means have moved to other cubes, and the cells that both
+// maps have are chosen anew.
 constexpr double kStillNear = 0.15;
 
 // Share of a level's cell size: a guess that is farther off needs the coarser level before it.
@@ -31,6 +31,13 @@ struct Aligned
   LidarInformation lidar;
 };
 
+/** With the steps of the search before it. */
+Minimum after(const Minimum& first, Minimum minimum)
+{
+  minimum.iterations += first.iterations;
+  return minimum;
+}
+
 /** `widely`: with the wide score first, because the start may be far off; `locked` as in minimise(). */
 Minimum search(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, const Expectation& expectation,
                const RegistrationOptions& options, const std::vector<Vector6d>& locked)
@@ -40,28 +47,17 @@ Minimum search(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, 
   wide.d2 = options.first_d2;
   wide.tolerance = kLoose * options.tolerance;
   const Minimum first = minimise(neighbourhoods, start, expectation, wide, locked);
-  Minimum minimum = minimise(neighbourhoods, first.target_T_source, expectation, options, locked);
-  minimum.iterations += first.iterations;
-  return minimum;
-}
-
-/** The same from the minimum that an early end left. */
-Minimum searchOn(Neighbourhoods& neighbourhoods, const Expectation& expectation, const RegistrationOptions& options,
-                 const Minimum& first)
-{
-  Minimum minimum = minimise(neighbourhoods, first.target_T_source, expectation, options, {});
-  minimum.iterations += first.iterations;
-  return minimum;
+  return after(first, minimise(neighbourhoods, first.target_T_source, expectation, options, locked));
 }
 
 /**
- * Where the start is near, which a score that is narrow from the first step says: among the cells that both maps have
- * there.
+ * Where the start is near, which first_d2 = d2 says: among the cells that both maps have there, and once more from the
+ * end of that search if it is far from the start. Elsewhere, and of source cells that are larger than the target's,
+ * which have several for their own: among all cells.
  */
 Minimum searchCommon(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, const Expectation& expectation,
                      const RegistrationOptions& options, const std::vector<Vector6d>& locked)
 {
-  // A large source cell has several target cells for its own.
   const bool is_large = neighbourhoods.sourceEdge() > neighbourhoods.targetMap().options().cell_size;
   if (is_large || options.first_d2 < options.d2)
     return search(neighbourhoods, start, widely, expectation, options, locked);
@@ -70,18 +66,7 @@ Minimum searchCommon(Neighbourhoods& neighbourhoods, const Rigid& start, bool wi
   const double moved = boxMinus(first.target_T_source, start).cwiseQuotient(stepOfMetres()).norm();
   if (moved < kStillNear * neighbourhoods.sourceEdge()) return first;
   neighbourhoods.keepCommon(first.target_T_source);
-  Minimum minimum = minimise(neighbourhoods, first.target_T_source, expectation, options, locked);
-  minimum.iterations += first.iterations;
-  return minimum;
-}
-
-/** Motion along a degenerate direction was noise: the search is repeated from the start without it. */
-Minimum searchAgain(Neighbourhoods& neighbourhoods, const Rigid& start, bool widely, const Expectation& expectation,
-                    const RegistrationOptions& options, const std::vector<Vector6d>& degenerate, const Minimum& first)
-{
-  Minimum minimum = search(neighbourhoods, start, widely, expectation, options, degenerate);
-  minimum.iterations += first.iterations;
-  return minimum;
+  return after(first, minimise(neighbourhoods, first.target_T_source, expectation, options, locked));
 }
 
 /**
@@ -108,18 +93,13 @@ Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool wide
   Neighbourhoods neighbourhoods(level.target, level.source, options.neighbours);
   Minimum minimum = searchCommon(neighbourhoods, start, widely, expectation, early, {});
   LidarInformation lidar = lidarInformation(neighbourhoods, minimum.target_T_source, options.d2);
-  if (!lidar.degenerate.empty())
-  {
-    const int iterations = minimum.iterations;
-    minimum = searchCommon(neighbourhoods, start, widely, expectation, options, lidar.degenerate);
-    minimum.iterations += iterations;
-    return {minimum, lidar};
-  }
+  if (!lidar.degenerate.empty())  // motion along such a direction was noise: again without it
+    return {after(minimum, searchCommon(neighbourhoods, start, widely, expectation, options, lidar.degenerate)), lidar};
   Rigid& pose = minimum.target_T_source;
   if (const std::optional<Vector6d> step = lastStep(pose, lidar, expectation, options.d2, early.tolerance))
     pose = boxPlus(pose, *step);
   else
-    minimum = searchOn(neighbourhoods, expectation, options, minimum);
+    minimum = after(minimum, minimise(neighbourhoods, pose, expectation, options, {}));
   return {minimum, lidar};
 }
 
@@ -133,7 +113,7 @@ Minimum approach(const RegistrationLevel& level, const Rigid& start, bool widely
   const auto degenerate = degenerateDirections(neighbourhoods, minimum.target_T_source, options.d2);
   may_slide = !degenerate.empty();
   if (!may_slide) return minimum;
-  return searchAgain(neighbourhoods, start, widely, expectation, options, degenerate, minimum);
+  return after(minimum, search(neighbourhoods, start, widely, expectation, options, degenerate));
 }
 
 double overlapOf(const Minimum& minimum, const NdtMap& source)

@@ -31,7 +31,8 @@ struct RegistrationOptions
     visit(o.max_iterations, Field{"max_iterations", "", "at most this many steps", between(1, 1000)});
     visit(o.tolerance,
           Field{"tolerance", "m",
-                "how far the result may be from the minimum (a rotation counts as the motion of a point 5 m away)", above(0)});
+                "how far the result may be from the minimum (a rotation counts as the motion of a point 5 m away)",
+                above(0)});
     visit(o.neighbours,
           Field{"neighbours", "", "target cells compared with each source cell: 1, 7 or 27", between(1, 27)});
     visit(o.min_overlap,
