@@ -3,6 +3,7 @@
 #include "core/Angle.h"
 #include "core/Matrix6.h"
 #include "ndt/LidarInformation.h"
+#include "ndt/Minimiser.h"
 #include "ndt/NormalEquations.h"
 #include "ndt/Rivals.h"
 
@@ -21,6 +22,12 @@ constexpr double kStep = 3;  // m between starts: alignment finds a pose within 
 
 // Share of the scan's cell size: from farther away its score leads nowhere, or to the wrong stem.
 constexpr double kReachOfCells = 0.3;
+
+struct Scored
+{
+  Rigid pose;
+  double value;
+};
 
 /** Map and scan in cells of several sizes, made once for searches from many places. */
 class Pyramid
@@ -43,19 +50,33 @@ class Pyramid
     return alignCoarseToFine(pairLevels(targets_, sources_), guess, options);
   }
 
-  /** Those with the best scores in cells that are large enough for poses between the starts. */
+  /**
+   * From the starts with the best scores, a few steps towards the pose: where that leads to the best scores. Cells are
+   * large enough for poses between the starts. Scores alone prefer places in the middle of the map, where most cells
+   * meet.
+   */
   std::vector<Rigid> mostPromising(const std::vector<Rigid>& starts, std::size_t count) const
   {
     constexpr std::size_t kLevel = 1;
-    constexpr double kBroad = 0.05;  // d2
-    constexpr int kNeighbours = 7;
-    Neighbourhoods neighbourhoods(targets_[kLevel], sources_[kLevel], kNeighbours);
-    std::vector<std::pair<double, std::size_t>> scores;  // negative, the best first
-    for (std::size_t i = 0; i < starts.size(); ++i)
-      scores.emplace_back(normalEquations(neighbourhoods, starts[i], kBroad).value, i);
-    std::sort(scores.begin(), scores.end());
+    constexpr std::size_t kTried = 6;
+    RegistrationOptions few;
+    few.d2 = few.first_d2 = 0.05;
+    few.max_iterations = 5;
+    few.neighbours = 7;
+    Neighbourhoods neighbourhoods(targets_[kLevel], sources_[kLevel], few.neighbours);
+    const auto byScore = [](const Scored& a, const Scored& b) { return a.value < b.value; };  // negative
+    std::vector<Scored> scored;
+    for (const Rigid& start : starts) scored.push_back({start, normalEquations(neighbourhoods, start, few.d2).value});
+    std::stable_sort(scored.begin(), scored.end(), byScore);
+    scored.resize(std::min(kTried, scored.size()));
+    for (Scored& s : scored)
+    {
+      const Minimum near = minimise(neighbourhoods, s.pose, {}, few, {});
+      s = {near.target_T_source, near.equations.value};
+    }
+    std::stable_sort(scored.begin(), scored.end(), byScore);
     std::vector<Rigid> best;
-    for (std::size_t i = 0; i < std::min(count, scores.size()); ++i) best.push_back(starts[scores[i].second]);
+    for (std::size_t i = 0; i < std::min(count, scored.size()); ++i) best.push_back(scored[i].pose);
     return best;
   }
 

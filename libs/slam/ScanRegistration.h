@@ -64,9 +64,8 @@ Matrix6d covarianceWithin(const SearchArea&, const RegistrationResult&);
 std::vector<Rigid> startsWithin(const SearchArea&);
 
 /**
- * The pose that alignment finds from the start with the best score. None if it is not trustworthy, or if one that is
- * found from the next starts, far from it, is nearly as good. To fail takes one alignment, however many starts there
- * are.
+ * The pose that alignment finds from the most promising start. None if it is not trustworthy, or if one that is found
+ * from the next starts, far from it, is nearly as good. To fail takes a score for each start and about two alignments.
  */
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& seen_from_body,
                                              const std::vector<Rigid>& starts, const NdtOptions& cells,
