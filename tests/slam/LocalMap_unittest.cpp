@@ -82,7 +82,7 @@ TEST(LocalMap, errorsOfAlignmentAreHandedOnAndAHeadingSwingsWhatLiesAhead)
   for (int i = 1; i <= 3; ++i) map.add(cube(), at(4 * i), alignment);
 
   const Matrix6d drift = map.drift(at(14));
-  constexpr double kHandedOn = 0.5, kScale = 4e-4;
+  constexpr double kHandedOn = 0.3, kScale = 6e-4;
   EXPECT_NEAR(drift(0, 0), kHandedOn * 3e-4 + std::pow(kScale * 14, 2), 1e-9);
   EXPECT_NEAR(drift(1, 1), kHandedOn * (3 * 4e-4 + (10 * 10 + 6 * 6 + 2 * 2) * 1e-6), 1e-9) << "from 4, 8 and 12 m";
   EXPECT_NEAR(drift(5, 5), kHandedOn * 3e-6, 1e-12);
