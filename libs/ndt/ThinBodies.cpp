@@ -1,6 +1,5 @@
 #include "ndt/ThinBodies.h"
 
-#include "core/Statistics.h"
 #include "core/forAll.h"
 #include "ndt/EigenLanes.h"
 
@@ -13,12 +12,12 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kMeanBeforeAxis = M_PI / 4;  // radii, from the mean to the axis
-constexpr double kSlimness = 2;               // length over width, as standard deviations
-constexpr double kMostRadius = 0.3;           // m
-constexpr double kLeastAcross = 0.3;          // of the line of sight's unit vector, across the axis
-constexpr double kSteep = 0.8;                // vertical part of the axis of a stem
-constexpr double kNear = 8;                   // m: several columns of most lidars hit a stem of 20 cm
+constexpr double kSlimness = 2;       // length over width, as standard deviations
+constexpr double kMostRadius = 0.3;   // m
+constexpr double kLeastAcross = 0.3;  // of the line of sight's unit vector, across the axis
+constexpr double kSteep = 0.8;        // vertical part of the axis of a stem
+constexpr double kNear = 12;          // m: two columns or more of most lidars hit a stem of 20 cm
+constexpr double kRangeNoise = 0.04;  // m, standard deviation, of weak returns
 
 /** A cheap test that all thin bodies pass, and few others. */
 bool mayBeThin(const Eigen::Matrix3d& c)
@@ -33,11 +32,19 @@ bool mayBeThin(const Eigen::Matrix3d& c)
 /** A thin body in a cell, as a lidar sees it. */
 struct ThinBody
 {
-  double radius = 0;        // m, by the points; too small if few rays hit it side by side
-  Eigen::Vector3d towards;  // unit vector from its near side to its axis
+  Eigen::Vector3d to_axis;  // m, from the mean of its points
   double range = 0;         // m
   bool stands = false;      // its axis is steep
 };
+
+/** From the mean of a body's points to its axis (m), by their variances (m^2): see the header. */
+double depthOfAxis(double sideways, double along_view)
+{
+  if (sideways <= 0) return 0;
+  constexpr double kOpaque = 1.36, kSlope = 1.6;
+  const double porous = std::max(0.0, along_view - kRangeNoise * kRangeNoise) / sideways;
+  return std::clamp(kSlope * (1 - porous), 0.0, kOpaque) * std::sqrt(sideways);
+}
 
 /** Nothing for a body that is too thick, or seen along its axis. */
 std::optional<ThinBody> thinBodyOf(const MeanAndCovariance& seen, const EigenBlock& eigen, std::size_t lane,
@@ -53,9 +60,10 @@ std::optional<ThinBody> thinBodyOf(const MeanAndCovariance& seen, const EigenBlo
   const Eigen::Vector3d across = sight - sight.dot(axis) * axis;
   if (!(most > kSlimness * kSlimness * second && across.norm() > kLeastAcross)) return std::nullopt;
   const Eigen::Vector3d towards = across.normalized(), sideways = axis.cross(towards);
-  const double radius = std::sqrt(3 * std::max(0.0, sideways.dot(seen.covariance * sideways)));
-  if (radius > kMostRadius) return std::nullopt;
-  return ThinBody{radius, towards, range, std::abs(axis.z()) > kSteep};
+  const double variance = sideways.dot(seen.covariance * sideways);
+  if (3 * variance > kMostRadius * kMostRadius) return std::nullopt;
+  return ThinBody{depthOfAxis(variance, towards.dot(seen.covariance * towards)) * towards, range,
+                  std::abs(axis.z()) > kSteep};
 }
 
 using Bodies = std::vector<std::optional<ThinBody>>;
@@ -92,10 +100,9 @@ class Candidates
 };
 
 /** By bin. */
-Bodies thinBodiesOf(const std::vector<Bin>& bins, double edge, const Eigen::Vector3d& viewpoint)
+Bodies thinBodiesOf(const std::vector<Bin>& bins, double edge, const Eigen::Vector3d& viewpoint, int least_points)
 {
-  constexpr std::size_t kPart = 128;   // bins, about 20 us
-  constexpr std::int64_t kFewest = 2;  // show the direction of an axis
+  constexpr std::size_t kPart = 128;  // bins, about 20 us
   Bodies bodies(bins.size());
   forAll((bins.size() + kPart - 1) / kPart, 1,
          [&](std::size_t part)
@@ -103,7 +110,7 @@ Bodies thinBodiesOf(const std::vector<Bin>& bins, double edge, const Eigen::Vect
            Candidates candidates(viewpoint, bodies);
            for (std::size_t i = part * kPart; i < std::min((part + 1) * kPart, bins.size()); ++i)
            {
-             if (bins[i].moments.n < kFewest) continue;
+             if (bins[i].moments.n < least_points) continue;
              const MeanAndCovariance seen = meanAndCovariance(bins[i], edge);
              if (mayBeThin(seen.covariance)) candidates.add(i, seen);
            }
@@ -112,30 +119,41 @@ Bodies thinBodiesOf(const std::vector<Bin>& bins, double edge, const Eigen::Vect
   return bodies;
 }
 
-/** Zero if too few bodies are near enough to be measured. */
-double typicalRadius(const Bodies& bodies, const std::vector<Bin>& bins, int least_points)
+/** The mean depth of the axes of stems nearby (m), as if ten stems with the assumed depth were among them. */
+double typicalDepth(const Bodies& bodies, const std::vector<Bin>& bins, int least_points)
 {
-  constexpr std::size_t kFewest = 5;
-  std::vector<double> radii;
+  constexpr double kAssumed = 0.03, kAssumedStems = 10;  // m
+  double sum = kAssumedStems * kAssumed, stems = kAssumedStems;
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i] && bodies[i]->range < kNear && bins[i].moments.n >= 2 * least_points)
-      radii.push_back(bodies[i]->radius);
-  return radii.size() < kFewest ? 0 : median(radii);
+  {
+    if (!bodies[i] || !bodies[i]->stands || bodies[i]->range > kNear || bins[i].moments.n < 2 * least_points) continue;
+    sum += bodies[i]->to_axis.norm();
+    ++stems;
+  }
+  return sum / stems;
+}
+
+/** Unit vector from the viewpoint to the points, without its vertical part. */
+Eigen::Vector3d levelView(const Bin& bin, double edge, const Eigen::Vector3d& viewpoint)
+{
+  const Eigen::Vector3d view = meanAndCovariance(bin, edge).mean - viewpoint;
+  return Eigen::Vector3d(view.x(), view.y(), 0).normalized();
 }
 }  // namespace
 
 void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points)
 {
   constexpr std::size_t kGrain = 128;
-  const Bodies bodies = thinBodiesOf(bins, static_cast<double>(cell_quanta) * Moments::kQuantum, viewpoint);
-  const double typical = typicalRadius(bodies, bins, least_points);
+  const double edge = static_cast<double>(cell_quanta) * Moments::kQuantum;
+  const Bodies bodies = thinBodiesOf(bins, edge, viewpoint, least_points);
+  const double typical = typicalDepth(bodies, bins, least_points);
   forAll(bins.size(), kGrain,
          [&](std::size_t i)
          {
-           const bool is_measured = bins[i].moments.n >= least_points;
-           if (!bodies[i] || (!is_measured && !bodies[i]->stands)) return;
-           const double radius = is_measured ? bodies[i]->radius : typical;
-           moveBy(kMeanBeforeAxis * radius * bodies[i]->towards, bins[i]);
+           if (bodies[i])
+             moveBy(bodies[i]->to_axis, bins[i]);
+           else if (bins[i].moments.n < least_points)
+             moveBy(typical * levelView(bins[i], edge, viewpoint), bins[i]);
          });
 }
 }  // namespace scanloom

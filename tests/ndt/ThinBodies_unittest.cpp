@@ -37,6 +37,29 @@ View viewOf(const Stem& stem, const Eigen::Vector3d& eye)
   return view;
 }
 
+/** A round bush in the middle of a cell: where rays along -x hit its leaves. Of a ray exp(-extinction depth) is left.
+ */
+View bushOfEvenLeaves(double radius, double extinction)
+{
+  constexpr double kStep = 0.002, kPointsPerStep = 0.1;  // m
+  View view{{}, Eigen::Vector3d(8.5, 0.5, 2)};
+  for (double z = 0.025; z < 1; z += 0.05)
+    for (double across = -0.975; across < 1; across += 0.05)
+    {
+      const double chord = 2 * radius * std::sqrt(1 - across * across);
+      double points = 0.6;  // the first point is not deeper than the others
+      for (double depth = kStep / 2; depth < chord; depth += kStep)
+      {
+        points += kPointsPerStep * std::exp(-extinction * depth);
+        if (points < 1) continue;
+        points -= 1;
+        view.points.emplace_back(static_cast<float>(0.5 + chord / 2 - depth), static_cast<float>(0.5 + radius * across),
+                                 static_cast<float>(z));
+      }
+    }
+  return view;
+}
+
 /** Stems around a lane of 6 m along x, all in the middle of a cell of 1 m. */
 std::vector<Stem> stand()
 {
@@ -77,47 +100,58 @@ TEST(ThinBodies, aStemStandsAtItsAxisFromWhereverItIsSeen)
     }
 }
 
-namespace
+TEST(ThinBodies, aBushIsMovedByWhatIsMissingOfItsFarSide)
 {
-/** A far stem that two rays hit, as deep behind its near side as the mean of many. */
-const Stem kFar{0.5, 30.5, 0.1};
-View viewOfTwoPoints()
-{
-  const auto y = static_cast<float>(kFar.y - M_PI / 4 * kFar.radius);
-  return {{{0.5F, y, 2.2F}, {0.5F, y, 2.8F}}, Eigen::Vector3d(0.5, 0.5, 2)};
+  constexpr double kRadius = 0.2, kNoiseAllowedFor = 0.045;  // m
+  for (const double extinction : {0., 3., 10., 30., 60.})    // 1/m
+  {
+    View view = bushOfEvenLeaves(kRadius, extinction);
+    EXPECT_LT(std::abs(NdtMap({view}, {}).cells().front().mean.x() - 0.5), kNoiseAllowedFor) << extinction;
+    view.viewpoint.reset();
+    const double seen = NdtMap({view}, {}).cells().front().mean.x() - 0.5;
+    EXPECT_TRUE(extinction < 30 || seen > 0.12) << "what this is about: " << seen;
+  }
 }
 
-double depthOfFarStem(const View& view)
+namespace
+{
+constexpr double kAssumed = 0.03;  // m, depth of what few points are on; like ten stems of it
+
+/** Two points far away, 60 cm apart along `direction`, and six stems nearby. */
+View withTwoFarPoints(const Eigen::Vector3f& direction, double radius)
+{
+  const Eigen::Vector3f middle(0.5F, 30.5F, 2.5F);
+  View view{{middle - 0.3F * direction, middle + 0.3F * direction}, Eigen::Vector3d(0.5, 0.5, 2.5)};
+  for (const double x : {-5.5, -3.5, -1.5, 2.5, 4.5, 6.5}) look(*view.viewpoint, {x, 3.5, radius}, view.points);
+  return view;
+}
+
+/** How much farther away the two points are than they were seen. */
+double farPointsMoved(const View& view)
 {
   NdtOptions options;
   options.min_points = 2;
   const NdtMap map({view}, options);
   double farthest = 0;
   for (const GaussianCell& cell : map.cells()) farthest = std::max(farthest, cell.mean.y());
-  return farthest;
+  return farthest - 30.5;
 }
 }  // namespace
 
-TEST(ThinBodies, aFarStemIsTakenToBeAsThickAsThoseNearby)
+TEST(ThinBodies, twoFarPointsLieAsDeepAsTheStemsNearbyAndTenAssumedOnes)
 {
-  View view = viewOfTwoPoints();
-  for (const double x : {-5.5, -3.5, -1.5, 2.5, 4.5, 6.5}) look(*view.viewpoint, {x, 3.5, kFar.radius}, view.points);
-  EXPECT_NEAR(depthOfFarStem(view), kFar.y, 0.01);
+  constexpr double kRadius = 0.1;
+  constexpr int kCells = 4 * 6;  // of six stems, 4 m high
+  const double depth = (kCells * M_PI / 4 * kRadius + 10 * kAssumed) / (kCells + 10);
+  EXPECT_NEAR(farPointsMoved(withTwoFarPoints({0, 0, 1}, kRadius)), depth, 0.003);
+  EXPECT_NEAR(farPointsMoved(withTwoFarPoints({1, 0, 0}, kRadius)), depth, 0.003) << "side by side";
 }
 
-TEST(ThinBodies, aFarStemStaysWhereItIsTouchedIfNoneNearbyTellsHowThick)
+TEST(ThinBodies, twoFarPointsLieAsDeepAsIsAssumedIfNoStemIsNearby)
 {
-  EXPECT_NEAR(depthOfFarStem(viewOfTwoPoints()), kFar.y - M_PI / 4 * kFar.radius, 1e-3);
-}
-
-TEST(ThinBodies, twoPointsOnTheGroundStay)
-{
-  View view;
-  view.viewpoint = Eigen::Vector3d(0.5, 0.5, 2);
-  for (const double x : {-5.5, -3.5, -1.5, 2.5, 4.5, 6.5}) look(*view.viewpoint, {x, 3.5, kFar.radius}, view.points);
-  view.points.emplace_back(0.3F, 30.5F, 0.1F);
-  view.points.emplace_back(0.7F, 30.5F, 0.1F);
-  EXPECT_NEAR(depthOfFarStem(view), 30.5, 1e-4);
+  View view = withTwoFarPoints({0, 0, 1}, 0.1);
+  view.points.resize(2);
+  EXPECT_NEAR(farPointsMoved(view), kAssumed, 1e-4);
 }
 
 TEST(ThinBodies, withoutAViewpointAStemStandsWhereItIsTouched)
