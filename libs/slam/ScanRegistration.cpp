@@ -58,7 +58,7 @@ class Pyramid
   std::vector<Rigid> mostPromising(const std::vector<Rigid>& starts, std::size_t count) const
   {
     constexpr std::size_t kLevel = 1;
-    constexpr std::size_t kTried = 6;
+    constexpr std::size_t kTried = 3;
     RegistrationOptions few;
     few.d2 = few.first_d2 = 0.05;
     few.max_iterations = 5;
