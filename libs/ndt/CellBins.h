@@ -22,10 +22,17 @@ struct BinnedPoints
   std::vector<Bin> bins;     // sorted by key
 };
 
+/** m */
+inline double edgeOf(std::int64_t cell_quanta) { return static_cast<double>(cell_quanta) * Moments::kQuantum; }
+
+/** Where a bin of a grid of `edge` (m) begins, m. */
+inline Eigen::Vector3d cornerOf(const Bin& bin, double edge) { return edge * CellKey::indexOf(bin.key).cast<double>(); }
+
 /** Of the points in a bin of a grid of `edge` (m). */
+inline Eigen::Vector3d meanOf(const Bin& bin, double edge) { return meanOf(bin.moments, cornerOf(bin, edge)); }
 inline MeanAndCovariance meanAndCovariance(const Bin& bin, double edge)
 {
-  return meanAndCovariance(bin.moments, edge * CellKey::indexOf(bin.key).cast<double>());
+  return meanAndCovariance(bin.moments, cornerOf(bin, edge));
 }
 
 /** Positions of points in memory: three arrays, or one of triples. */

@@ -16,7 +16,7 @@ constexpr double kNearest = 1;       // m: nearer, 1 / r^2 is no exponential acr
 void undoFading(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points)
 {
   constexpr std::size_t kGrain = 256;
-  const double edge = static_cast<double>(cell_quanta) * Moments::kQuantum;
+  const double edge = edgeOf(cell_quanta);
   forAll(bins.size(), kGrain,
          [&](std::size_t i)
          {

@@ -17,6 +17,12 @@ void forEachSum(Moments& a, const Moments& b, Operation&& apply)
   apply(a.yy, b.yy), apply(a.yz, b.yz), apply(a.zz, b.zz);
 }
 
+Eigen::Vector3d meanInQuanta(const Moments& m)
+{
+  return Eigen::Vector3d(static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z)) /
+         static_cast<double>(m.n);
+}
+
 Eigen::Matrix3d assumedCovariance(const Eigen::Matrix3d& covariance, std::int64_t points)
 {
   constexpr double kDeviation = 0.08;  // m
@@ -65,11 +71,15 @@ Moments& Moments::operator-=(const Moments& other)
   return *this;
 }
 
+Eigen::Vector3d meanOf(const Moments& m, const Eigen::Vector3d& corner)
+{
+  return corner + Moments::kQuantum * meanInQuanta(m);
+}
+
 MeanAndCovariance meanAndCovariance(const Moments& m, const Eigen::Vector3d& corner)
 {
   const double n = static_cast<double>(m.n);
-  const Eigen::Vector3d mean =
-      Eigen::Vector3d(static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z)) / n;
+  const Eigen::Vector3d mean = meanInQuanta(m);
   Eigen::Matrix3d products;
   products << static_cast<double>(m.xx), static_cast<double>(m.xy), static_cast<double>(m.xz),  //
       static_cast<double>(m.xy), static_cast<double>(m.yy), static_cast<double>(m.yz),          //

@@ -62,6 +62,9 @@ struct MeanAndCovariance
   Eigen::Matrix3d covariance;  // m^2
 };
 
+/** m, of points whose sums are about `corner`. */
+Eigen::Vector3d meanOf(const Moments&, const Eigen::Vector3d& corner);
+
 /** Of points whose sums are about `corner`. The covariance of a single point is zero. */
 MeanAndCovariance meanAndCovariance(const Moments&, const Eigen::Vector3d& corner);
 

@@ -199,7 +199,7 @@ void NdtMap::combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(
            for (std::size_t i = 0; i < count; ++i)
            {
              const Bin& bin = bins[changed[first + i].bin];
-             points[i] = {bin.moments, edge() * CellKey::indexOf(bin.key).cast<double>()};
+             points[i] = {bin.moments, cornerOf(bin, edge())};
            }
            const auto gaussians = gaussiansOf(points.data(), count, edge(), options_.min_deviation);
            for (std::size_t i = 0; i < count; ++i) cells[changed[first + i].cell] = gaussians[i];
@@ -213,8 +213,7 @@ void NdtMap::requireSameCells(const BinnedPoints& points) const
 {
   if (cell_quanta_ == points.cell_quanta) return;
   throw std::invalid_argument(fmt::format("NdtMap: cells of {} m do not add to cells of {} m: give both one cell_size",
-                                          static_cast<double>(points.cell_quanta) * Moments::kQuantum,
-                                          options_.cell_size));
+                                          edgeOf(points.cell_quanta), options_.cell_size));
 }
 
 void NdtMap::indexBlocks()

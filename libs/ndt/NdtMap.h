@@ -95,7 +95,7 @@ class NdtMap
   void combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(const Moments&));
   void requireSameCells(const BinnedPoints&) const;
   bool hasGaussian(const Bin& bin) const { return bin.moments.n >= options_.min_points; }
-  double edge() const { return static_cast<double>(cell_quanta_) * Moments::kQuantum; }
+  double edge() const { return edgeOf(cell_quanta_); }
   void indexBlocks();
 
   NdtOptions options_;

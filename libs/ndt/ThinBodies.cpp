@@ -122,7 +122,8 @@ Bodies thinBodiesOf(const std::vector<Bin>& bins, double edge, const Eigen::Vect
 /** The mean depth of the axes of stems nearby (m), as if ten stems with the assumed depth were among them. */
 double typicalDepth(const Bodies& bodies, const std::vector<Bin>& bins, int least_points)
 {
-  constexpr double kAssumed = 0.03, kAssumedStems = 10;  // m
+  constexpr double kAssumed = 0.03;  // m
+  constexpr double kAssumedStems = 10;
   double sum = kAssumedStems * kAssumed, stems = kAssumedStems;
   for (std::size_t i = 0; i < bodies.size(); ++i)
   {
@@ -136,7 +137,7 @@ double typicalDepth(const Bodies& bodies, const std::vector<Bin>& bins, int leas
 /** Unit vector from the viewpoint to the points, without its vertical part. */
 Eigen::Vector3d levelView(const Bin& bin, double edge, const Eigen::Vector3d& viewpoint)
 {
-  const Eigen::Vector3d view = meanAndCovariance(bin, edge).mean - viewpoint;
+  const Eigen::Vector3d view = meanOf(bin, edge) - viewpoint;
   return Eigen::Vector3d(view.x(), view.y(), 0).normalized();
 }
 }  // namespace
@@ -144,7 +145,7 @@ Eigen::Vector3d levelView(const Bin& bin, double edge, const Eigen::Vector3d& vi
 void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points)
 {
   constexpr std::size_t kGrain = 128;
-  const double edge = static_cast<double>(cell_quanta) * Moments::kQuantum;
+  const double edge = edgeOf(cell_quanta);
   const Bodies bodies = thinBodiesOf(bins, edge, viewpoint, least_points);
   const double typical = typicalDepth(bodies, bins, least_points);
   forAll(bins.size(), kGrain,

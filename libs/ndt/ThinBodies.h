@@ -10,8 +10,8 @@
 namespace scanloom
 {
 /**
- * Moves the points of every cell that holds a thin body onto the body's axis, and those of cells with few points as far
- * as stems nearby are deep.
+ * Moves the points of every cell that holds a thin body from the side that the lidar sees onto the body's axis; those
+ * of a cell with too few points to tell, by as much as stems nearby on average.
  *
  * A lidar sees only the near side of a stem: the mean of the points lies in front of the axis, and moves along as the
  * lidar passes. Registered against a map of near sides, a drive past stems of 20 cm is measured 0.4 % too short. How
@@ -24,9 +24,10 @@ namespace scanloom
  * A cell holds a thin body if its points are at least twice as long as wide, and r is at most 0.3 m. Cells that are
  * seen along their axis stay. A strip of a wall that the grid cuts off is moved, too, in map and scan alike.
  *
- * Fewer points than `least_points` show neither. Most of what is far away has no more: without a correction it alone
- * makes a drive 0.2 % too short. They are moved away from the viewpoint, horizontally (z is up, roughly), by the mean
- * depth of the stems within 12 m, where ten stems of 3 cm are counted in, since a dense stand shows few.
+ * Fewer points than `least_points` show neither width nor depth. Most of what is far away has no more: without a
+ * correction it alone makes a drive 0.2 % too short. They are moved away from the viewpoint, horizontally (z is up,
+ * roughly), by the mean depth of the stems within 12 m, where ten stems of 3 cm are counted in, since a dense stand
+ * shows few.
  */
 void moveToAxes(std::vector<Bin>&, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points);
 }  // namespace scanloom

@@ -9,7 +9,7 @@ namespace scanloom
 {
 namespace
 {
-// Both by the NEES of simulated drives of 170 to 320 m (doc/study/localisation.md): an alignment averages over the
+// Both by the NEES of simulated drives of 75 to 140 m (doc/study/localisation.md): an alignment averages over the
 // keyframes of the map, whose errors are partly its own again; and structure that is seen from one side shortens a way.
 constexpr double kHandedOn = 0.3;  // of an alignment's covariance
 constexpr double kScale = 6e-4;    // standard deviation of the way, as a share of the distance

@@ -11,7 +11,7 @@ void Recovery::changeBias(const ImuBias& bias)
 
 std::vector<Rigid> Recovery::nextStarts(const SearchArea& area)
 {
-  constexpr std::size_t kScreened = 30;  // with the steps from the best of them about two alignments
+  constexpr std::size_t kScreened = 30;  // scores, and steps from the best of them: as long as about two alignments
   const std::vector<Rigid> all = startsWithin(area);
   if (next_start_ >= all.size()) next_start_ = 0;
   const std::size_t end = std::min(all.size(), next_start_ + kScreened);

@@ -51,33 +51,32 @@ class Pyramid
   }
 
   /**
-   * From the starts with the best scores, a few steps towards the pose: where that leads to the best scores. Cells are
-   * large enough for poses between the starts. Scores alone prefer places in the middle of the map, where most cells
-   * meet.
+   * The `count` starts with the best scores, each moved a few steps towards the minimum; the one with the best score
+   * there comes first. Scores of the starts themselves prefer the middle of the map, where most cells meet. Cells are
+   * large enough for poses between the starts.
    */
   std::vector<Rigid> mostPromising(const std::vector<Rigid>& starts, std::size_t count) const
   {
     constexpr std::size_t kLevel = 1;
-    constexpr std::size_t kTried = 3;
     RegistrationOptions few;
     few.d2 = few.first_d2 = 0.05;
     few.max_iterations = 5;
     few.neighbours = 7;
     Neighbourhoods neighbourhoods(targets_[kLevel], sources_[kLevel], few.neighbours);
     const auto byScore = [](const Scored& a, const Scored& b) { return a.value < b.value; };  // negative
-    std::vector<Scored> scored;
-    for (const Rigid& start : starts) scored.push_back({start, normalEquations(neighbourhoods, start, few.d2).value});
-    std::stable_sort(scored.begin(), scored.end(), byScore);
-    scored.resize(std::min(kTried, scored.size()));
-    for (Scored& s : scored)
+    std::vector<Scored> best;
+    for (const Rigid& start : starts) best.push_back({start, normalEquations(neighbourhoods, start, few.d2).value});
+    std::stable_sort(best.begin(), best.end(), byScore);
+    best.resize(std::min(count, best.size()));
+    for (Scored& s : best)
     {
       const Minimum near = minimise(neighbourhoods, s.pose, {}, few, {});
       s = {near.target_T_source, near.equations.value};
     }
-    std::stable_sort(scored.begin(), scored.end(), byScore);
-    std::vector<Rigid> best;
-    for (std::size_t i = 0; i < std::min(count, scored.size()); ++i) best.push_back(scored[i].pose);
-    return best;
+    std::stable_sort(best.begin(), best.end(), byScore);
+    std::vector<Rigid> poses;
+    for (const Scored& s : best) poses.push_back(s.pose);
+    return poses;
   }
 
  private:
