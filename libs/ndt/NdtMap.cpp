@@ -88,9 +88,11 @@ int splitAxis(std::int64_t index, Spread&& spread, std::array<AxisInBlock, 2>& p
 }
 }  // namespace
 
-BinnedPoints binned(const std::vector<View>& views, const NdtOptions& options)
+namespace
 {
-  check(options);
+/** `up`: in the frame of the views. */
+BinnedPoints binned(const std::vector<View>& views, const Eigen::Vector3d& up, const NdtOptions& options)
+{
   const std::int64_t cell_quanta = quantaOfCell(options);
   const int least_points = std::max(options.min_points, GaussianCell::kMinPointsForCovariance);
   std::vector<std::vector<Bin>> counted(views.size());
@@ -100,7 +102,7 @@ BinnedPoints binned(const std::vector<View>& views, const NdtOptions& options)
                       const View& view = views[i];
                       counted[i] = countInto(coordinatesOf(view.points), cell_quanta);
                       if (!view.viewpoint) return;
-                      moveToAxes(counted[i], cell_quanta, *view.viewpoint, least_points);
+                      moveToAxes(counted[i], cell_quanta, *view.viewpoint, up, least_points);
                       undoFading(counted[i], cell_quanta, *view.viewpoint, least_points);
                     });
   std::vector<Bin> all;
@@ -108,13 +110,18 @@ BinnedPoints binned(const std::vector<View>& views, const NdtOptions& options)
   return {cell_quanta, thinned(std::move(all), options)};
 }
 
-NdtMap::NdtMap(const NdtOptions& options) : options_((check(options), options)), cell_quanta_(quantaOfCell(options)) {}
+/** Small whole numbers, so that every processor has the same rotation; no axis of one grid is along one of the other.
+ */
+Eigen::Quaterniond turnedFromPoints() { return Eigen::Quaterniond(18, 3, 1, 5).normalized(); }
+}  // namespace
 
-NdtMap::NdtMap(const NdtOptions& options, std::int64_t cell_quanta, const std::vector<Bin>& bins)
-  : options_(options), cell_quanta_(cell_quanta)
+BinnedPoints binned(const std::vector<View>& views, const NdtOptions& options)
 {
-  combine(bins, &Moments::operator+=);
+  check(options);
+  return binned(views, Eigen::Vector3d::UnitZ(), options);
 }
+
+NdtMap::NdtMap(const NdtOptions& options) : options_((check(options), options)), cell_quanta_(quantaOfCell(options)) {}
 
 NdtMap::NdtMap(const PointCloud& points, const NdtOptions& options) : NdtMap(options)
 {
@@ -126,9 +133,19 @@ NdtMap::NdtMap(const std::vector<Eigen::Vector3f>& points, const NdtOptions& opt
   combine(thinned(countInto(coordinatesOf(points), cell_quanta_), options), &Moments::operator+=);
 }
 
-NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options) : NdtMap(options)
+NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options, Grid grid) : NdtMap(options)
 {
-  add(binned(views, options));
+  if (grid == Grid::Straight)
+  {
+    add(binned(views, options));
+    return;
+  }
+  const Eigen::Quaterniond turned = turnedFromPoints();
+  grid_R_points_ = turned.toRotationMatrix();
+  std::vector<View> in_grid(views.size());
+  constexpr std::size_t kGrain = 1;  // views
+  forAll(views.size(), kGrain, [&](std::size_t i) { in_grid[i] = movedBy({turned, {0, 0, 0}}, views[i]); });
+  combine(binned(in_grid, turned * Eigen::Vector3d::UnitZ(), options_).bins, &Moments::operator+=);
 }
 
 void NdtMap::add(const BinnedPoints& points)
@@ -143,12 +160,27 @@ void NdtMap::remove(const BinnedPoints& points)
   combine(points.bins, &Moments::operator-=);
 }
 
+GaussianCell NdtMap::inPointsFrame(GaussianCell cell) const
+{
+  if (!grid_R_points_) return cell;
+  const Eigen::Matrix3d points_R_grid = grid_R_points_->transpose();
+  const auto turned = [&](const Eigen::Matrix3d& m) -> Eigen::Matrix3d { return points_R_grid * m * *grid_R_points_; };
+  cell.mean = points_R_grid * cell.mean;
+  cell.covariance = turned(cell.covariance);
+  cell.structure = turned(cell.structure);
+  return cell;
+}
+
 NdtMap NdtMap::coarser(int factor) const
 {
   NdtOptions options = options_;
   options.cell_size *= factor;
   check(options);
-  return {options, cell_quanta_ * factor, coarserBins(bins_, cell_quanta_, factor)};
+  NdtMap coarse(options);
+  coarse.grid_R_points_ = grid_R_points_;
+  coarse.cell_quanta_ = cell_quanta_ * factor;
+  coarse.combine(coarserBins(bins_, cell_quanta_, factor), &Moments::operator+=);
+  return coarse;
 }
 
 void NdtMap::combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(const Moments&))
@@ -202,7 +234,7 @@ void NdtMap::combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(
              points[i] = {bin.moments, cornerOf(bin, edge())};
            }
            const auto gaussians = gaussiansOf(points.data(), count, edge(), options_.min_deviation);
-           for (std::size_t i = 0; i < count; ++i) cells[changed[first + i].cell] = gaussians[i];
+           for (std::size_t i = 0; i < count; ++i) cells[changed[first + i].cell] = inPointsFrame(gaussians[i]);
          });
   bins_ = std::move(bins);
   cells_ = std::move(cells);
@@ -211,6 +243,7 @@ void NdtMap::combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(
 
 void NdtMap::requireSameCells(const BinnedPoints& points) const
 {
+  if (grid_R_points_) throw std::invalid_argument("NdtMap: points cannot be added to a turned grid, or removed");
   if (cell_quanta_ == points.cell_quanta) return;
   throw std::invalid_argument(fmt::format("NdtMap: cells of {} m do not add to cells of {} m: give both one cell_size",
                                           edgeOf(points.cell_quanta), options_.cell_size));
@@ -278,8 +311,9 @@ std::size_t NdtMap::findAround(const Eigen::Vector3i& index, int neighbours, std
   return static_cast<std::size_t>(end - found);
 }
 
-Eigen::Vector3i NdtMap::indexOf(const Eigen::Vector3d& point) const
+Eigen::Vector3i NdtMap::indexOf(const Eigen::Vector3d& in_points_frame) const
 {
+  const Eigen::Vector3d point = grid_R_points_ ? *grid_R_points_ * in_points_frame : in_points_frame;
   const double reach = static_cast<double>((CellKey::kLimit - 1) * cell_quanta_) * Moments::kQuantum;
   const DividedBy cellOf(cell_quanta_);
   const auto index = [&](double coordinate)

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace scanloom
@@ -42,6 +43,20 @@ struct NdtOptions
 BinnedPoints binned(const std::vector<View>&, const NdtOptions&);
 
 /**
+ * How the cubes of a map lie in the frame of its points: along the axes, or turned against them.
+ *
+ * Where structure fills cells, as leaves do, their means follow the grid, not the world. If the grids of map and scan
+ * are parallel, all of the scan's cells lie off the map's by the same shift, and together they pull towards where both
+ * grids coincide: up to 3 cm in a dense stand, with the period of the cells (doc/study/localisation.md#turned-grids).
+ * Between grids that are turned against each other the shift differs from cell to cell, and the pulls cancel.
+ */
+enum class Grid
+{
+  Straight,
+  Turned,  // by 30 deg about z, 19 deg about x: for scans that are registered to a map with a straight grid
+};
+
+/**
  * Sums of points per cell, and the Gaussians of the cells that have enough points.
  *
  * The same points give the same bits in any order, whether added at once or map by map, on any number of threads (see
@@ -55,8 +70,8 @@ class NdtMap
   explicit NdtMap(const NdtOptions&);
   NdtMap(const PointCloud&, const NdtOptions&);
   NdtMap(const std::vector<Eigen::Vector3f>&, const NdtOptions&);
-  /** Of binned(). */
-  NdtMap(const std::vector<View>&, const NdtOptions&);
+  /** Of binned(). In a turned grid, cells() are still in the frame of the points; points cannot be added. */
+  NdtMap(const std::vector<View>&, const NdtOptions&, Grid = Grid::Straight);
 
   /**
    * Adds or removes points of the same frame; only their cells are computed anew. Throws std::invalid_argument if the
@@ -90,8 +105,7 @@ class NdtMap
     std::uint32_t first = 0;
   };
 
-  NdtMap(const NdtOptions&, std::int64_t cell_quanta, const std::vector<Bin>&);
-
+  GaussianCell inPointsFrame(GaussianCell) const;
   void combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(const Moments&));
   void requireSameCells(const BinnedPoints&) const;
   bool hasGaussian(const Bin& bin) const { return bin.moments.n >= options_.min_points; }
@@ -99,8 +113,9 @@ class NdtMap
   void indexBlocks();
 
   NdtOptions options_;
-  std::int64_t cell_quanta_;  // edge of a cell in Moments::kQuantum
-  std::vector<Bin> bins_;     // sorted by key, also those with too few points
+  std::optional<Eigen::Matrix3d> grid_R_points_;  // none: straight
+  std::int64_t cell_quanta_;                      // edge of a cell in Moments::kQuantum
+  std::vector<Bin> bins_;                         // sorted by key, also those with too few points
   std::vector<GaussianCell> cells_;
   tsl::robin_map<std::uint64_t, Block, KeyHash> blocks_;  // only looked up, never iterated
   std::size_t points_ = 0;

@@ -62,6 +62,14 @@ SCANLOOM_INLINE double total(const Lanes& v)
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }
 
+/**
+ * Where one cell is thin along z and the other thick, one side has seen the ground and the other also what grows on it:
+ * their means differ by a part of the difference of their deviations. As a variance, (s - t)^2 (s + t)^2 / (s^2 + t^2)
+ * of deviations s and t, times this and d2: fitted to drives, at d2 = 1 (doc/study/localisation.md#mixtures). Wide
+ * scores, for starts that are far away, need all pairs to find the way.
+ */
+constexpr double kMixture = 4;
+
 /** See PairSums: e, B and u = Bm. */
 struct PairTerms
 {
@@ -76,7 +84,9 @@ SCANLOOM_INLINE void termsOf(const TurnedCell& s, const TargetBlock& block, doub
   load(block.xx, xx), load(block.xy, xy), load(block.xz, xz);
   load(block.yy, yy), load(block.yz, yz), load(block.zz, zz);
   x = s.x - x, y = s.y - y, z = s.z - z;
+  const Lanes apart = s.zz - zz;
   xx = s.xx + xx, xy = s.xy + xy, xz = s.xz + xz, yy = s.yy + yy, yz = s.yz + yz, zz = s.zz + zz;
+  zz += kMixture * d2 * apart * apart / zz;
 
   // The inverse of a symmetric 3x3 by its cofactors.
   SymmetricLanes& b = terms.b;

@@ -15,7 +15,7 @@ namespace
 constexpr double kSlimness = 2;       // length over width, as standard deviations
 constexpr double kMostRadius = 0.3;   // m
 constexpr double kLeastAcross = 0.3;  // of the line of sight's unit vector, across the axis
-constexpr double kSteep = 0.8;        // vertical part of the axis of a stem
+constexpr double kSteep = 0.8;        // upward part of the axis of a stem
 constexpr double kNear = 12;          // m: two columns or more of most lidars hit a stem of 20 cm
 constexpr double kRangeNoise = 0.04;  // m, standard deviation, of weak returns
 
@@ -48,7 +48,7 @@ double depthOfAxis(double sideways, double along_view)
 
 /** Nothing for a body that is too thick, or seen along its axis. */
 std::optional<ThinBody> thinBodyOf(const MeanAndCovariance& seen, const EigenBlock& eigen, std::size_t lane,
-                                   const Eigen::Vector3d& viewpoint)
+                                   const Eigen::Vector3d& viewpoint, const Eigen::Vector3d& up)
 {
   const Eigen::Vector3d variances = eigen.valuesOf(lane);
   Eigen::Index longest = 0;
@@ -63,7 +63,7 @@ std::optional<ThinBody> thinBodyOf(const MeanAndCovariance& seen, const EigenBlo
   const double variance = sideways.dot(seen.covariance * sideways);
   if (3 * variance > kMostRadius * kMostRadius) return std::nullopt;
   return ThinBody{depthOfAxis(variance, towards.dot(seen.covariance * towards)) * towards, range,
-                  std::abs(axis.z()) > kSteep};
+                  std::abs(axis.dot(up)) > kSteep};
 }
 
 using Bodies = std::vector<std::optional<ThinBody>>;
@@ -72,7 +72,10 @@ using Bodies = std::vector<std::optional<ThinBody>>;
 class Candidates
 {
  public:
-  Candidates(const Eigen::Vector3d& viewpoint, Bodies& bodies) : viewpoint_(viewpoint), bodies_(bodies) {}
+  Candidates(const Eigen::Vector3d& viewpoint, const Eigen::Vector3d& up, Bodies& bodies)
+    : viewpoint_(viewpoint), up_(up), bodies_(bodies)
+  {
+  }
 
   void add(std::size_t bin, const MeanAndCovariance& seen)
   {
@@ -86,12 +89,13 @@ class Candidates
     if (count_ == 0) return;
     EigenBlock eigen;
     eigensystemsOf(covariances_, eigen);
-    for (std::size_t i = 0; i < count_; ++i) bodies_[bins_[i]] = thinBodyOf(seen_[i], eigen, i, viewpoint_);
+    for (std::size_t i = 0; i < count_; ++i) bodies_[bins_[i]] = thinBodyOf(seen_[i], eigen, i, viewpoint_, up_);
     count_ = 0;
   }
 
  private:
   const Eigen::Vector3d& viewpoint_;
+  const Eigen::Vector3d& up_;
   Bodies& bodies_;
   std::size_t count_ = 0;
   std::array<std::size_t, SymmetricBlock::kLanes> bins_;
@@ -100,14 +104,15 @@ class Candidates
 };
 
 /** By bin. */
-Bodies thinBodiesOf(const std::vector<Bin>& bins, double edge, const Eigen::Vector3d& viewpoint, int least_points)
+Bodies thinBodiesOf(const std::vector<Bin>& bins, double edge, const Eigen::Vector3d& viewpoint,
+                    const Eigen::Vector3d& up, int least_points)
 {
   constexpr std::size_t kPart = 128;  // bins, about 20 us
   Bodies bodies(bins.size());
   forAll((bins.size() + kPart - 1) / kPart, 1,
          [&](std::size_t part)
          {
-           Candidates candidates(viewpoint, bodies);
+           Candidates candidates(viewpoint, up, bodies);
            for (std::size_t i = part * kPart; i < std::min((part + 1) * kPart, bins.size()); ++i)
            {
              if (bins[i].moments.n < least_points) continue;
@@ -134,19 +139,20 @@ double typicalDepth(const Bodies& bodies, const std::vector<Bin>& bins, int leas
   return sum / stems;
 }
 
-/** Unit vector from the viewpoint to the points, without its vertical part. */
-Eigen::Vector3d levelView(const Bin& bin, double edge, const Eigen::Vector3d& viewpoint)
+/** Unit vector from the viewpoint to the points, without its part along `up`. */
+Eigen::Vector3d levelView(const Bin& bin, double edge, const Eigen::Vector3d& viewpoint, const Eigen::Vector3d& up)
 {
   const Eigen::Vector3d view = meanOf(bin, edge) - viewpoint;
-  return Eigen::Vector3d(view.x(), view.y(), 0).normalized();
+  return (view - view.dot(up) * up).normalized();
 }
 }  // namespace
 
-void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points)
+void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint,
+                const Eigen::Vector3d& up, int least_points)
 {
   constexpr std::size_t kGrain = 128;
   const double edge = edgeOf(cell_quanta);
-  const Bodies bodies = thinBodiesOf(bins, edge, viewpoint, least_points);
+  const Bodies bodies = thinBodiesOf(bins, edge, viewpoint, up, least_points);
   const double typical = typicalDepth(bodies, bins, least_points);
   forAll(bins.size(), kGrain,
          [&](std::size_t i)
@@ -154,7 +160,7 @@ void moveToAxes(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::V
            if (bodies[i])
              moveBy(bodies[i]->to_axis, bins[i]);
            else if (bins[i].moments.n < least_points)
-             moveBy(typical * levelView(bins[i], edge, viewpoint), bins[i]);
+             moveBy(typical * levelView(bins[i], edge, viewpoint, up), bins[i]);
          });
 }
 }  // namespace scanloom

@@ -25,9 +25,10 @@ namespace scanloom
  * seen along their axis stay. A strip of a wall that the grid cuts off is moved, too, in map and scan alike.
  *
  * Fewer points than `least_points` show neither width nor depth. Most of what is far away has no more: without a
- * correction it alone makes a drive 0.2 % too short. They are moved away from the viewpoint, horizontally (z is up,
- * roughly), by the mean depth of the stems within 12 m, where ten stems of 3 cm are counted in, since a dense stand
- * shows few.
+ * correction it alone makes a drive 0.2 % too short. They are moved away from the viewpoint, horizontally (across `up`,
+ * which is so roughly), by the mean depth of the stems within 12 m, where ten stems of 3 cm are counted in, since a
+ * dense stand shows few.
  */
-void moveToAxes(std::vector<Bin>&, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points);
+void moveToAxes(std::vector<Bin>&, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint,
+                const Eigen::Vector3d& up, int least_points);
 }  // namespace scanloom

@@ -117,14 +117,14 @@ RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& v
   if (guess.covariance && !isWithinReach(guess, options.scan_cells))
     return times.measure("rough_alignment",
                          [&] { return Pyramid(map, views, options.fine_cells).align(guess, options.rough); });
-  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.scan_cells); });
+  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.scan_cells, Grid::Turned); });
   return times.measure("rough_alignment", [&] { return align(map, scan, guess.target_T_source, options.rough); });
 }
 
 RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& views, const Rigid& start,
                                   const ScanRegistrationOptions& options, StageTimes& times)
 {
-  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.fine_cells); });
+  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.fine_cells, Grid::Turned); });
   return times.measure("fine_alignment", [&] { return align(map, scan, start, options.fine); });
 }
 

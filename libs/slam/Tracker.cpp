@@ -363,7 +363,7 @@ void Tracker::addKeyframe(const Seen& seen, TrackerState& state, StateEstimate& 
   Matrix6d alignment = state.smoother.newestBodyCovariance();
   if (!state.local_map.empty())
   {
-    const NdtMap source(seen.views, settings_.keyframe_cells);
+    const NdtMap source(seen.views, settings_.keyframe_cells, Grid::Turned);
     const PoseGuess guess(estimated, alignment);
     const RegistrationResult fine = align(state.local_map.ndt(), source, guess, settings_.registration.fine);
     if (fine.trustworthy())

@@ -62,6 +62,15 @@ TEST(D2dCost, hasTheHessianOfItsGradient)
                 });
 }
 
+/** The target with M of doc/registration.md in its covariance, held as at the pose; d2 = 0.05. */
+GaussianCell withMixture(GaussianCell target, const GaussianCell& source, const Rigid& target_T_source)
+{
+  const Eigen::Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
+  const double a = (rotation * source.covariance * rotation.transpose())(2, 2), b = target.covariance(2, 2);
+  target.covariance(2, 2) += 4 * 0.05 * (a - b) * (a - b) / (a + b);
+  return target;
+}
+
 TEST(NormalEquations, agreeWithTheExactCost)
 {
   const Rigid pose = Rigid::fromXyzYawPitchRoll(0.1, 0.05, 0.02, 0.01, 0, 0);
@@ -72,7 +81,8 @@ TEST(NormalEquations, agreeWithTheExactCost)
   neighbourhoods.moveTo(pose);
   std::vector<CellPair> pairs;
   for (std::size_t i = 0; i < source.cells().size(); ++i)
-    for (const auto j : neighbourhoods.of(i)) pairs.push_back({target.cells()[j], source.cells()[i]});
+    for (const auto j : neighbourhoods.of(i))
+      pairs.push_back({withMixture(target.cells()[j], source.cells()[i], pose), source.cells()[i]});
 
   const NormalEquations fast = normalEquations(neighbourhoods, pose, 0.05);
   const D2dCost exact = d2dCost(pairs, pose, 0.05);

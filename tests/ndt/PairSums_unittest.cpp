@@ -26,6 +26,17 @@ Eigen::Matrix3d matrixOf(double xx, double xy, double xz, double yy, double yz, 
   return (Eigen::Matrix3d() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
 }
 
+constexpr double kD2 = 0.05;
+
+/** B of a pair, by the formula of doc/registration.md. */
+Eigen::Matrix3d inverseOfBoth(const TurnedCell& s, const TargetBlock& t, std::size_t k)
+{
+  Eigen::Matrix3d both =
+      matrixOf(s.xx, s.xy, s.xz, s.yy, s.yz, s.zz) + matrixOf(t.xx[k], t.xy[k], t.xz[k], t.yy[k], t.yz[k], t.zz[k]);
+  both(2, 2) += 4 * kD2 * (s.zz - t.zz[k]) * (s.zz - t.zz[k]) / (s.zz + t.zz[k]);
+  return both.inverse();
+}
+
 Pairs randomPairs()
 {
   std::mt19937_64 random(3);
@@ -95,9 +106,7 @@ TEST(PairSums, areThoseOfTheFormulaPairByPair)
       {
         const TargetBlock& t = pairs.blocks[pairs.ranges[i].first + block];
         const Eigen::Vector3d m = Eigen::Vector3d(s.x, s.y, s.z) - Eigen::Vector3d(t.x[k], t.y[k], t.z[k]);
-        const Eigen::Matrix3d b = (matrixOf(s.xx, s.xy, s.xz, s.yy, s.yz, s.zz) +
-                                   matrixOf(t.xx[k], t.xy[k], t.xz[k], t.yy[k], t.yz[k], t.zz[k]))
-                                      .inverse();
+        const Eigen::Matrix3d b = inverseOfBoth(s, t, k);
         const double e = std::exp(-0.025 * m.dot(b * m));
         score += e;
         best = std::max(best, e);
@@ -161,9 +170,7 @@ TEST(PairEvidence, isThatOfTheFormulaPairByPair)
         const SymmetricBlock& x = structures[pairs.ranges[i].first + block];
         const Eigen::Matrix3d thin = matrixOf(x.xx[k], x.xy[k], x.xz[k], x.yy[k], x.yz[k], x.zz[k]);
         const Eigen::Vector3d m = Eigen::Vector3d(s.x, s.y, s.z) - Eigen::Vector3d(t.x[k], t.y[k], t.z[k]);
-        const Eigen::Matrix3d b = (matrixOf(s.xx, s.xy, s.xz, s.yy, s.yz, s.zz) +
-                                   matrixOf(t.xx[k], t.xy[k], t.xz[k], t.yy[k], t.yz[k], t.zz[k]))
-                                      .inverse();
+        const Eigen::Matrix3d b = inverseOfBoth(s, t, k);
         const double w = 0.05 * std::exp(-0.025 * m.dot(b * m));
         force += w * b * m;
         weight += w * b;

@@ -174,7 +174,7 @@ TEST(ThinBodies, wallsAndFoliageStay)
   constexpr std::int64_t kMetre = 65536;
   const std::vector<Bin> before = countInto({&points[0].x(), &points[0].y(), &points[0].z(), 3, points.size()}, kMetre);
   std::vector<Bin> after = before;
-  moveToAxes(after, kMetre, {10, 0.5, 0.5}, 4);
+  moveToAxes(after, kMetre, {10, 0.5, 0.5}, Eigen::Vector3d::UnitZ(), 4);
   ASSERT_EQ(after.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(after[i].moments.x, before[i].moments.x);
 }
