@@ -86,10 +86,7 @@ int splitAxis(std::int64_t index, Spread&& spread, std::array<AxisInBlock, 2>& p
   }
   return count;
 }
-}  // namespace
 
-namespace
-{
 /** `up`: in the frame of the views. */
 BinnedPoints binned(const std::vector<View>& views, const Eigen::Vector3d& up, const NdtOptions& options)
 {

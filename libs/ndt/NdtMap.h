@@ -53,7 +53,7 @@ BinnedPoints binned(const std::vector<View>&, const NdtOptions&);
 enum class Grid
 {
   Straight,
-  Turned,  // by 30 deg about z, 19 deg about x: for scans that are registered to a map with a straight grid
+  Turned,  // by 31 deg about z, 19 deg about x: for scans that are registered to a map with a straight grid
 };
 
 /**

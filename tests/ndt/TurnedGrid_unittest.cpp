@@ -84,7 +84,7 @@ TEST(TurnedGrid, findsTheCellOfAPoint)
   EXPECT_EQ(own, static_cast<int>(map.cells().size()));
 }
 
-TEST(TurnedGrid, ofFewerSizesHasTheSamePointsInLargerCells)
+TEST(TurnedGrid, hasAllPointsInLargerCellsToo)
 {
   const NdtMap map({crownsFrom(0, 2)}, {}, Grid::Turned);
   const NdtMap coarse = map.coarser(2);
