@@ -80,7 +80,7 @@ std::vector<Bin> sortedBins(const KeyIndex& cells, MomentsOf&& moments_of)
   return bins;
 }
 
-std::vector<Bin> countPart(const Coordinates& points, std::int64_t cell_quanta)
+std::vector<Bin> countPart(const Coordinates& points, std::int64_t cell_quanta, const Eigen::Matrix3d& grid_R_points)
 {
   KeyIndex cells;
   std::vector<CentredSums> sums;
@@ -88,7 +88,7 @@ std::vector<Bin> countPart(const Coordinates& points, std::int64_t cell_quanta)
   for (std::size_t begin = 0; begin < points.count; begin += PointCells::kPoints)
   {
     const Coordinates batch = points.part(begin, PointCells::kPoints);
-    locate(batch, cell_quanta, located);
+    locate(batch, cell_quanta, grid_R_points, located);
     for (std::size_t i = 0; i < batch.count; ++i)
     {
       if (located.key[i] == PointCells::kNowhere) continue;
@@ -103,13 +103,14 @@ std::vector<Bin> countPart(const Coordinates& points, std::int64_t cell_quanta)
 }
 }  // namespace
 
-std::vector<Bin> countInto(const Coordinates& points, std::int64_t cell_quanta)
+std::vector<Bin> countInto(const Coordinates& points, std::int64_t cell_quanta, const Eigen::Matrix3d& grid_R_points)
 {
   constexpr std::size_t kPart = CentredSums::kMostPoints;
   const std::size_t parts = (points.count + kPart - 1) / kPart;
   std::vector<std::vector<Bin>> counted(parts);
   tbb::parallel_for(std::size_t{0}, parts,
-                    [&](std::size_t i) { counted[i] = countPart(points.part(i * kPart, kPart), cell_quanta); });
+                    [&](std::size_t i)
+                    { counted[i] = countPart(points.part(i * kPart, kPart), cell_quanta, grid_R_points); });
   std::vector<Bin> all;
   for (std::vector<Bin>& part : counted) all = all.empty() ? std::move(part) : sumOf(all, part);
   return all;

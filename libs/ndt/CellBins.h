@@ -51,10 +51,12 @@ struct Coordinates
 };
 
 /**
- * Bins sorted by key, as all are here. Points that are not finite or too far for an index are left out. Parts of the
- * points are counted in parallel; the sums are of integers, so they do not depend on the parts.
+ * Bins sorted by key, as all are here, of a grid into whose frame `grid_R_points` turns the points. Points that are not
+ * finite or too far for an index are left out. Parts of the points are counted in parallel; the sums are of integers,
+ * so they do not depend on the parts.
  */
-std::vector<Bin> countInto(const Coordinates&, std::int64_t cell_quanta);
+std::vector<Bin> countInto(const Coordinates&, std::int64_t cell_quanta,
+                           const Eigen::Matrix3d& grid_R_points = Eigen::Matrix3d::Identity());
 
 std::vector<Bin> sumOf(const std::vector<Bin>&, const std::vector<Bin>&);
 

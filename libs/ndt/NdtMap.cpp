@@ -87,9 +87,9 @@ int splitAxis(std::int64_t index, Spread&& spread, std::array<AxisInBlock, 2>& p
   return count;
 }
 
-/** `up`: in the frame of the views. */
-BinnedPoints binned(const std::vector<View>& views, const Eigen::Vector3d& up, const NdtOptions& options)
+BinnedPoints binned(const std::vector<View>& views, const Eigen::Matrix3d& grid_R_points, const NdtOptions& options)
 {
+  const Eigen::Vector3d up = grid_R_points.col(2);
   const std::int64_t cell_quanta = quantaOfCell(options);
   const int least_points = std::max(options.min_points, GaussianCell::kMinPointsForCovariance);
   std::vector<std::vector<Bin>> counted(views.size());
@@ -97,10 +97,11 @@ BinnedPoints binned(const std::vector<View>& views, const Eigen::Vector3d& up, c
                     [&](std::size_t i)
                     {
                       const View& view = views[i];
-                      counted[i] = countInto(coordinatesOf(view.points), cell_quanta);
+                      counted[i] = countInto(coordinatesOf(view.points), cell_quanta, grid_R_points);
                       if (!view.viewpoint) return;
-                      moveToAxes(counted[i], cell_quanta, *view.viewpoint, up, least_points);
-                      undoFading(counted[i], cell_quanta, *view.viewpoint, least_points);
+                      const Eigen::Vector3d viewpoint = grid_R_points * *view.viewpoint;
+                      moveToAxes(counted[i], cell_quanta, viewpoint, up, least_points);
+                      undoFading(counted[i], cell_quanta, viewpoint, least_points);
                     });
   std::vector<Bin> all;
   for (std::vector<Bin>& bins : counted) all = all.empty() ? std::move(bins) : sumOf(all, bins);
@@ -109,13 +110,13 @@ BinnedPoints binned(const std::vector<View>& views, const Eigen::Vector3d& up, c
 
 /** Small whole numbers, so that every processor has the same rotation; no axis of one grid is along one of the other.
  */
-Eigen::Quaterniond turnedFromPoints() { return Eigen::Quaterniond(18, 3, 1, 5).normalized(); }
+Eigen::Matrix3d turnedFromPoints() { return Eigen::Quaterniond(18, 3, 1, 5).normalized().toRotationMatrix(); }
 }  // namespace
 
 BinnedPoints binned(const std::vector<View>& views, const NdtOptions& options)
 {
   check(options);
-  return binned(views, Eigen::Vector3d::UnitZ(), options);
+  return binned(views, Eigen::Matrix3d::Identity(), options);
 }
 
 NdtMap::NdtMap(const NdtOptions& options) : options_((check(options), options)), cell_quanta_(quantaOfCell(options)) {}
@@ -137,12 +138,8 @@ NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options, Grid g
     add(binned(views, options));
     return;
   }
-  const Eigen::Quaterniond turned = turnedFromPoints();
-  grid_R_points_ = turned.toRotationMatrix();
-  std::vector<View> in_grid(views.size());
-  constexpr std::size_t kGrain = 1;  // views
-  forAll(views.size(), kGrain, [&](std::size_t i) { in_grid[i] = movedBy({turned, {0, 0, 0}}, views[i]); });
-  combine(binned(in_grid, turned * Eigen::Vector3d::UnitZ(), options_).bins, &Moments::operator+=);
+  grid_R_points_ = turnedFromPoints();
+  combine(binned(views, *grid_R_points_, options_).bins, &Moments::operator+=);
 }
 
 void NdtMap::add(const BinnedPoints& points)

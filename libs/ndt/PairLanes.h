@@ -86,14 +86,16 @@ SCANLOOM_INLINE void termsOf(const TurnedCell& s, const TargetBlock& block, doub
   x = s.x - x, y = s.y - y, z = s.z - z;
   const Lanes apart = s.zz - zz;
   xx = s.xx + xx, xy = s.xy + xy, xz = s.xz + xz, yy = s.yy + yy, yz = s.yz + yz, zz = s.zz + zz;
-  zz += kMixture * d2 * apart * apart / zz;
 
-  // The inverse of a symmetric 3x3 by its cofactors.
+  // With M, the variance along z is q / zz. The inverse of a symmetric 3x3 by its cofactors, all of them times zz, so
+  // that one division does.
   SymmetricLanes& b = terms.b;
-  const Lanes cxx = yy * zz - yz * yz, cxy = xz * yz - xy * zz, cxz = xy * yz - xz * yy;
+  const Lanes q = zz * zz + (kMixture * d2) * (apart * apart), xz_zz = xz * zz, yz_zz = yz * zz;
+  const Lanes cxx = yy * q - yz * yz_zz, cxy = xz * yz_zz - xy * q, cxz = xy * yz_zz - yy * xz_zz;
   const Lanes inverse = 1 / (xx * cxx + xy * cxy + xz * cxz);
   b.xx = inverse * cxx, b.xy = inverse * cxy, b.xz = inverse * cxz;
-  b.yy = inverse * (xx * zz - xz * xz), b.yz = inverse * (xy * xz - xx * yz), b.zz = inverse * (xx * yy - xy * xy);
+  b.yy = inverse * (xx * q - xz * xz_zz), b.yz = inverse * (xy * xz_zz - xx * yz_zz);
+  b.zz = inverse * (zz * (xx * yy - xy * xy));
   terms.ux = b.xx * x + b.xy * y + b.xz * z;
   terms.uy = b.xy * x + b.yy * y + b.yz * z;
   terms.uz = b.xz * x + b.yz * y + b.zz * z;

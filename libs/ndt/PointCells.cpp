@@ -27,12 +27,11 @@ struct Cells
 {
   double edge, inverse_edge, centre;
   std::uint64_t bits_of_reach;
+  double turn[3][3];  // from points to the grid
 };
 
-INLINE void along(double* place, const Cells& cells, Axis& axis)
+INLINE void along(const Lanes& v, const Cells& cells, double* place, Axis& axis)
 {
-  Lanes v;
-  std::memcpy(&v, place, sizeof v);
   const Lanes quanta = (v * (1 / Moments::kQuantum) + kRound) - kRound;
 
   // Half a quantum off a boundary, a quotient is farther from a whole number (2^-21) than its rounding error (2^-31).
@@ -50,12 +49,17 @@ INLINE void along(double* place, const Cells& cells, Axis& axis)
 
 INLINE void locateAll(std::size_t count, const Cells& cells, PointCells& located)
 {
+  const auto& turn = cells.turn;
   for (std::size_t i = 0; i < count; i += kLanes)
   {
+    Lanes px, py, pz;
+    std::memcpy(&px, located.x + i, sizeof px);
+    std::memcpy(&py, located.y + i, sizeof py);
+    std::memcpy(&pz, located.z + i, sizeof pz);
     Axis x, y, z;
-    along(located.x + i, cells, x);
-    along(located.y + i, cells, y);
-    along(located.z + i, cells, z);
+    along(turn[0][0] * px + turn[0][1] * py + turn[0][2] * pz, cells, located.x + i, x);
+    along(turn[1][0] * px + turn[1][1] * py + turn[1][2] * pz, cells, located.y + i, y);
+    along(turn[2][0] * px + turn[2][1] * py + turn[2][2] * pz, cells, located.z + i, z);
     Bits key;
     CellKey::compose(x.biased, y.biased, z.biased, key);
     key |= ((x.fits & y.fits & z.fits) >> 63) - 1;
@@ -89,12 +93,15 @@ SCANLOOM_AVX512 void locateAvx512(std::size_t count, const Cells& cells, PointCe
 }
 }  // namespace
 
-void locate(const Coordinates& points, std::int64_t cell_quanta, PointCells& located, Kernel kernel)
+void locate(const Coordinates& points, std::int64_t cell_quanta, const Eigen::Matrix3d& grid_R_points,
+            PointCells& located, Kernel kernel)
 {
   const auto edge = static_cast<double>(cell_quanta);
   const double reach = static_cast<double>(CellKey::kLimit - 1) * edge * Moments::kQuantum;
-  Cells cells{edge, 1 / edge, static_cast<double>(PointCells::centreOf(cell_quanta)), 0};
+  Cells cells{edge, 1 / edge, static_cast<double>(PointCells::centreOf(cell_quanta)), 0, {}};
   std::memcpy(&cells.bits_of_reach, &reach, sizeof reach);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) cells.turn[row][column] = grid_R_points(row, column);
   widen(points, located);
   switch (kernel)
   {

@@ -20,6 +20,10 @@ struct PointCells
   alignas(64) std::uint64_t key[kPoints];                 // kNowhere: not finite, or too far for an index
 };
 
-/** At most kPoints points; places after them are undefined. The bits are the same for every kernel. */
-void locate(const Coordinates&, std::int64_t cell_quanta, PointCells&, Kernel = widestKernel());
+/**
+ * At most kPoints points, which `grid_R_points` turns into the frame of the grid; places after them are undefined. The
+ * bits are the same for every kernel.
+ */
+void locate(const Coordinates&, std::int64_t cell_quanta, const Eigen::Matrix3d& grid_R_points, PointCells&,
+            Kernel = widestKernel());
 }  // namespace scanloom

@@ -11,6 +11,7 @@ namespace scanloom
 namespace
 {
 constexpr double kSecondsPerHour = 3600;
+constexpr double kInstantsPerSecond = 1600;
 
 Eigen::Vector3d normalVector(Random& random)
 {
@@ -62,16 +63,31 @@ std::vector<ImuStream::Sample> ImuStream::before(Timestamp until)
   return samples;
 }
 
+ImuSample ImuStream::meanReading(Timestamp truth) const
+{
+  const double step = 1 / setup_.errors.rate;
+  const int instants = std::max(1, static_cast<int>(std::lround(kInstantsPerSecond * step)));
+  const Eigen::Quaterniond imu_R_body = setup_.body_T_imu.rotation.conjugate();
+  ImuSample mean{truth, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  for (int i = 0; i < instants; ++i)
+  {
+    const double t = span_.secondsAt(truth) + ((i + 0.5) / instants - 0.5) * step;
+    const ImuSample reading = idealImuSample(drive_.at(t), setup_.body_T_imu, truth);
+    mean.gyro += reading.gyro / instants;
+    mean.accel += reading.accel / instants;
+    if (!setup_.mount.isStill()) mean.accel += imu_R_body * setup_.mount.accelerationAt(t) / instants;
+  }
+  return mean;
+}
+
 ImuStream::Sample ImuStream::next()
 {
   const SimulatedImuOptions& errors = setup_.errors;
   const double step = 1 / errors.rate;
   const Timestamp truth = setup_.first + fromSeconds(static_cast<double>(index_) * step);
   Random random(seed_, setup_.stream, setup_.place, index_++);
-  ImuSample reading =
-      idealImuSample(drive_.at(span_.secondsAt(truth)), setup_.body_T_imu, setup_.clock.stamp(truth, span_.start));
-  if (!setup_.mount.isStill())
-    reading.accel += setup_.body_T_imu.rotation.conjugate() * setup_.mount.accelerationAt(span_.secondsAt(truth));
+  ImuSample reading = meanReading(truth);
+  reading.stamp = setup_.clock.stamp(truth, span_.start);
   reading.gyro +=
       turn_on_.gyro + gyro_wander_ + kDegree * errors.gyro_noise_deg / std::sqrt(step) * normalVector(random);
   reading.accel += turn_on_.accel + accel_wander_ + errors.accel_noise / std::sqrt(step) * normalVector(random);

@@ -86,7 +86,11 @@ struct ImuSetup
   EngineVibration mount{};  // its vibration beside that of the body, along the body's axes
 };
 
-/** The samples of one IMU, in time order. */
+/**
+ * The samples of one IMU, in time order. A reading is the mean over the time between two readings, half of it before
+ * the stamp and half after: an IMU samples much faster than it reports, so that vibration faster than its rate is
+ * damped instead of showing as slow motion.
+ */
 class ImuStream
 {
  public:
@@ -107,6 +111,7 @@ class ImuStream
 
  private:
   Sample next();
+  ImuSample meanReading(Timestamp truth) const;
 
   const Drive& drive_;
   RecordingSpan span_;

@@ -43,7 +43,7 @@ TEST(PointCells, areThoseOfIntegerDivisionForEveryKernelAndAnyNumberOfPoints)
     {
       const Coordinates points = triples(values).part(values.size() / 3 - count, count);
       PointCells located;
-      locate(points, kEdge, located, kernel);
+      locate(points, kEdge, Eigen::Matrix3d::Identity(), located, kernel);
       for (std::size_t i = 0; i < points.count; ++i)
       {
         const float x = points.x[3 * i], y = points.y[3 * i], z = points.z[3 * i];
@@ -61,6 +61,30 @@ TEST(PointCells, areThoseOfIntegerDivisionForEveryKernelAndAnyNumberOfPoints)
         EXPECT_EQ(located.z[i], static_cast<double>(qz - cz * kEdge - centre));
       }
     }
+}
+
+TEST(PointCells, ofATurnedGridAreThoseOfTurnedPointsForEveryKernel)
+{
+  // Of whole numbers and exact in binary: a quarter turn about each of z and x.
+  const Eigen::Matrix3d turn = (Eigen::Matrix3d() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished();
+  const auto values = coordinates(300);
+  std::vector<float> turned;
+  for (std::size_t i = 0; i < values.size(); i += 3)
+    for (const float v : {-values[i + 1], -values[i + 2], values[i]}) turned.push_back(v);
+  for (const Kernel kernel : runnableKernels())
+  {
+    PointCells by_locate, before;
+    locate(triples(values), kEdge, turn, by_locate, kernel);
+    locate(triples(turned), kEdge, Eigen::Matrix3d::Identity(), before, kernel);
+    for (std::size_t i = 0; i < values.size() / 3; ++i)
+    {
+      EXPECT_EQ(by_locate.key[i], before.key[i]);
+      if (before.key[i] == PointCells::kNowhere) continue;
+      EXPECT_EQ(by_locate.x[i], before.x[i]);
+      EXPECT_EQ(by_locate.y[i], before.y[i]);
+      EXPECT_EQ(by_locate.z[i], before.z[i]);
+    }
+  }
 }
 
 TEST(KeyIndex, numbersKeysInTheOrderOfTheirFirstUseHoweverMany)
