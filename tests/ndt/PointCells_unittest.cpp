@@ -65,7 +65,7 @@ TEST(PointCells, areThoseOfIntegerDivisionForEveryKernelAndAnyNumberOfPoints)
 
 TEST(PointCells, ofATurnedGridAreThoseOfTurnedPointsForEveryKernel)
 {
-  // Of whole numbers and exact in binary: a quarter turn about each of z and x.
+  // Exact: a third of a turn about a diagonal of the cubes.
   const Eigen::Matrix3d turn = (Eigen::Matrix3d() << 0, -1, 0, 0, 0, -1, 1, 0, 0).finished();
   const auto values = coordinates(300);
   std::vector<float> turned;
