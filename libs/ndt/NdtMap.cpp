@@ -133,13 +133,9 @@ NdtMap::NdtMap(const std::vector<Eigen::Vector3f>& points, const NdtOptions& opt
 
 NdtMap::NdtMap(const std::vector<View>& views, const NdtOptions& options, Grid grid) : NdtMap(options)
 {
-  if (grid == Grid::Straight)
-  {
-    add(binned(views, options));
-    return;
-  }
-  grid_R_points_ = turnedFromPoints();
-  combine(binned(views, *grid_R_points_, options_).bins, &Moments::operator+=);
+  if (grid == Grid::Turned) grid_R_points_ = turnedFromPoints();
+  const Eigen::Matrix3d grid_R_points = grid_R_points_.value_or(Eigen::Matrix3d::Identity());
+  combine(binned(views, grid_R_points, options).bins, &Moments::operator+=);
 }
 
 void NdtMap::add(const BinnedPoints& points)

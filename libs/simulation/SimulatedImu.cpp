@@ -11,7 +11,7 @@ namespace scanloom
 namespace
 {
 constexpr double kSecondsPerHour = 3600;
-constexpr double kInstantsPerSecond = 1600;
+constexpr double kInstantsPerSecond = 1600;  // that an IMU samples and averages (assumed)
 
 Eigen::Vector3d normalVector(Random& random)
 {
