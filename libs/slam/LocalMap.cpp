@@ -1,18 +1,27 @@
 #include "slam/LocalMap.h"
 
-#include "core/Matrix6.h"
-#include "graph/PosePriorFactor.h"
-
 #include <algorithm>
 
 namespace scanloom
 {
 namespace
 {
-// Both by the NEES of simulated drives of 75 to 140 m (doc/study/localisation.md): an alignment averages over the
-// keyframes of the map, whose errors are partly its own again; and structure that is seen from one side shortens a way.
-constexpr double kHandedOn = 0.3;  // of an alignment's covariance
-constexpr double kScale = 6e-4;    // standard deviation of the way, as a share of the distance
+// Standard deviation of a way's length, as a share of the distance: structure that is seen from one side shortens it.
+// By the NEES of simulated drives (doc/study/localisation.md#consistency).
+constexpr double kScale = 6e-4;
+
+/** Cells that both have. */
+int commonCells(const BinnedPoints& a, const BinnedPoints& b)
+{
+  int common = 0;
+  auto in_b = b.bins.cbegin();
+  for (const Bin& bin : a.bins)
+  {
+    while (in_b != b.bins.cend() && in_b->key < bin.key) ++in_b;
+    if (in_b != b.bins.cend() && in_b->key == bin.key) ++common;
+  }
+  return common;
+}
 }  // namespace
 
 LocalMap::LocalMap(const LocalMapOptions& options, const NdtOptions& ndt) : options_(options), ndt_(ndt) {}
@@ -34,19 +43,24 @@ const Eigen::Vector3d& LocalMap::oldest() const
 void LocalMap::clear()
 {
   keyframes_.clear();
+  errors_ = {};
+  map_error_.clear();
   ndt_ = NdtMap(ndt_.options());
 }
 
-Matrix6d LocalMap::handedOn(const Rigid& map_T_body) const
+/** Of what the newest keyframe sees: keyframes count by the cells that they have in common with it. */
+ErrorShares LocalMap::errorOfMap() const
 {
-  if (empty()) return Matrix6d::Zero();
-  const Keyframe& newest = keyframes_.back();
-  return congruent(newest.drift, bodyStepByImuStep(newest.map_T_body.inverse() * map_T_body).transpose());
+  std::vector<WeightedError> errors;
+  for (const Keyframe& keyframe : keyframes_)
+    if (keyframe.in_map)
+      errors.push_back({1.0 + commonCells(keyframe.points, keyframes_.back().points), keyframe.error});
+  return meanOf(errors);
 }
 
 Matrix6d LocalMap::drift(const Rigid& map_T_body) const
 {
-  Matrix6d drift = handedOn(map_T_body);
+  Matrix6d drift = errors_.covariance(map_error_, map_T_body);
   const Eigen::Vector3d way = map_T_body.rotation.conjugate() * (map_T_body.translation - begin_);
   drift.topLeftCorner<3, 3>() += kScale * kScale * way * way.transpose();
   return drift;
@@ -55,10 +69,10 @@ Matrix6d LocalMap::drift(const Rigid& map_T_body) const
 void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment)
 {
   if (empty()) begin_ = map_T_body.translation;
-  const Matrix6d drift = empty() ? Matrix6d::Zero() : Matrix6d(handedOn(map_T_body) + kHandedOn * alignment);
   std::vector<View> in_map;
   for (const View& view : seen_from_body) in_map.push_back(movedBy(map_T_body, view));
-  keyframes_.push_back({map_T_body, binned(in_map, ndt_.options()), drift});
+  keyframes_.push_back({map_T_body, binned(in_map, ndt_.options()), {}});
+  if (keyframes_.size() > 1) keyframes_.back().error = errors_.add(errorOfMap(), map_T_body, alignment);
   for (std::size_t i = 0; i < keyframes_.size(); ++i)
   {
     Keyframe& keyframe = keyframes_[i];
@@ -68,6 +82,7 @@ void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_b
     keyframe.in_map = belongs;
   }
   if (options_.radius == 0 && !keyframes_.front().in_map) keyframes_.pop_front();
+  map_error_ = errorOfMap();
 }
 
 /** `age`: number of newer keyframes. */

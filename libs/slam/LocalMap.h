@@ -3,6 +3,7 @@
 #include "core/Field.h"
 #include "core/Rigid.h"
 #include "ndt/NdtMap.h"
+#include "slam/KeyframeErrors.h"
 
 #include <deque>
 #include <optional>
@@ -49,8 +50,8 @@ class LocalMap
   void add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment);
 
   /**
-   * Covariance of a body's pose in the map that comes from the map: each keyframe was aligned to those before, and
-   * hands its error on. Of the pose relative to the first keyframe, in the tangent of boxPlus at `map_T_body`.
+   * Covariance of a body's pose in the map that comes from the map: errors of its keyframes, and of the way's length.
+   * Of the pose relative to the first keyframe, in the tangent of boxPlus at `map_T_body`.
    */
   Matrix6d drift(const Rigid& map_T_body) const;
 
@@ -65,16 +66,18 @@ class LocalMap
   {
     Rigid map_T_body;
     BinnedPoints points;  // in the map frame
-    Matrix6d drift;       // of its pose, without that of the way's length
+    ErrorShares error;    // of its pose; the first one has none
     bool in_map = false;
   };
 
-  Matrix6d handedOn(const Rigid& map_T_body) const;
+  ErrorShares errorOfMap() const;
   bool belongs(const Keyframe&, std::size_t age) const;
 
   LocalMapOptions options_;
   Eigen::Vector3d begin_ = Eigen::Vector3d::Zero();  // where the first keyframe was
   std::deque<Keyframe> keyframes_;
+  KeyframeErrors errors_;
+  ErrorShares map_error_;
   NdtMap ndt_;
 };
 }  // namespace scanloom

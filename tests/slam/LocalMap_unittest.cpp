@@ -74,7 +74,9 @@ TEST(LocalMap, keyframesThatOverlapShareCells)
 
 TEST(LocalMap, errorsOfAlignmentAreHandedOnAndAHeadingSwingsWhatLiesAhead)
 {
-  LocalMap map({}, {});
+  LocalMapOptions options;
+  options.keyframes = 1;
+  LocalMap map(options, {});
   Matrix6d alignment = Matrix6d::Zero();
   alignment.diagonal() << 1e-4, 4e-4, 0, 0, 0, 1e-6;  // m2, rad2
   map.add(cube(), at(0), alignment);
@@ -82,8 +84,19 @@ TEST(LocalMap, errorsOfAlignmentAreHandedOnAndAHeadingSwingsWhatLiesAhead)
   for (int i = 1; i <= 3; ++i) map.add(cube(), at(4 * i), alignment);
 
   const Matrix6d drift = map.drift(at(14));
-  constexpr double kHandedOn = 0.3, kScale = 6e-4;
-  EXPECT_NEAR(drift(0, 0), kHandedOn * 3e-4 + std::pow(kScale * 14, 2), 1e-9);
-  EXPECT_NEAR(drift(1, 1), kHandedOn * (3 * 4e-4 + (10 * 10 + 6 * 6 + 2 * 2) * 1e-6), 1e-9) << "from 4, 8 and 12 m";
-  EXPECT_NEAR(drift(5, 5), kHandedOn * 3e-6, 1e-12);
+  constexpr double kScale = 6e-4;
+  EXPECT_NEAR(drift(0, 0), 3e-4 + std::pow(kScale * 14, 2), 1e-9);
+  EXPECT_NEAR(drift(1, 1), 3 * 4e-4 + (10 * 10 + 6 * 6 + 2 * 2) * 1e-6, 1e-9) << "from 4, 8 and 12 m";
+  EXPECT_NEAR(drift(5, 5), 3e-6, 1e-12);
+}
+
+TEST(LocalMap, aKeyframeIsAlignedToWhatItSees)
+{
+  LocalMap map({}, {});
+  const Matrix6d alignment = 1e-4 * Matrix6d::Identity();
+  map.add(cube(), at(0), alignment);
+  for (int i = 0; i < 9; ++i) map.add(cube(), at(4), alignment);
+  const double of_nine = map.drift(at(0))(2, 2);
+  map.add(cube(), at(0), alignment);
+  EXPECT_LT(map.drift(at(0))(2, 2), of_nine) << "it sees the first keyframe, which has no error";
 }

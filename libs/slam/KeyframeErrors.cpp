@@ -1,0 +1,47 @@
+#include "slam/KeyframeErrors.h"
+
+#include "core/Matrix6.h"
+#include "graph/PosePriorFactor.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+/** Of a step of a body at `a`, as a step of one at a * `a_T_b`. */
+Matrix6d movedTo(const Rigid& a_T_b, const Matrix6d& covariance)
+{
+  return congruent(covariance, bodyStepByImuStep(a_T_b).transpose());
+}
+}  // namespace
+
+ErrorShares meanOf(const std::vector<WeightedError>& errors)
+{
+  ErrorShares mean;
+  double weights = 0;
+  for (const auto& [weight, error] : errors)
+  {
+    weights += weight;
+    mean.resize(std::max(mean.size(), error.size()));
+    for (std::size_t i = 0; i < error.size(); ++i) mean[i] += weight * error[i];
+  }
+  for (double& share : mean) share /= weights;
+  return mean;
+}
+
+ErrorShares KeyframeErrors::add(ErrorShares map, const Rigid& map_T_body, const Matrix6d& alignment)
+{
+  map.resize(alignments_.size());
+  map.push_back(1);
+  alignments_.push_back(movedTo(map_T_body.inverse(), alignment));
+  return map;
+}
+
+Matrix6d KeyframeErrors::covariance(const ErrorShares& shares, const Rigid& map_T_body) const
+{
+  Matrix6d sum = Matrix6d::Zero();
+  for (std::size_t i = 0; i < shares.size(); ++i) sum += shares[i] * shares[i] * alignments_[i];
+  return movedTo(map_T_body, sum);
+}
+}  // namespace scanloom

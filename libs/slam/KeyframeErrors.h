@@ -1,0 +1,42 @@
+/** How errors of keyframes grow: each one is aligned to a map that earlier ones, with their errors, have drawn. */
+#pragma once
+#include "core/Rigid.h"
+
+#include <vector>
+
+namespace scanloom
+{
+/** The error of a keyframe or a map, as a sum of the errors of alignments: the share of each, in their order. */
+using ErrorShares = std::vector<double>;
+
+struct WeightedError
+{
+  double weight;  // positive
+  const ErrorShares& error;
+};
+
+ErrorShares meanOf(const std::vector<WeightedError>&);
+
+/**
+ * The errors of all alignments, which are independent of each other.
+ *
+ * A keyframe errs as the map errs that it was aligned to, and by its own alignment. The map's error is the mean of its
+ * keyframes'. So errors grow as a random walk, the slower, the longer keyframes stay in the map: by an alignment's
+ * variance over the square of the mean distance, in keyframes, to those that a keyframe is aligned to.
+ */
+class KeyframeErrors
+{
+ public:
+  /**
+   * The error of a keyframe at `map_T_body` that was aligned to a map with the error `map`. `alignment`: covariance of
+   * its pose within the map, in the tangent of boxPlus.
+   */
+  ErrorShares add(ErrorShares map, const Rigid& map_T_body, const Matrix6d& alignment);
+
+  /** Of an error, as a step of a body at `map_T_body`, in the tangent of boxPlus. */
+  Matrix6d covariance(const ErrorShares&, const Rigid& map_T_body) const;
+
+ private:
+  std::vector<Matrix6d> alignments_;  // as steps of a body at the map's origin
+};
+}  // namespace scanloom
