@@ -18,11 +18,12 @@ struct WeightedError
 ErrorShares meanOf(const std::vector<WeightedError>&);
 
 /**
- * The errors of all alignments, which are independent of each other.
+ * The errors of all alignments, taken as independent of each other.
  *
  * A keyframe errs as the map errs that it was aligned to, and by its own alignment. The map's error is the mean of its
- * keyframes'. So errors grow as a random walk, the slower, the longer keyframes stay in the map: by an alignment's
- * variance over the square of the mean distance, in keyframes, to those that a keyframe is aligned to.
+ * keyframes'. So errors grow as a random walk, which is the slower, the longer keyframes stay in the map: its variance
+ * grows by that of an alignment for every L^2 keyframes, where those that one is aligned to are L keyframes back in the
+ * mean.
  */
 class KeyframeErrors
 {
