@@ -1,6 +1,7 @@
 #include "slam/Tracker.h"
 
 #include "core/Matrix6.h"
+#include "ndt/LidarInformation.h"
 #include "ndt/Rivals.h"
 #include "preprocessing/Deskew.h"
 #include "slam/BodyPoses.h"
@@ -47,6 +48,17 @@ Matrix6d informationAmongOthers(const RegistrationResult& registration, const At
 {
   return informationWithError(registration.information / registrationsPerMeasurement(travel, correlation),
                               registrationsPerMeasurement(travel, doubt.length()) * doubt.covariance(up));
+}
+
+/**
+ * The scan agrees with the map where the IMU says that the body is, but leaves a direction open, along which the body
+ * can hardly have moved. A search would only find another place that looks alike.
+ */
+bool isWhereItIsSaidToBe(const StateEstimate& estimate)
+{
+  constexpr double kReach = 2;  // m: an alignment finds the pose from there
+  return estimate.registration && estimate.registration->outcome == Outcome::Degenerate &&
+         3 * largestDeviation(estimate.covariance) < kReach;
 }
 
 NavEstimate newestOf(const FixedLagSmoother& smoother) { return {smoother.newest(), smoother.newestCovariance()}; }
@@ -233,7 +245,7 @@ bool Tracker::judgeAndRecover(const Seen& seen, TrackerState& state, StateEstima
     believeLidar(state, estimate);
     return assessed.contradicted;
   }
-  const bool blind = assessed.health == Health::Lost && !assessed.contradicted;
+  const bool blind = assessed.health == Health::Lost && !assessed.contradicted && !isWhereItIsSaidToBe(estimate);
   return blind && recover(seen.views, state, estimate, times) ? judge(state, estimate).contradicted
                                                               : assessed.contradicted;
 }

@@ -546,6 +546,32 @@ TEST(LidarInertialSlam, threeScansAreTooFewForAStartButGiveThreePoses)
   for (const StateEstimate& e : run.estimates) EXPECT_EQ(e.health, Health::Initialising);
 }
 
+TEST(LidarInertialSlam, isNotSearchedWhereItsScansFitButLeaveADirectionOpen)
+{
+  // Stems and even ground, later the ground alone, where other places fit as well.
+  const Machine machine = gentleMachine(3s);
+  const Driven run = runFor(machine, 12s, {},
+                            [](Scan& scan)
+                            {
+                              PointCloud& points = scan.points;
+                              int ground = 0;
+                              for (std::size_t i = 0; i < points.size(); ++i)
+                                if (points.z[i] < 0.6f)
+                                {
+                                  points.x[i] = 0.2f * static_cast<float>(ground % 80) - 8;
+                                  points.y[i] = 0.2f * static_cast<float>(ground / 80 % 80) - 8;
+                                  points.z[i] = 0;
+                                  ++ground;
+                                }
+                                else if (scan.start >= Timestamp{6s})
+                                  points.x[i] = 0, points.y[i] = 0, points.z[i] = 1;  // in the crop box
+                            });
+  ASSERT_EQ(run.at(11s).registration->outcome, Outcome::Degenerate);
+  EXPECT_EQ(run.at(11s).health, Health::Lost);
+  EXPECT_EQ(run.searches, 0u);
+  EXPECT_LT(largestError(run, machine), 0.5);
+}
+
 TEST(LidarInertialSlam, aLostBodyIsSearchedOnceAScan)
 {
   // Put down elsewhere, turned around, with a gyroscope that is wrong: nothing of what is tried fits.
