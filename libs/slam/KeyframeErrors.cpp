@@ -7,14 +7,10 @@
 
 namespace scanloom
 {
-namespace
-{
-/** Of a step of a body at `a`, as a step of one at a * `a_T_b`. */
 Matrix6d movedTo(const Rigid& a_T_b, const Matrix6d& covariance)
 {
   return congruent(covariance, bodyStepByImuStep(a_T_b).transpose());
 }
-}  // namespace
 
 ErrorShares meanOf(const std::vector<WeightedError>& errors)
 {
@@ -38,10 +34,10 @@ ErrorShares KeyframeErrors::add(ErrorShares map, const Rigid& map_T_body, const 
   return map;
 }
 
-Matrix6d KeyframeErrors::covariance(const ErrorShares& shares, const Rigid& map_T_body) const
+Matrix6d KeyframeErrors::covariance(const ErrorShares& shares) const
 {
   Matrix6d sum = Matrix6d::Zero();
   for (std::size_t i = 0; i < shares.size(); ++i) sum += shares[i] * shares[i] * alignments_[i];
-  return movedTo(map_T_body, sum);
+  return sum;
 }
 }  // namespace scanloom

@@ -17,6 +17,9 @@ struct WeightedError
 
 ErrorShares meanOf(const std::vector<WeightedError>&);
 
+/** The covariance of a step of frame `a`, as one of a step of frame `b` that is fixed to it; tangents of boxPlus. */
+Matrix6d movedTo(const Rigid& a_T_b, const Matrix6d& covariance);
+
 /**
  * The errors of all alignments, taken as independent of each other.
  *
@@ -34,8 +37,8 @@ class KeyframeErrors
    */
   ErrorShares add(ErrorShares map, const Rigid& map_T_body, const Matrix6d& alignment);
 
-  /** Of an error, as a step of a body at `map_T_body`, in the tangent of boxPlus. */
-  Matrix6d covariance(const ErrorShares&, const Rigid& map_T_body) const;
+  /** Of an error, as a step of a body at the map's origin: movedTo(map_T_body, ...) is as one of a body there. */
+  Matrix6d covariance(const ErrorShares&) const;
 
  private:
   std::vector<Matrix6d> alignments_;  // as steps of a body at the map's origin

@@ -44,7 +44,7 @@ void LocalMap::clear()
 {
   keyframes_.clear();
   errors_ = {};
-  map_error_.clear();
+  map_error_.setZero();
   ndt_ = NdtMap(ndt_.options());
 }
 
@@ -61,7 +61,7 @@ ErrorShares LocalMap::errorOfMap() const
 
 Matrix6d LocalMap::drift(const Rigid& map_T_body) const
 {
-  Matrix6d drift = errors_.covariance(map_error_, map_T_body);
+  Matrix6d drift = movedTo(map_T_body, map_error_);
   const Eigen::Vector3d way = map_T_body.rotation.conjugate() * (map_T_body.translation - begin_);
   drift.topLeftCorner<3, 3>() += kScale * kScale * way * way.transpose();
   return drift;
@@ -83,7 +83,7 @@ void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_b
     keyframe.in_map = belongs;
   }
   if (options_.radius == 0 && !keyframes_.front().in_map) keyframes_.pop_front();
-  map_error_ = errorOfMap();
+  map_error_ = errors_.covariance(errorOfMap());
 }
 
 /** `age`: number of newer keyframes. */

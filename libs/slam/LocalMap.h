@@ -77,7 +77,7 @@ class LocalMap
   Eigen::Vector3d begin_ = Eigen::Vector3d::Zero();  // where the first keyframe was
   std::deque<Keyframe> keyframes_;
   KeyframeErrors errors_;
-  ErrorShares map_error_;
+  Matrix6d map_error_ = Matrix6d::Zero();  // covariance, as a step of a body at the map's origin
   NdtMap ndt_;
 };
 }  // namespace scanloom

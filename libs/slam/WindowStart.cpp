@@ -4,6 +4,7 @@
 #include "graph/PosePriorFactor.h"
 #include "imu/BiasOfReplacement.h"
 #include "imu/ImuBuffer.h"
+#include "slam/KeyframeErrors.h"
 
 #include <cmath>
 #include <optional>
@@ -106,8 +107,7 @@ NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, co
 
 NavEstimate atRest(const Rigid& map_T_body, const NavEstimate& newest, const PlacedImu& imu)
 {
-  const Matrix6d body_by_imu = bodyStepByImuStep(imu.body_T_imu.inverse());
-  const Matrix6d covariance = newest.covariance.topLeftCorner<6, 6>();
-  return withUnknownVelocity(map_T_body, congruent(covariance, body_by_imu.transpose()), newest, imu);
+  const Matrix6d of_imu = newest.covariance.topLeftCorner<6, 6>();
+  return withUnknownVelocity(map_T_body, movedTo(imu.body_T_imu.inverse(), of_imu), newest, imu);
 }
 }  // namespace scanloom

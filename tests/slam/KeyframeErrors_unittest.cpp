@@ -27,7 +27,7 @@ std::vector<double> variancesOfChain(std::size_t n, std::size_t lags, double dev
     std::vector<WeightedError> before;
     for (std::size_t lag = 1; lag <= std::min(lags, i); ++lag) before.push_back({3.0, keyframes[i - lag]});
     keyframes.push_back(errors.add(meanOf(before), {}, deviations(deviation, 0)));
-    variances.push_back(errors.covariance(keyframes.back(), {})(0, 0));
+    variances.push_back(errors.covariance(keyframes.back())(0, 0));
   }
   return variances;
 }
@@ -53,7 +53,7 @@ TEST(KeyframeErrors, aHeadingSwingsWhatLiesAhead)
 {
   KeyframeErrors errors;
   const ErrorShares error = errors.add({}, Rigid::fromXyzYawPitchRoll(10, 0, 0, M_PI / 2, 0, 0), deviations(0, 0.01));
-  const Matrix6d covariance = errors.covariance(error, Rigid::fromXyzYawPitchRoll(10, 3, 0, 0, 0, 0));
+  const Matrix6d covariance = movedTo(Rigid::fromXyzYawPitchRoll(10, 3, 0, 0, 0, 0), errors.covariance(error));
   EXPECT_NEAR(covariance(0, 0), std::pow(3 * 0.01, 2), 1e-12);
   EXPECT_NEAR(covariance(1, 1), 0, 1e-12);
   EXPECT_NEAR(covariance(5, 5), 0.01 * 0.01, 1e-12);
@@ -63,6 +63,6 @@ TEST(KeyframeErrors, theMeanOfTwoAlignmentsHasHalfTheVarianceAndOfOneWithItselfA
 {
   KeyframeErrors errors;
   const ErrorShares first = errors.add({}, {}, deviations(0.1, 0)), second = errors.add({}, {}, deviations(0.1, 0));
-  EXPECT_NEAR(errors.covariance(meanOf({{5, first}, {5, second}}), {})(0, 0), 0.005, 1e-12);
-  EXPECT_NEAR(errors.covariance(meanOf({{5, second}, {5, second}}), {})(0, 0), 0.01, 1e-12);
+  EXPECT_NEAR(errors.covariance(meanOf({{5, first}, {5, second}}))(0, 0), 0.005, 1e-12);
+  EXPECT_NEAR(errors.covariance(meanOf({{5, second}, {5, second}}))(0, 0), 0.01, 1e-12);
 }
