@@ -83,6 +83,43 @@ class Pyramid
   std::vector<NdtMap> targets_, sources_;
 };
 
+/** Of one scan, from several starts. */
+class FineAlignment
+{
+ public:
+  FineAlignment(const NdtMap& map, const std::vector<View>& views, const ScanRegistrationOptions& options,
+                StageTimes& times)
+    : map_(map),
+      options_(options.fine),
+      times_(times),
+      scan_(times.measure("scan_ndt", [&] { return NdtMap(views, options.fine_cells, Grid::Turned); }))
+  {
+  }
+
+  RegistrationResult from(const Rigid& start) const
+  {
+    return times_.measure("fine_alignment", [&] { return align(map_, scan_, start, options_); });
+  }
+
+ private:
+  const NdtMap& map_;
+  const RegistrationOptions& options_;
+  StageTimes& times_;
+  NdtMap scan_;
+};
+
+bool agrees(const RegistrationResult& result, const PoseGuess& guess)
+{
+  constexpr double kUsualSurprise = 5;  // deviations
+  return result.trustworthy() && surpriseOf(result, guess) < kUsualSurprise;
+}
+
+bool fitsAsWell(const RegistrationResult& result, double score)
+{
+  constexpr double kShare = 0.9;
+  return result.score < kShare * score;  // scores are negative
+}
+
 bool isFarFrom(const Rigid& pose, const Rigid& other)
 {
   constexpr double kMetres = 1, kRadians = 0.1;
@@ -124,26 +161,26 @@ RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& v
 RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& views, const Rigid& start,
                                   const ScanRegistrationOptions& options, StageTimes& times)
 {
-  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.fine_cells, Grid::Turned); });
-  return times.measure("fine_alignment", [&] { return align(map, scan, start, options.fine); });
+  return FineAlignment(map, views, options, times).from(start);
 }
 
 RegistrationResult registerTwice(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
-                                 const ScanRegistrationOptions& options, StageTimes& times)
+                                 std::optional<double> usual_score, const ScanRegistrationOptions& options,
+                                 StageTimes& times)
 {
+  const FineAlignment fine(map, views, options, times);
+  std::optional<RegistrationResult> near;
+  if (usual_score && isWithinReach(guess, options.fine_cells))
+  {
+    near = fine.from(guess.target_T_source);
+    if (agrees(*near, guess) && fitsAsWell(*near, *usual_score)) return *near;
+  }
   const RegistrationResult rough = registerRoughly(map, views, guess, options, times);
-  return registerFinely(map, views, rough.trustworthy() ? rough.target_T_source : guess.target_T_source, options,
-                        times);
-}
-
-RegistrationResult registerNear(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
-                                double usual_score, const ScanRegistrationOptions& options, StageTimes& times)
-{
-  constexpr double kUsualSurprise = 5, kAsGood = 0.9;  // deviations; share of the score
-  if (!isWithinReach(guess, options.fine_cells)) return registerTwice(map, views, guess, options, times);
-  RegistrationResult fine = registerFinely(map, views, guess.target_T_source, options, times);
-  const bool fits = fine.trustworthy() && fine.score < kAsGood * usual_score;  // scores are negative
-  return fits && surpriseOf(fine, guess) < kUsualSurprise ? fine : registerTwice(map, views, guess, options, times);
+  if (!rough.trustworthy()) return near ? *near : fine.from(guess.target_T_source);
+  const RegistrationResult far = fine.from(rough.target_T_source);
+  if (agrees(far, guess)) return far;
+  if (!near) near = fine.from(guess.target_T_source);
+  return agrees(*near, guess) && fitsAsWell(*near, far.score) ? *near : far;
 }
 
 double surpriseOf(const RegistrationResult& registration, const PoseGuess& predicted)

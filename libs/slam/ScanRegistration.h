@@ -31,17 +31,15 @@ RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& s
 RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& seen_from_body, const Rigid& map_T_body,
                                   const ScanRegistrationOptions&, StageTimes&);
 
-/** Rough alignment, and fine alignment from what it finds, if that is trustworthy, else from the guess. */
-RegistrationResult registerTwice(const NdtMap& map, const std::vector<View>& seen_from_body,
-                                 const PoseGuess& map_T_body, const ScanRegistrationOptions&, StageTimes&);
-
 /**
- * Fine alignment alone where the guess is within its reach, and what it finds agrees with the guess and fits nearly as
- * well as `usual_score`, that of the last trusted scan; else registerTwice(). Of a scan from elsewhere, or after a
- * false reading of the IMU, fine cells know nothing.
+ * Fine alignment from the guess, whose covariance is known. It is enough if the guess is within its reach, and the
+ * result agrees with the guess and fits nearly as well as `usual_score`, that of the last trusted scan. Else, as after
+ * a false reading of the IMU, fine alignment from what a rough one finds. Where that contradicts the guess, it must fit
+ * clearly better than what is found from the guess: large cells may confuse places that look alike.
  */
-RegistrationResult registerNear(const NdtMap& map, const std::vector<View>& seen_from_body, const PoseGuess& map_T_body,
-                                double usual_score, const ScanRegistrationOptions&, StageTimes&);
+RegistrationResult registerTwice(const NdtMap& map, const std::vector<View>& seen_from_body,
+                                 const PoseGuess& map_T_body, std::optional<double> usual_score,
+                                 const ScanRegistrationOptions&, StageTimes&);
 
 /** Distance of what was found from the prediction, whose covariance is known, in standard deviations of both. */
 double surpriseOf(const RegistrationResult&, const PoseGuess& predicted);

@@ -180,8 +180,8 @@ RegistrationResult Tracker::registerScan(const std::vector<View>& views, const P
   const ScanRegistrationOptions& options = settings_.registration;
   if (!settings_.slam.tracking.refine) return registerRoughly(map, views, guess, options, times);
   const std::optional<LastSeen>& seen = state.recovery.lastSeen();
-  return seen ? registerNear(map, views, guess, seen->score, options, times)
-              : registerTwice(map, views, guess, options, times);
+  const std::optional<double> usual_score = seen ? std::optional(seen->score) : std::nullopt;
+  return registerTwice(map, views, guess, usual_score, options, times);
 }
 
 /** The smoother's robust loss follows a registration that contradicts the IMU only slowly; such a one is not trusted.

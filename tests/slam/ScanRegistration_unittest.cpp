@@ -11,9 +11,24 @@ namespace
 {
 const Rigid kMapPose = Rigid::fromXyzYawPitchRoll(0, 0, 1.5, 0.2, 0, 0);
 
+PointCloud cloudAt(const Rigid& map_T_body, unsigned stand)
+{
+  return StandOfStems(stand).scanAt(Timestamp{0s}, [&](Timestamp) { return map_T_body; }).points;
+}
+
 std::vector<View> viewsAt(const Rigid& map_T_body, unsigned stand = 1)
 {
-  return viewsOf(StandOfStems(stand).scanAt(Timestamp{0s}, [&](Timestamp) { return map_T_body; }).points, {});
+  return viewsOf(cloudAt(map_T_body, stand), {});
+}
+
+/** Of what is nearer than `range` (m). */
+std::vector<View> viewsInFogAt(const Rigid& map_T_body, unsigned stand, float range)
+{
+  PointCloud cloud = cloudAt(map_T_body, stand);
+  std::vector<std::uint8_t> is_near;
+  for (std::size_t i = 0; i < cloud.size(); ++i) is_near.push_back(std::hypot(cloud.x[i], cloud.y[i]) < range);
+  cloud.keep(is_near);
+  return viewsOf(cloud, {});
 }
 
 /** Of a scan taken at kMapPose, in its frame. */
@@ -60,6 +75,31 @@ TEST(ScanRegistration, goesThroughCoarserCellsWhenTheGuessIsUnsure)
   EXPECT_LT(
       distance(registerScan(map, cloud, guessWith(off, 1.2, 0.15), SlamSettings().registration).target_T_source, truth),
       0.02);
+}
+
+TEST(ScanRegistration, largeCellsThatConfuseStemsDoNotOverruleThePrediction)
+{
+  constexpr unsigned kStand = 7;
+  const NdtMap map(viewsInFogAt(kMapPose, kStand, 5), SlamSettings().map_cells);
+  const Rigid truth = Rigid::fromXyzYawPitchRoll(1, -0.5, 0, 0.1, 0, 0);
+  const std::vector<View> views = viewsInFogAt(kMapPose * truth, kStand, 5);
+  const PoseGuess guess = guessWith(truth * Rigid::fromXyzYawPitchRoll(-0.2, 0.2, 0, 0, 0, 0), 0.25, 0.01);
+  const ScanRegistrationOptions options = SlamSettings().registration;
+  StageTimes times;
+  ASSERT_GT(distance(registerRoughly(map, views, guess, options, times).target_T_source, truth), 1);
+  EXPECT_LT(distance(registerTwice(map, views, guess, std::nullopt, options, times).target_T_source, truth), 0.05);
+}
+
+TEST(ScanRegistration, aPredictionThatFitsWorseThanWhatLargeCellsFindIsOverruled)
+{
+  const NdtMap map = mapOfOneScan();
+  const Rigid truth = Rigid::fromXyzYawPitchRoll(1, -0.5, 0.1, 0.1, 0, 0.02);
+  const PoseGuess guess = guessWith(truth * Rigid::fromXyzYawPitchRoll(0.9, -0.6, 0, 0, 0, 0), 0.05, 0.01);
+  StageTimes times;
+  const RegistrationResult found =
+      registerTwice(map, viewsAt(kMapPose * truth), guess, std::nullopt, SlamSettings().registration, times);
+  EXPECT_GT(surpriseOf(found, guess), 5);
+  EXPECT_LT(distance(found.target_T_source, truth), 0.02);
 }
 
 TEST(ScanRegistration, relocalisesFromAnywhereNearby)
