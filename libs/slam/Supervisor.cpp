@@ -1,0 +1,165 @@
+#include "slam/Supervisor.h"
+
+#include "core/Matrix6.h"
+#include "ndt/LidarInformation.h"
+
+namespace scanloom
+{
+namespace
+{
+/**
+ * The scan agrees with the map where the IMU says that the body is, but leaves a direction open, along which the body
+ * can hardly have moved. A search would only find another place that looks alike.
+ */
+bool isWhereItIsSaidToBe(const StateEstimate& estimate)
+{
+  constexpr double kReach = 2;  // m: an alignment finds the pose from there
+  return estimate.registration && estimate.registration->outcome == Outcome::Degenerate &&
+         3 * largestDeviation(estimate.covariance) < kReach;
+}
+}  // namespace
+
+Supervisor::Supervisor(const SlamSettings& settings)
+  : tracking_(settings.slam.tracking),
+    trust_(settings.slam.trust),
+    smoother_(settings.smoother),
+    limited_effort_(withLimitedEffort(settings.registration))
+{
+}
+
+void Supervisor::rate(const PoseGuess& predicted, TrustHistory& history, StateEstimate& estimate) const
+{
+  const RegistrationResult& registration = *estimate.registration;
+  estimate.surprise = surpriseOf(registration, predicted);
+  const bool usable = history.lost ? registration.outcome == Outcome::Converged : registration.trustworthy();
+  estimate.trusted = usable && (tracking_.gate == 0 || estimate.surprise <= tracking_.gate);
+  if (history.imu_silent)
+    history.contradiction.clear();
+  else
+    history.contradiction.add(estimate.stamp, estimate.surprise);
+}
+
+Supervisor::Verdict Supervisor::judge(const std::vector<View>& views, const NavState& before, TrackerState& state,
+                                      StateEstimate& estimate, StageTimes& times) const
+{
+  compareWithRegistration(estimate, state);
+  Verdict verdict;
+  verdict.contradicted = assessedAndMended(views, state, estimate, times).contradicted;
+  verdict.lost_for_good = estimate.health == Health::Lost && estimate.stamp - state.trust.last_trusted >
+                                                                 fromSeconds(trust_.lost_after + trust_.restart_after);
+  if (verdict.lost_for_good)
+    comeToRest(before, state, estimate);
+  else
+    state.resting_since.reset();
+  return verdict;
+}
+
+/** Where IMU and lidar err by much, the estimate between both is near neither. */
+void Supervisor::compareWithRegistration(const StateEstimate& estimate, TrackerState& state) const
+{
+  if (!estimate.registration || !estimate.trusted) return;
+  const RegistrationResult& seen = *estimate.registration;
+  const Vector6d apart = boxMinus(state.map_T_local().inverse() * estimate.map_T_body, seen.target_T_source);
+  const Matrix6d shared = state.attitude_doubt.covariance(upInBody(estimate.map_T_body));
+  state.trust.separation.add(apart, estimate.covariance + seen.covariance + shared);
+}
+
+Assessment Supervisor::assessedAndMended(const std::vector<View>& views, TrackerState& state, StateEstimate& estimate,
+                                         StageTimes& times) const
+{
+  const Assessment assessment = assessed(state, estimate);
+  if (state.trust.separation.lasts())
+  {
+    believeLidar(state, estimate);
+    return assessment;
+  }
+  const bool blind = assessment.health == Health::Lost && !assessment.contradicted && !isWhereItIsSaidToBe(estimate);
+  return blind && recover(views, state, estimate, times) ? assessed(state, estimate) : assessment;
+}
+
+/** Sets the estimate's health, and remembers what the next scans are judged by. */
+Assessment Supervisor::assessed(TrackerState& state, StateEstimate& estimate) const
+{
+  const bool opens_map = state.local_map.empty() && !estimate.cloud.empty();
+  const Assessment assessment = assess(estimate, opens_map, state.trust, trust_);
+  estimate.health = assessment.health;
+  state.trust.lost = assessment.health == Health::Lost;
+  state.trust.last_trusted = assessment.last_trusted;
+  if (estimate.trusted && !state.trust.separation.suspected())
+    state.recovery.remember({estimate.registration->target_T_source, estimate.registration->score, state.map_T_local(),
+                             state.smoother.newest().bias});
+  return assessment;
+}
+
+bool Supervisor::recover(const std::vector<View>& views, TrackerState& state, StateEstimate& estimate,
+                         StageTimes& times) const
+{
+  if (state.local_map.empty() || estimate.cloud.empty()) return false;
+  const LostBody lost{estimate.stamp, (state.map_T_local().inverse() * estimate.map_T_body).rotation,
+                      estimate.stamp - state.trust.last_trusted};
+  const std::optional<FoundBody> found =
+      state.recovery.search(state.local_map.ndt(), views, lost, limited_effort_, times);
+  if (!found) return false;
+  beginAgainAt(*found, state, estimate);
+  state.trust.contradiction.clear();
+  return true;
+}
+
+/** An error of the IMU stays in the velocity: without a new window the lidar would pull at it for seconds. */
+void Supervisor::believeLidar(TrackerState& state, StateEstimate& estimate) const
+{
+  constexpr Duration kAgain = 10s;  // where lidar and IMU always contradict each other, Contradiction must see it
+  const FoundBody seen{*estimate.registration, estimate.registration->covariance};
+  std::optional<Timestamp>& believed = state.trust.lidar_believed;
+  const bool too_often = believed && estimate.stamp - *believed < kAgain && !state.trust.imu_silent;
+  if (too_often || !state.recovery.lastSeen() || !isPositiveDefinite(seen.covariance)) return;
+  beginAgainAt(seen, state, estimate);
+  believed = estimate.stamp;
+}
+
+/**
+ * Begins a new window where the body is found. The map frame and the biases are those of the last trusted scan: what
+ * the IMU read since then, and registrations that contradicted it, would tilt them.
+ */
+void Supervisor::beginAgainAt(const FoundBody& found, TrackerState& state, StateEstimate& estimate) const
+{
+  const Rigid& local_T_body = found.registration.target_T_source;
+  const LastSeen& seen = *state.recovery.lastSeen();
+  const PlacedImu imu = state.imu();
+  beginWindow(foundAt(seen.map_T_local * local_T_body, found.covariance, state.newest(), seen.bias, imu), imu,
+              local_T_body, state);
+  state.trust.separation = {};
+
+  estimate.registration = found.registration;
+  estimate.map_T_body = state.smoother.newestBody();
+  estimate.covariance = state.smoother.newestBodyCovariance();
+  estimate.velocity = state.smoother.newest().velocity;
+  estimate.trusted = estimate.recovered = true;
+}
+
+/** The IMU's attitude at the place before. How far the body may be from there is not for the smoother: it computes
+ * with differences of a millimetre. */
+void Supervisor::comeToRest(const NavState& before, TrackerState& state, StateEstimate& estimate) const
+{
+  constexpr double kSpeed = 1.5;  // m/s, a machine's
+  const PlacedImu imu = state.imu();
+  const Rigid map_T_body{state.smoother.newestBody().rotation,
+                         (before.map_T_imu * imu.body_T_imu.inverse()).translation};
+  beginWindow(atRest(map_T_body, state.newest(), imu), imu, state.map_T_local().inverse() * map_T_body, state);
+
+  if (!state.resting_since) state.resting_since = before.stamp;
+  const double reach = kSpeed * seconds(estimate.stamp - *state.resting_since);
+  estimate.map_T_body = map_T_body;
+  estimate.covariance = state.smoother.newestBodyCovariance();
+  estimate.covariance.diagonal().head<3>().array() += reach * reach;
+  estimate.velocity.setZero();
+}
+
+void Supervisor::beginWindow(const NavEstimate& newest, const PlacedImu& imu, const Rigid& local_T_body,
+                             TrackerState& state) const
+{
+  state.smoother = windowFrom(newest, imu, smoother_);
+  state.last_registered.reset();
+  if (tracking_.relative) state.anchorAt(local_T_body);
+}
+}  // namespace scanloom

@@ -1,0 +1,37 @@
+/** What is remembered from one scan to the next. */
+#pragma once
+#include "graph/FixedLagSmoother.h"
+#include "slam/Assessment.h"
+#include "slam/AttitudeDoubt.h"
+#include "slam/LocalMap.h"
+#include "slam/Recovery.h"
+#include "slam/WindowStart.h"
+
+#include <optional>
+
+namespace scanloom
+{
+struct TrackerState
+{
+  FixedLagSmoother smoother;
+  LocalMap local_map;                      // rigid, in a frame of its own
+  Rigid local_T_anchor{};                  // the body at the smoother's anchor
+  std::optional<Rigid> last_registered{};  // local_T_body
+  Trajectory motion_since_last{};          // body poses from the state before the newest up to it
+  TrustHistory trust{};
+  Recovery recovery{};
+  AttitudeDoubt attitude_doubt{};
+  std::optional<Timestamp> resting_since{};  // lost, and no longer carried by the IMU
+
+  Rigid map_T_local() const;
+  NavEstimate newest() const { return {smoother.newest(), smoother.newestCovariance()}; }
+  PlacedImu imu() const { return {smoother.body_T_imu(), smoother.noise()}; }
+
+  /** Registrations from now on are relative to the newest body, which is there in the local map. */
+  void anchorAt(const Rigid& local_T_body);
+};
+
+FixedLagSmoother windowFrom(const NavEstimate& start, const PlacedImu&, const SmootherOptions&);
+
+Eigen::Vector3d upInBody(const Rigid& map_T_body);
+}  // namespace scanloom
