@@ -24,8 +24,9 @@ struct StateEstimate
   Rigid map_T_body;
   /**
    * Of boxMinus(truth, estimate): translation (m), rotation (rad), along the body's axes. Both are poses relative to
-   * the smoother's anchor, the body at the first keyframe or where it was last found again. Errors of the local map and
-   * of the anchor itself are not included. For the first scan, and with relative = false, it is of map_T_body.
+   * the smoother's anchor, the body at the first keyframe since the start or since it was last found again. Errors of
+   * the local map and of the anchor itself are not included. Without an anchor, as before that keyframe or with
+   * relative = false, it is of map_T_body.
    */
   Matrix6d covariance = Matrix6d::Zero();
   /** What the pose since the first one has more: errors that keyframes hand on, and the tilt of the map. */

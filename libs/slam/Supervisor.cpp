@@ -125,9 +125,12 @@ void Supervisor::beginAgainAt(const FoundBody& found, TrackerState& state, State
 {
   const Rigid& local_T_body = found.registration.target_T_source;
   const LastSeen& seen = *state.recovery.lastSeen();
+  constexpr double kSmear = 0.15;  // m: the scan was deskewed by a motion that may be wrong by 1.5 m/s
   const PlacedImu imu = state.imu();
-  beginWindow(foundAt(seen.map_T_local * local_T_body, found.covariance, state.newest(), seen.bias, imu), imu,
-              local_T_body, state);
+  Matrix6d covariance = found.covariance;
+  covariance.diagonal().head<3>().array() += kSmear * kSmear;
+  beginWindow(foundAt(seen.map_T_local * local_T_body, covariance, state.newest(), seen.bias, imu), imu,
+              seen.map_T_local, state);
   state.trust.separation = {};
 
   estimate.registration = found.registration;
@@ -145,7 +148,7 @@ void Supervisor::comeToRest(const NavState& before, TrackerState& state, StateEs
   const PlacedImu imu = state.imu();
   const Rigid map_T_body{state.smoother.newestBody().rotation,
                          (before.map_T_imu * imu.body_T_imu.inverse()).translation};
-  beginWindow(atRest(map_T_body, state.newest(), imu), imu, state.map_T_local().inverse() * map_T_body, state);
+  beginWindow(atRest(map_T_body, state.newest(), imu), imu, state.map_T_local(), state);
 
   if (!state.resting_since) state.resting_since = before.stamp;
   const double reach = kSpeed * seconds(estimate.stamp - *state.resting_since);
@@ -155,11 +158,11 @@ void Supervisor::comeToRest(const NavState& before, TrackerState& state, StateEs
   estimate.velocity.setZero();
 }
 
-void Supervisor::beginWindow(const NavEstimate& newest, const PlacedImu& imu, const Rigid& local_T_body,
+void Supervisor::beginWindow(const NavEstimate& newest, const PlacedImu& imu, const Rigid& map_T_local,
                              TrackerState& state) const
 {
   state.smoother = windowFrom(newest, imu, smoother_);
   state.last_registered.reset();
-  if (tracking_.relative) state.anchorAt(local_T_body);
+  state.map_T_local_without_anchor = map_T_local;
 }
 }  // namespace scanloom

@@ -39,7 +39,7 @@ class Supervisor
   void believeLidar(TrackerState&, StateEstimate&) const;
   void beginAgainAt(const FoundBody&, TrackerState&, StateEstimate&) const;
   void comeToRest(const NavState& before, TrackerState&, StateEstimate&) const;
-  void beginWindow(const NavEstimate&, const PlacedImu&, const Rigid& local_T_body, TrackerState&) const;
+  void beginWindow(const NavEstimate&, const PlacedImu&, const Rigid& map_T_local, TrackerState&) const;
 
   TrackingOptions tracking_;
   TrustOptions trust_;

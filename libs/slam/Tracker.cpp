@@ -168,7 +168,7 @@ void Tracker::addRegistration(const PoseGuess& predicted, TrackerState& state, S
   if (smoother.hasAnchor())
     smoother.addRelativePose(smoother.anchor().stamp, state.local_T_anchor.inverse() * local_T_body, information);
   else
-    smoother.addPosePrior(local_T_body, information);
+    smoother.addPosePrior(state.map_T_local() * local_T_body, information);
 }
 
 void Tracker::smooth(const NavState& before, const std::vector<ImuSample>& samples, const Prediction& predicted,
@@ -194,8 +194,8 @@ void Tracker::updateMap(const Seen& seen, const Supervisor::Verdict& verdict, Tr
     state.trust.contradiction.clear();
     state.trust.last_trusted = estimate.stamp;
   }
-  const bool sure = estimate.trusted && !verdict.contradicted && !state.trust.separation.suspected() &&
-                    estimate.registration->outcome == Outcome::Converged;
+  const bool sure = estimate.trusted && !estimate.recovered && !verdict.contradicted &&
+                    !state.trust.separation.suspected() && estimate.registration->outcome == Outcome::Converged;
   if (state.local_map.empty() || (sure && state.local_map.wants(state.map_T_local().inverse() * estimate.map_T_body)))
     times.measure("keyframe", [&] { addKeyframe(seen, state, estimate); });
 }

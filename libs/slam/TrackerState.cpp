@@ -4,7 +4,7 @@ namespace scanloom
 {
 Rigid TrackerState::map_T_local() const
 {
-  return smoother.hasAnchor() ? smoother.anchorBody() * local_T_anchor.inverse() : Rigid::identity();
+  return smoother.hasAnchor() ? smoother.anchorBody() * local_T_anchor.inverse() : map_T_local_without_anchor;
 }
 
 void TrackerState::anchorAt(const Rigid& local_T_body)

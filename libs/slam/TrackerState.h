@@ -16,6 +16,7 @@ struct TrackerState
   FixedLagSmoother smoother;
   LocalMap local_map;                      // rigid, in a frame of its own
   Rigid local_T_anchor{};                  // the body at the smoother's anchor
+  Rigid map_T_local_without_anchor{};      // until a keyframe is the anchor
   std::optional<Rigid> last_registered{};  // local_T_body
   Trajectory motion_since_last{};          // body poses from the state before the newest up to it
   TrustHistory trust{};
