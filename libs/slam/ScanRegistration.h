@@ -34,8 +34,9 @@ RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& se
 /**
  * Fine alignment from the guess, whose covariance is known. It is enough if the guess is within its reach, and the
  * result agrees with the guess and fits nearly as well as `usual_score`, that of the last trusted scan. Else, as after
- * a false reading of the IMU, fine alignment from what a rough one finds. Large cells confuse places that look alike:
- * where the second result contradicts the guess, and the first agrees with it and fits nearly as well, it is the first.
+ * a false reading of the IMU, fine alignment from what a rough one finds, if that is trustworthy. Large cells confuse
+ * places that look alike: where the second result contradicts the guess, and the first agrees with it and fits nearly
+ * as well, it is the first.
  */
 RegistrationResult registerTwice(const NdtMap& map, const std::vector<View>& seen_from_body,
                                  const PoseGuess& map_T_body, std::optional<double> usual_score,

@@ -123,9 +123,9 @@ void Supervisor::believeLidar(TrackerState& state, StateEstimate& estimate) cons
  */
 void Supervisor::beginAgainAt(const FoundBody& found, TrackerState& state, StateEstimate& estimate) const
 {
+  constexpr double kSmear = 0.15;  // m: the scan, of 0.1 s, was deskewed by a motion that may be wrong by 1.5 m/s
   const Rigid& local_T_body = found.registration.target_T_source;
   const LastSeen& seen = *state.recovery.lastSeen();
-  constexpr double kSmear = 0.15;  // m: the scan was deskewed by a motion that may be wrong by 1.5 m/s
   const PlacedImu imu = state.imu();
   Matrix6d covariance = found.covariance;
   covariance.diagonal().head<3>().array() += kSmear * kSmear;
