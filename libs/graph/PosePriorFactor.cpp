@@ -1,5 +1,6 @@
 #include "graph/PosePriorFactor.h"
 
+#include "core/Matrix6.h"
 #include "graph/Whitening.h"
 
 namespace scanloom
@@ -28,5 +29,10 @@ bool PosePriorFactor::Evaluate(double const* const* parameters, double* residual
     writePoseJacobian<6>(root_ * boxMinusByStep(map_T_body, map_T_body_) * bodyStepByImuStep(imu_T_body_), map_T_imu,
                          jacobians[0]);
   return true;
+}
+
+Matrix6d movedTo(const Rigid& a_T_b, const Matrix6d& covariance)
+{
+  return congruent(covariance, bodyStepByImuStep(a_T_b).transpose());
 }
 }  // namespace scanloom

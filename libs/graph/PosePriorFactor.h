@@ -28,4 +28,7 @@ class PosePriorFactor final : public ceres::SizedCostFunction<6, 7>
 
 /** Derivative of the body's step by a step of the IMU, each in its own frame. */
 Matrix6d bodyStepByImuStep(const Rigid& imu_T_body);
+
+/** The covariance of a step of frame `a`, as one of a step of frame `b` that is fixed to it; tangents of boxPlus. */
+Matrix6d movedTo(const Rigid& a_T_b, const Matrix6d& covariance);
 }  // namespace scanloom

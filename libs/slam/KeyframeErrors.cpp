@@ -1,17 +1,11 @@
 #include "slam/KeyframeErrors.h"
 
-#include "core/Matrix6.h"
 #include "graph/PosePriorFactor.h"
 
 #include <algorithm>
 
 namespace scanloom
 {
-Matrix6d movedTo(const Rigid& a_T_b, const Matrix6d& covariance)
-{
-  return congruent(covariance, bodyStepByImuStep(a_T_b).transpose());
-}
-
 ErrorShares meanOf(const std::vector<WeightedError>& errors)
 {
   ErrorShares mean;

@@ -17,9 +17,6 @@ struct WeightedError
 
 ErrorShares meanOf(const std::vector<WeightedError>&);
 
-/** The covariance of a step of frame `a`, as one of a step of frame `b` that is fixed to it; tangents of boxPlus. */
-Matrix6d movedTo(const Rigid& a_T_b, const Matrix6d& covariance);
-
 /**
  * The errors of all alignments, taken as independent of each other.
  *

@@ -1,5 +1,7 @@
 #include "slam/LocalMap.h"
 
+#include "graph/PosePriorFactor.h"
+
 #include <algorithm>
 
 namespace scanloom

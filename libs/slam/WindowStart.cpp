@@ -1,10 +1,8 @@
 #include "slam/WindowStart.h"
 
-#include "core/Matrix6.h"
 #include "graph/PosePriorFactor.h"
 #include "imu/BiasOfReplacement.h"
 #include "imu/ImuBuffer.h"
-#include "slam/KeyframeErrors.h"
 
 #include <cmath>
 #include <optional>
@@ -69,12 +67,11 @@ NavEstimate withUnknownVelocity(const Rigid& map_T_body, const Matrix6d& body_co
                                 const PlacedImu& imu)
 {
   constexpr double kVelocity = 1;  // m/s
-  const Matrix6d imu_by_body = bodyStepByImuStep(imu.body_T_imu);
   newest.state.map_T_imu = map_T_body * imu.body_T_imu;
   newest.state.velocity.setZero();
   newest.covariance.topRows<9>().setZero();
   newest.covariance.leftCols<9>().setZero();
-  newest.covariance.topLeftCorner<6, 6>() = imu_by_body * body_covariance * imu_by_body.transpose();
+  newest.covariance.topLeftCorner<6, 6>() = movedTo(imu.body_T_imu, body_covariance);
   newest.covariance.diagonal().segment<3>(6).setConstant(kVelocity * kVelocity);
   return newest;
 }

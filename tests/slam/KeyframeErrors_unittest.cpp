@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "graph/PosePriorFactor.h"
+
 using namespace scanloom;
 
 namespace
