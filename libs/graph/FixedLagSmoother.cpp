@@ -199,25 +199,57 @@ Rigid FixedLagSmoother::bodyAt(const NavState& state) const { return state.map_T
 
 void FixedLagSmoother::anchorNewest() { anchor_ = newest().stamp; }
 
-void FixedLagSmoother::forget(std::size_t index)
+void FixedLagSmoother::loosenAnchor(const Matrix6d& step)
 {
-  const Timestamp leaving = states_[index].stamp;
+  if (!hasAnchor() || anchor_ == newest().stamp)
+    throw std::invalid_argument("what lidar poses are relative to cannot move before there is one");
+  const std::size_t index = indexOf(*anchor_);
+  replacePrior(combined(linearFactorsOf(index)));
+  dropFactorsOf(*anchor_);
+
+  // A random step s leaves residual + J s of the prior, with the covariance I + J S J^T.
+  const auto at =
+      std::find_if(prior_.at.begin(), prior_.at.end(), [&](const NavState& s) { return s.stamp == anchor_; });
+  const auto by_pose = prior_.jacobian.middleCols<kPoseSize>((at - prior_.at.begin()) * kStateSize);
+  Eigen::MatrixXd covariance = by_pose * movedTo(body_T_imu_, step) * by_pose.transpose();
+  covariance.diagonal().array() += 1;
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  root.matrixL().solveInPlace(prior_.jacobian);
+  root.matrixL().solveInPlace(prior_.residual);
+}
+
+/** The prior, and the factors of the state. */
+std::vector<LinearFactor> FixedLagSmoother::linearFactorsOf(std::size_t index) const
+{
   std::vector<StateBlocks> window = blocks();
   const std::vector<Factor> all = factors();
   std::vector<LinearFactor> touching{linearise(all.front(), window)};  // the prior
   for (std::size_t i = 1; i < all.size(); ++i)
     if (std::count(all[i].states.begin(), all[i].states.end(), index)) touching.push_back(linearise(all[i], window));
+  return touching;
+}
 
-  // The motion to the next state is among them, so `left` has at least one state.
-  LinearFactor left = eliminate(touching, index);
-  prior_ = {{}, std::move(left.jacobian), std::move(left.residual)};
-  for (const std::size_t state : left.states) prior_.at.push_back(states_[state]);
+void FixedLagSmoother::replacePrior(LinearFactor by)
+{
+  prior_ = {{}, std::move(by.jacobian), std::move(by.residual)};
+  for (const std::size_t state : by.states) prior_.at.push_back(states_[state]);
+}
 
+void FixedLagSmoother::dropFactorsOf(Timestamp state)
+{
   const auto erase = [](auto& all_of_them, const auto& isGone)
   { all_of_them.erase(std::remove_if(all_of_them.begin(), all_of_them.end(), isGone), all_of_them.end()); };
+  erase(motions_, [&](const Preintegration& m) { return m.from == state || m.to == state; });
+  erase(lidar_poses_, [&](const LidarPose& l) { return l.stamp == state || l.reference == state; });
+}
+
+void FixedLagSmoother::forget(std::size_t index)
+{
+  const Timestamp leaving = states_[index].stamp;
+  // The motion to the next state is among them, so the prior will be of one state at least.
+  replacePrior(eliminate(linearFactorsOf(index), index));
   states_.erase(states_.begin() + static_cast<std::ptrdiff_t>(index));
-  erase(motions_, [&](const Preintegration& m) { return m.from == leaving || m.to == leaving; });
-  erase(lidar_poses_, [&](const LidarPose& l) { return l.stamp == leaving || l.reference == leaving; });
+  dropFactorsOf(leaving);
 }
 
 std::vector<Factor> FixedLagSmoother::factors() const

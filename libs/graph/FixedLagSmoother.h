@@ -74,6 +74,13 @@ class FixedLagSmoother
   /** The newest state becomes the anchor, instead of the one before: it is kept when the window moves on. */
   void anchorNewest();
 
+  /**
+   * What lidar poses are relative to has moved unseen, by a random step of this covariance: of the anchor's body, in
+   * the tangent of boxPlus. Poses measured before belong to where it was, and are linear from now on. Throws
+   * std::invalid_argument without an anchor older than the newest state.
+   */
+  void loosenAnchor(const Matrix6d& step);
+
   const NavState& anchor() const { return states_[indexOf(*anchor_)]; }
   Rigid anchorBody() const { return bodyAt(anchor()); }
   bool hasAnchor() const { return anchor_.has_value(); }
@@ -112,6 +119,9 @@ class FixedLagSmoother
   };
 
   void forget(std::size_t index);
+  std::vector<LinearFactor> linearFactorsOf(std::size_t index) const;
+  void replacePrior(LinearFactor);
+  void dropFactorsOf(Timestamp state);
   void add(const LidarPose&);
   Matrix6d informationOf(const LidarPose&) const;
   Rigid bodyAt(const NavState&) const;

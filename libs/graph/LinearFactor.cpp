@@ -108,6 +108,13 @@ LinearFactor linearise(const Factor& factor, std::vector<StateBlocks>& window)
   return linear;
 }
 
+LinearFactor combined(const std::vector<LinearFactor>& factors)
+{
+  const std::vector<std::size_t> states = statesOf(factors);
+  const Eigen::MatrixXd equations = compressed(stacked(factors, states));
+  return {states, equations.leftCols(equations.cols() - 1), equations.col(equations.cols() - 1)};
+}
+
 LinearFactor eliminate(const std::vector<LinearFactor>& factors, std::size_t state)
 {
   std::vector<std::size_t> others = statesOf(factors);

@@ -41,6 +41,9 @@ LinearFactor linearise(const Factor&, std::vector<StateBlocks>& window);
  */
 LinearFactor eliminate(const std::vector<LinearFactor>&, std::size_t state);
 
+/** All equations in one; at most as many rows as columns. */
+LinearFactor combined(const std::vector<LinearFactor>&);
+
 /** Joint covariance of the states `kept`, in their order, given all the factors, which must determine them. */
 Eigen::MatrixXd marginalCovariance(const std::vector<LinearFactor>&, const std::vector<std::size_t>& kept);
 }  // namespace scanloom

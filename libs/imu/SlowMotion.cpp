@@ -89,7 +89,8 @@ std::vector<double> powers(const Spectrum& spectrum, double length, double from,
 
 struct SlowPart
 {
-  double deviation, sigma_of_mean;
+  double deviation;      // of the axes together
+  double sigma_of_mean;  // of each axis
 };
 
 SlowPart slowPart(const Spectrum& spectrum, double length, double highest)
@@ -99,7 +100,8 @@ SlowPart slowPart(const Spectrum& spectrum, double length, double highest)
   const std::vector<double> fast = powers(spectrum, length, kNoiseFrom, highest);
   const double noise = fast.empty() ? 0 : kNoiseMargin * count * median(fast);
   constexpr double kOfHann = 4.0 / 3;  // variance of a line over its powers at the multiples
-  return {std::sqrt(kOfHann * std::max(0.0, sum - noise)), std::sqrt(sum / count)};
+  constexpr double kAxes = 3;
+  return {std::sqrt(kOfHann * std::max(0.0, sum - noise)), std::sqrt(sum / count / kAxes)};
 }
 }  // namespace
 

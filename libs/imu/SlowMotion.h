@@ -10,7 +10,7 @@ struct SlowMotion
 {
   Eigen::Vector3d mean_gyro, mean_accel;  // rad/s, m/s2: weighted by a Hann window, which vibration does not reach
   double gyro, accel;                     // slow motion, root mean square of 3 axes: below 3 Hz, above the noise
-  double gyro_sigma, accel_sigma;         // standard deviations of the means
+  double gyro_sigma, accel_sigma;         // standard deviations of the means, of each axis
   double gyro_all, accel_all;             // root mean square of all changes, vibration and noise included
 };
 

@@ -60,7 +60,7 @@ void SlamFiles::add(const StateEstimate& e)
 
   const RegistrationResult none;
   const RegistrationResult& r = e.registration ? *e.registration : none;
-  const Vector6d sigma = (e.covariance + e.drift).diagonal().cwiseSqrt();
+  const Vector6d sigma = e.since_start.diagonal().cwiseSqrt();
   fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d},{:.3e},{:.4f},{:.4f},{}\n",
              nanoseconds(e.stamp), toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap,
              r.score, r.iterations, e.cloud.size(), e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise,

@@ -36,15 +36,4 @@ Matrix6d AttitudeDoubt::covariance(const Eigen::Vector3d& up_in_source) const
       std::pow(heading(), 2) * about_up + std::pow(kTilt, 2) * (Eigen::Matrix3d::Identity() - about_up);
   return covariance;
 }
-
-Rigid withAttitudeOf(const Rigid& estimate, const Matrix6d& covariance, const RegistrationResult& fine,
-                     const Eigen::Vector3d& up_in_source, const AttitudeDoubt& doubt)
-{
-  const Eigen::Vector3d apart = boxMinus(estimate, fine.target_T_source).tail<3>();
-  const Eigen::Matrix3d seen = (fine.covariance + doubt.covariance(up_in_source)).bottomRightCorner<3, 3>();
-  const Eigen::Matrix3d known = covariance.bottomRightCorner<3, 3>();
-  Vector6d step = Vector6d::Zero();
-  step.tail<3>() = seen * (seen + known).ldlt().solve(apart);
-  return boxPlus(fine.target_T_source, step);
-}
 }  // namespace scanloom

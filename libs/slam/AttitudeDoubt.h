@@ -35,11 +35,4 @@ class AttitudeDoubt
   double sideways_ = 0;  // m, mean over the length of the map
   double length_ = 0;
 };
-
-/**
- * The pose of the fine registration, but the rotation is a mean of its own and that of the estimate, which has this
- * covariance, each by how well it is known.
- */
-Rigid withAttitudeOf(const Rigid& estimate, const Matrix6d& covariance, const RegistrationResult& fine,
-                     const Eigen::Vector3d& up_in_source, const AttitudeDoubt&);
 }  // namespace scanloom

@@ -20,6 +20,12 @@ ErrorShares meanOf(const std::vector<WeightedError>& errors)
   return mean;
 }
 
+ErrorShares difference(ErrorShares later, const ErrorShares& earlier)
+{
+  for (std::size_t i = 0; i < earlier.size(); ++i) later[i] -= earlier[i];
+  return later;
+}
+
 ErrorShares KeyframeErrors::add(ErrorShares map, const Rigid& map_T_body, const Matrix6d& alignment)
 {
   map.resize(alignments_.size());

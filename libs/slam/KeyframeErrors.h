@@ -17,6 +17,9 @@ struct WeightedError
 
 ErrorShares meanOf(const std::vector<WeightedError>&);
 
+/** `later` minus `earlier`, which knows of no more alignments. */
+ErrorShares difference(ErrorShares later, const ErrorShares& earlier);
+
 /**
  * The errors of all alignments, taken as independent of each other.
  *

@@ -1,17 +1,12 @@
 #include "slam/LocalMap.h"
 
-#include "graph/PosePriorFactor.h"
-
 #include <algorithm>
+#include <utility>
 
 namespace scanloom
 {
 namespace
 {
-// Standard deviation of a way's length, as a share of the distance: structure that is seen from one side shortens it.
-// By the NEES of simulated drives (doc/study/localisation.md#consistency).
-constexpr double kScale = 6e-4;
-
 /** Cells that both have. */
 int commonCells(const BinnedPoints& a, const BinnedPoints& b)
 {
@@ -46,7 +41,7 @@ void LocalMap::clear()
 {
   keyframes_.clear();
   errors_ = {};
-  map_error_.setZero();
+  map_error_.clear();
   ndt_ = NdtMap(ndt_.options());
 }
 
@@ -61,17 +56,8 @@ ErrorShares LocalMap::errorOfMap() const
   return meanOf(errors);
 }
 
-Matrix6d LocalMap::drift(const Rigid& map_T_body) const
+Matrix6d LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment)
 {
-  Matrix6d drift = movedTo(map_T_body, map_error_);
-  const Eigen::Vector3d way = map_T_body.rotation.conjugate() * (map_T_body.translation - begin_);
-  drift.topLeftCorner<3, 3>() += kScale * kScale * way * way.transpose();
-  return drift;
-}
-
-void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment)
-{
-  if (empty()) begin_ = map_T_body.translation;
   std::vector<View> in_map;
   for (const View& view : seen_from_body) in_map.push_back(movedBy(map_T_body, view));
   keyframes_.push_back({map_T_body, binned(in_map, ndt_.options()), {}});
@@ -85,7 +71,8 @@ void LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_b
     keyframe.in_map = belongs;
   }
   if (options_.radius == 0 && !keyframes_.front().in_map) keyframes_.pop_front();
-  map_error_ = errors_.covariance(errorOfMap());
+  const ErrorShares before = std::exchange(map_error_, errorOfMap());
+  return errors_.covariance(difference(map_error_, before));
 }
 
 /** `age`: number of newer keyframes. */

@@ -45,15 +45,10 @@ class LocalMap
 
   /**
    * Adds a keyframe and removes those that no longer belong to the map. `alignment`: covariance of the pose within the
-   * map, tangent of boxPlus.
+   * map, tangent of boxPlus. Returns how the map creeps: the covariance of the step by which it errs otherwise than
+   * before, as of a body at the map's origin.
    */
-  void add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment);
-
-  /**
-   * Covariance of a body's pose in the map that comes from the map: errors of its keyframes, and of the way's length.
-   * Of the pose relative to the first keyframe, in the tangent of boxPlus at `map_T_body`.
-   */
-  Matrix6d drift(const Rigid& map_T_body) const;
+  Matrix6d add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment);
 
   bool empty() const { return keyframes_.empty(); }
 
@@ -74,10 +69,9 @@ class LocalMap
   bool belongs(const Keyframe&, std::size_t age) const;
 
   LocalMapOptions options_;
-  Eigen::Vector3d begin_ = Eigen::Vector3d::Zero();  // where the first keyframe was
   std::deque<Keyframe> keyframes_;
   KeyframeErrors errors_;
-  Matrix6d map_error_ = Matrix6d::Zero();  // covariance, as a step of a body at the map's origin
+  ErrorShares map_error_;
   NdtMap ndt_;
 };
 }  // namespace scanloom

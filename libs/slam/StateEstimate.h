@@ -23,15 +23,13 @@ struct StateEstimate
   Timestamp stamp;  // the scan's end, when the body was at map_T_body
   Rigid map_T_body;
   /**
-   * Of boxMinus(truth, estimate): translation (m), rotation (rad), along the body's axes. Both are poses relative to
-   * the smoother's anchor, the body at the first keyframe since the start or since it was last found again. Errors of
-   * the local map and of the anchor itself are not included. Without an anchor, as before that keyframe or with
-   * relative = false, it is of map_T_body.
+   * Of boxMinus(truth, estimate): translation (m), rotation (rad), along the body's axes. Both are poses in the local
+   * map, whose own errors are not included. Without an anchor, as before the first keyframe or with relative = false,
+   * it is of map_T_body.
    */
   Matrix6d covariance = Matrix6d::Zero();
-  /** What the pose since the first one has more: errors that keyframes hand on, and the tilt of the map. */
-  Matrix6d drift = Matrix6d::Zero();
-  Vector6d correction = Vector6d::Zero();  // boxMinus(map_T_body, the IMU's prediction from the previous estimate)
+  Matrix6d since_start = Matrix6d::Zero();  // the same of the pose relative to the first one
+  Vector6d correction = Vector6d::Zero();   // boxMinus(map_T_body, the IMU's prediction from the previous estimate)
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the IMU, in the map frame
   Health health = Health::Ok;
   bool scan_complete = true;

@@ -131,6 +131,8 @@ void Supervisor::beginAgainAt(const FoundBody& found, TrackerState& state, State
   covariance.diagonal().head<3>().array() += kSmear * kSmear;
   beginWindow(foundAt(seen.map_T_local * local_T_body, covariance, state.newest(), seen.bias, imu), imu,
               seen.map_T_local, state);
+  state.before_window = state.when_trusted;
+  state.reach = 0;
   state.trust.separation = {};
 
   estimate.registration = found.registration;
@@ -151,10 +153,10 @@ void Supervisor::comeToRest(const NavState& before, TrackerState& state, StateEs
   beginWindow(atRest(map_T_body, state.newest(), imu), imu, state.map_T_local(), state);
 
   if (!state.resting_since) state.resting_since = before.stamp;
-  const double reach = kSpeed * seconds(estimate.stamp - *state.resting_since);
+  state.reach = kSpeed * seconds(estimate.stamp - *state.resting_since);
   estimate.map_T_body = map_T_body;
   estimate.covariance = state.smoother.newestBodyCovariance();
-  estimate.covariance.diagonal().head<3>().array() += reach * reach;
+  estimate.covariance.diagonal().head<3>().array() += state.reach * state.reach;
   estimate.velocity.setZero();
 }
 

@@ -1,6 +1,7 @@
 #include "slam/Tracker.h"
 
 #include "core/Matrix6.h"
+#include "graph/PosePriorFactor.h"
 #include "preprocessing/Deskew.h"
 #include "slam/BodyPoses.h"
 
@@ -76,20 +77,27 @@ TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSa
   estimate.correction = boxMinus(estimate.map_T_body, predicted.map_T_body);
   state.motion_since_last = estimate.recovered ? Trajectory{} : estimate.since_last;
   updateMap(seen, verdict, state, estimate, times);
-  estimate.drift = driftOf(state, estimate);
+  estimate.since_start = errorSinceStart(estimate.map_T_body, state);
   return {std::move(state), std::move(estimate)};
 }
 
-/** Of the local map, and of its tilt, which is known as well as the accelerometer's bias. */
-Matrix6d Tracker::driftOf(const TrackerState& state, const StateEstimate& estimate) const
+/** As the smoother knows the pose, with what it does not know of: errors of windows before, and of the way's length. */
+Matrix6d Tracker::errorSinceStart(const Rigid& map_T_body, TrackerState& state)
 {
-  Matrix6d drift = state.local_map.drift(state.map_T_local().inverse() * estimate.map_T_body);
-  const FixedLagSmoother& smoother = state.smoother;
-  const Eigen::Matrix3d body_R_imu = smoother.body_T_imu().rotation.toRotationMatrix();
-  const Eigen::Vector3d up = upInBody(estimate.map_T_body);
-  const Eigen::Matrix3d to_tilt = (Eigen::Matrix3d::Identity() - up * up.transpose()) * body_R_imu;
-  drift.bottomRightCorner<3, 3>() += to_tilt * smoother.newestCovariance().block<3, 3>(3, 3) * to_tilt.transpose();
-  return drift;
+  // Standard deviation as a share of the way, along it and up: structure that is seen from one side shortens it, and
+  // what is seen from nearer than the map saw it lifts it. By the NEES of simulated drives
+  // (doc/study/localisation.md#consistency).
+  constexpr double kShare = 6e-4;
+  const Matrix6d of_imu = state.smoother.newestCovariance().topLeftCorner<6, 6>();
+  Matrix6d covariance =
+      movedTo(state.smoother.body_T_imu().inverse(), of_imu) + movedTo(map_T_body, state.before_window);
+  covariance.diagonal().head<3>().array() += state.reach * state.reach;
+  if (!state.trust.lost) state.when_trusted = movedTo(map_T_body.inverse(), covariance);
+
+  const Eigen::Vector3d way = map_T_body.rotation.conjugate() * map_T_body.translation;
+  const Eigen::Vector3d up = upInBody(map_T_body) * way.norm();
+  covariance.topLeftCorner<3, 3>() += kShare * kShare * (way * way.transpose() + up * up.transpose());
+  return covariance;
 }
 
 /** The newest state becomes the one at the end of the samples, as the IMU predicts it. */
@@ -214,11 +222,15 @@ void Tracker::addKeyframe(const Seen& seen, TrackerState& state, StateEstimate& 
     const RegistrationResult fine = align(state.local_map.ndt(), source, guess, settings_.registration.fine);
     if (fine.trustworthy())
     {
-      local_T_body = withAttitudeOf(estimated, alignment, fine, upInBody(estimate.map_T_body), state.attitude_doubt);
+      local_T_body = fine.target_T_source;
       alignment = inverse(fine.information + inverse(alignment));
     }
   }
-  state.local_map.add(seen.views, local_T_body, alignment);
+  const Matrix6d creep = state.local_map.add(seen.views, local_T_body, alignment);
+  if (state.smoother.hasAnchor())
+    state.smoother.loosenAnchor(movedTo(state.local_T_anchor, creep));
+  else
+    state.before_window += creep;
   estimate.keyframe = Keyframe{estimate.stamp, map_T_local * local_T_body, estimate.cloud};
   if (settings_.slam.tracking.relative && !state.smoother.hasAnchor()) state.anchorAt(estimated);
 }

@@ -196,8 +196,8 @@ class Comparison
   {
     const Rigid now_T_map_of_anchor = (smoother.anchor().map_T_imu * body_T_imu_.inverse()).inverse();
     const Rigid anchor_T_body = now_T_map_of_anchor * e.map_T_body;
-    samples_[kSinceStart].push_back(poseSample(trulyFrom(first_->stamp, e.stamp),
-                                               first_->map_T_body.inverse() * e.map_T_body, e.covariance + e.drift));
+    samples_[kSinceStart].push_back(
+        poseSample(trulyFrom(first_->stamp, e.stamp), first_->map_T_body.inverse() * e.map_T_body, e.since_start));
     samples_[kFromAnchor].push_back(poseSample(trulyFrom(anchor_.stamp, e.stamp), anchor_T_body, e.covariance));
     const Rigid truth = trulyFrom(keyframe_.stamp, e.stamp);
     const Rigid keyframe_T_anchor = keyframe_.map_T_body.inverse();

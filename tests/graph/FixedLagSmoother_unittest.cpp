@@ -1,5 +1,6 @@
 #include "graph/FixedLagSmoother.h"
 
+#include "graph/PosePriorFactor.h"
 #include "graph/SimulatedDrive.h"
 
 #include <gtest/gtest.h>
@@ -308,6 +309,81 @@ TEST(FixedLagSmoother, tellsWhatALidarPoseLeavesOfTheCovarianceWithoutComputingI
         EXPECT_GT((before - computed).norm(), 0.06 * computed.norm()) << anchored << ' ' << off;
       }
     }
+}
+
+namespace
+{
+const Matrix6d kStep = (Vector6d() << 0.01, 0.02, 0.01, 1e-3, 1e-3, 2e-3).finished().cwiseAbs2().asDiagonal();
+
+/** Of the pose seen from the anchor, by which it is known less well after loosenAnchor(kStep). */
+Matrix6d loosened(FixedLagSmoother smoother)
+{
+  const Matrix6d before = smoother.newestBodyCovariance();
+  smoother.loosenAnchor(kStep);
+  return smoother.newestBodyCovariance() - before;
+}
+}  // namespace
+
+TEST(FixedLagSmoother, aStepOfItsAnchorIsAllThatChanges)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 12, 200ms, noise, 42);
+  for (const std::size_t scans : {4u, 12u})  // the anchor is in the window, and behind it
+  {
+    SimulatedDrive begin = drive;
+    begin.truth.resize(scans);
+    FixedLagSmoother smoother = runFromAnchor(begin, noise, withoutHuber(6));
+    const Rigid anchor_T_body = smoother.anchorBody().inverse() * smoother.newestBody();
+    EXPECT_LT((loosened(smoother) - movedTo(anchor_T_body, kStep)).norm(), 0.01 * kStep.norm()) << scans;
+    const NavState before = smoother.newest();
+    const Matrix15d covariance = smoother.newestCovariance();
+    smoother.loosenAnchor(kStep);
+    EXPECT_LT((smoother.newestCovariance() - covariance).norm(), 1e-6 * covariance.norm()) << scans;
+    EXPECT_LT(boxMinus(smoother.optimise(), before).norm(), 1e-4) << scans;
+  }
+}
+
+TEST(FixedLagSmoother, refusesAStepOfAnAnchorThatIsNotBehind)
+{
+  const DriveNoise noise;
+  const SimulatedDrive drive = simulate(kDrive, 5, 200ms, noise, 43);
+  FixedLagSmoother smoother = smootherFor(drive, noise, {});
+  EXPECT_THROW(smoother.loosenAnchor(kStep), std::invalid_argument);
+  smoother.addState(drive.motions[0]);
+  smoother.anchorNewest();
+  EXPECT_THROW(smoother.loosenAnchor(kStep), std::invalid_argument);
+  smoother.addState(drive.motions[1]);
+  EXPECT_NO_THROW(smoother.loosenAnchor(kStep));
+}
+
+TEST(FixedLagSmoother, errorsAreAsLargeAsItsCovarianceSaysWhereTheAnchorCreeps)
+{
+  const DriveNoise noise;
+  double with_steps = 0, without = 0;
+  constexpr int kRuns = 100;
+  for (unsigned seed = 500; seed < 500 + kRuns; ++seed)
+    for (const bool told : {true, false})
+    {
+      const SimulatedDrive drive = simulate(kDrive, 60, 200ms, noise, seed);
+      Noise random(seed);
+      FixedLagSmoother smoother = smootherFor(drive, noise, withoutHuber(4));
+      Rigid anchor = drive.truth[1].map_T_imu * kBodyFromImu.inverse();  // where the map takes it to be
+      for (std::size_t k = 1; k < drive.truth.size(); ++k)
+      {
+        smoother.addState(drive.motions[k - 1]);
+        if (k == 1) smoother.anchorNewest();
+        if (k > 1)
+          smoother.addRelativePose(drive.truth[1].stamp, anchor.inverse() * drive.map_T_body[k], drive.information);
+        smoother.optimise();
+        if (k % 10 != 0) continue;
+        anchor = boxPlus(anchor, Vector6d(kStep.diagonal().cwiseSqrt().cwiseProduct(random.normal<6>(1))));
+        if (told) smoother.loosenAnchor(kStep);
+      }
+      const Vector15d error = boxMinus(drive.truth.back(), smoother.newest());
+      (told ? with_steps : without) += error.dot(smoother.newestCovariance().ldlt().solve(error)) / kRuns;
+    }
+  EXPECT_NEAR(with_steps, 15, 1.65) << "seeds from 500";
+  EXPECT_GT(without, 30);
 }
 
 TEST(FixedLagSmoother, resistsAnOutlier)

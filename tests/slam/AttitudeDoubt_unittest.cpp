@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <utility>
 
 using namespace scanloom;
 
@@ -31,19 +30,6 @@ AttitudeDoubt after(const Eigen::Vector3d& one_sided)
 
 /** rad */
 double headingDeviation(const AttitudeDoubt& doubt) { return std::sqrt(doubt.covariance(kUp)(5, 5)); }
-
-/** deg, about x and z: how far a keyframe is turned from its fine registration to an estimate 1 deg away. */
-std::pair<double, double> tiltAndHeading(double deviation_of_estimate, const AttitudeDoubt& doubt)
-{
-  RegistrationResult fine = seenFrom(40, {0, 0, 0});
-  fine.covariance = 1e-12 * Matrix6d::Identity();
-  const Rigid estimate = Rigid::fromXyzYawPitchRoll(40.1, 0.1, 0, kDegree, 0, kDegree);
-  const Matrix6d covariance = deviation_of_estimate * deviation_of_estimate * Matrix6d::Identity();
-  const Rigid mean = withAttitudeOf(estimate, covariance, fine, kUp, doubt);
-  const Vector6d step = boxMinus(mean, fine.target_T_source) / kDegree;
-  EXPECT_EQ(step.head<3>().norm(), 0) << "the position stays";
-  return {step[3], step[5]};
-}
 }  // namespace
 
 TEST(AttitudeDoubt, ofTheHeadingIsFourDisplacementsToTheSideOverTheLengthOfTheMap)
@@ -70,25 +56,4 @@ TEST(AttitudeDoubt, isTheSameForManyScansAsForFew)
   for (int i = 0; i <= 2000; ++i)
     many.add(seenFrom(0.1 * i, {0, 0.2, 0}), kUp, {std::max(0.0, 0.1 * i - 40.0), 0, 0}, 0.1);
   EXPECT_NEAR(headingDeviation(many), headingDeviation(after({0, 0.2, 0})), 4e-4);
-}
-
-TEST(AttitudeDoubt, turnsAKeyframeToAnEstimateThatIsKnownWell)
-{
-  const auto [tilt, heading] = tiltAndHeading(1e-5, after({0, 0.2, 0}));
-  EXPECT_NEAR(tilt, 1, 0.01);
-  EXPECT_NEAR(heading, 1, 0.01);
-  EXPECT_NEAR(tiltAndHeading(1e-5, after({0, 0, 0})).second, 0, 0.02) << "a heading without doubt stays";
-}
-
-TEST(AttitudeDoubt, turnsAKeyframeHalfwayToAnEstimateThatIsKnownNoBetter)
-{
-  EXPECT_NEAR(tiltAndHeading(0.03 * kDegree, after({0, 0, 0})).first, 0.5, 0.01);
-  EXPECT_NEAR(tiltAndHeading(4 * 0.2 / 40, after({0, 0.2, 0})).second, 0.5, 0.05);
-}
-
-TEST(AttitudeDoubt, leavesAKeyframeWhereTheEstimateIsOpen)
-{
-  const auto [tilt, heading] = tiltAndHeading(1, after({0, 0.2, 0}));
-  EXPECT_NEAR(tilt, 0, 1e-3);
-  EXPECT_NEAR(heading, 0, 1e-3);
 }

@@ -72,31 +72,28 @@ TEST(LocalMap, keyframesThatOverlapShareCells)
   EXPECT_EQ(map.ndt().cells().front().points, 54u);
 }
 
-TEST(LocalMap, errorsOfAlignmentAreHandedOnAndAHeadingSwingsWhatLiesAhead)
+TEST(LocalMap, creepsByEachAlignmentWhereOneKeyframeIsTheMap)
 {
   LocalMapOptions options;
   options.keyframes = 1;
   LocalMap map(options, {});
   Matrix6d alignment = Matrix6d::Zero();
   alignment.diagonal() << 1e-4, 4e-4, 0, 0, 0, 1e-6;  // m2, rad2
-  map.add(cube(), at(0), alignment);
-  EXPECT_EQ(map.drift(at(0)).norm(), 0) << "the first keyframe is where the map begins";
-  for (int i = 1; i <= 3; ++i) map.add(cube(), at(4 * i), alignment);
-
-  const Matrix6d drift = map.drift(at(14));
-  constexpr double kScale = 6e-4;
-  EXPECT_NEAR(drift(0, 0), 3e-4 + std::pow(kScale * 14, 2), 1e-9);
-  EXPECT_NEAR(drift(1, 1), 3 * 4e-4 + (10 * 10 + 6 * 6 + 2 * 2) * 1e-6, 1e-9) << "from 4, 8 and 12 m";
-  EXPECT_NEAR(drift(5, 5), 3e-6, 1e-12);
+  EXPECT_EQ(map.add(cube(), at(0), alignment).norm(), 0) << "the first keyframe is where the map begins";
+  for (const double x : {4.0, 8.0})
+  {
+    const Matrix6d at_origin = map.add(cube(), at(x), alignment);
+    EXPECT_NEAR(at_origin(1, 1), 4e-4 + x * x * 1e-6, 1e-9) << x;
+    EXPECT_NEAR(at_origin(5, 5), 1e-6, 1e-12) << x;
+  }
 }
 
-TEST(LocalMap, aKeyframeIsAlignedToWhatItSees)
+TEST(LocalMap, creepsTheLessTheMoreKeyframesItIsTheMeanOf)
 {
   LocalMap map({}, {});
   const Matrix6d alignment = 1e-4 * Matrix6d::Identity();
   map.add(cube(), at(0), alignment);
-  for (int i = 0; i < 9; ++i) map.add(cube(), at(4), alignment);
-  const double of_nine = map.drift(at(0))(2, 2);
-  map.add(cube(), at(0), alignment);
-  EXPECT_LT(map.drift(at(0))(2, 2), of_nine) << "it sees the first keyframe, which has no error";
+  // The second of two keyframes has half the weight of their mean, the third of three a third.
+  EXPECT_NEAR(map.add(cube(), at(0), alignment)(0, 0), 1e-4 / 4, 1e-9);
+  EXPECT_NEAR(map.add(cube(), at(0), alignment)(0, 0), 1e-4 / 9, 1e-9);
 }
