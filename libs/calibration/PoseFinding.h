@@ -15,7 +15,7 @@ struct PoseLimits
   double near_share_warning = 0.5;
   double pose_offset_warning = 0.1;
   double pose_offset_not_fit = 0.25;
-  double pose_angle_warning_deg = 1;
+  double pose_angle_warning_deg = 0.8;
   double pose_angle_not_fit_deg = 3;
 
   template <typename Self, typename Visitor>
@@ -30,7 +30,7 @@ struct PoseLimits
           Field{"pose_offset_not_fit", "m",
                 "error by registration to the first lidar; more than the width of most stems", above(0)});
     visit(o.pose_angle_warning_deg,
-          Field{"pose_angle_warning_deg", "deg", "error by registration to the first lidar; 17 cm at 10 m", above(0)});
+          Field{"pose_angle_warning_deg", "deg", "error by registration to the first lidar; 14 cm at 10 m", above(0)});
     visit(o.pose_angle_not_fit_deg, Field{"pose_angle_not_fit_deg", "deg",
                                           "error by registration to the first lidar; half a metre at 10 m", above(0)});
   }
