@@ -46,6 +46,28 @@ Matrix6d informationAmongOthers(const RegistrationResult& registration, const At
   return informationWithError(registration.information / registrationsPerMeasurement(travel, correlation),
                               registrationsPerMeasurement(travel, doubt.length()) * doubt.covariance(up));
 }
+
+/** Of the pose relative to the first one: as the smoother knows it, and from before its window began. */
+Matrix6d errorSinceStart(const Rigid& map_T_body, const TrackerState& state)
+{
+  const Matrix6d of_imu = state.smoother.newestCovariance().topLeftCorner<6, 6>();
+  Matrix6d covariance =
+      movedTo(state.smoother.body_T_imu().inverse(), of_imu) + movedTo(map_T_body, state.before_window);
+  covariance.diagonal().head<3>().array() += state.reach * state.reach;
+  return covariance;
+}
+
+/** By which all registrations err alike: structure that is seen from one side shortens the way, and what is seen from
+ * nearer than the map saw it lifts it. */
+Matrix6d errorOfWay(const Rigid& map_T_body)
+{
+  constexpr double kShare = 6e-4;  // by the NEES of simulated drives (doc/study/localisation.md#consistency)
+  const Eigen::Vector3d way = map_T_body.rotation.conjugate() * map_T_body.translation;
+  const Eigen::Vector3d up = upInBody(map_T_body) * way.norm();
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.topLeftCorner<3, 3>() = kShare * kShare * (way * way.transpose() + up * up.transpose());
+  return covariance;
+}
 }  // namespace
 
 Tracker::Tracker(const SlamSettings& settings, const std::vector<MountedLidar>& lidars)
@@ -77,27 +99,10 @@ TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSa
   estimate.correction = boxMinus(estimate.map_T_body, predicted.map_T_body);
   state.motion_since_last = estimate.recovered ? Trajectory{} : estimate.since_last;
   updateMap(seen, verdict, state, estimate, times);
-  estimate.since_start = errorSinceStart(estimate.map_T_body, state);
+  const Matrix6d since_start = errorSinceStart(estimate.map_T_body, state);
+  if (!state.trust.lost) state.when_trusted = movedTo(estimate.map_T_body.inverse(), since_start);
+  estimate.since_start = since_start + errorOfWay(estimate.map_T_body);
   return {std::move(state), std::move(estimate)};
-}
-
-/** As the smoother knows the pose, with what it does not know of: errors of windows before, and of the way's length. */
-Matrix6d Tracker::errorSinceStart(const Rigid& map_T_body, TrackerState& state)
-{
-  // Standard deviation as a share of the way, along it and up: structure that is seen from one side shortens it, and
-  // what is seen from nearer than the map saw it lifts it. By the NEES of simulated drives
-  // (doc/study/localisation.md#consistency).
-  constexpr double kShare = 6e-4;
-  const Matrix6d of_imu = state.smoother.newestCovariance().topLeftCorner<6, 6>();
-  Matrix6d covariance =
-      movedTo(state.smoother.body_T_imu().inverse(), of_imu) + movedTo(map_T_body, state.before_window);
-  covariance.diagonal().head<3>().array() += state.reach * state.reach;
-  if (!state.trust.lost) state.when_trusted = movedTo(map_T_body.inverse(), covariance);
-
-  const Eigen::Vector3d way = map_T_body.rotation.conjugate() * map_T_body.translation;
-  const Eigen::Vector3d up = upInBody(map_T_body) * way.norm();
-  covariance.topLeftCorner<3, 3>() += kShare * kShare * (way * way.transpose() + up * up.transpose());
-  return covariance;
 }
 
 /** The newest state becomes the one at the end of the samples, as the IMU predicts it. */

@@ -51,7 +51,6 @@ class Tracker
   void addRegistration(const PoseGuess& predicted, TrackerState&, StateEstimate&) const;
   void smooth(const NavState& before, const std::vector<ImuSample>&, const Prediction&, TrackerState&, StateEstimate&,
               StageTimes&) const;
-  static Matrix6d errorSinceStart(const Rigid& map_T_body, TrackerState&);
   void updateMap(const Seen&, const Supervisor::Verdict&, TrackerState&, StateEstimate&, StageTimes&) const;
   void addKeyframe(const Seen&, TrackerState&, StateEstimate&) const;
 
