@@ -204,18 +204,8 @@ void FixedLagSmoother::loosenAnchor(const Matrix6d& step)
   if (!hasAnchor() || anchor_ == newest().stamp)
     throw std::invalid_argument("what lidar poses are relative to cannot move before there is one");
   const std::size_t index = indexOf(*anchor_);
-  replacePrior(combined(linearFactorsOf(index)));
+  replacePrior(loosened(combined(linearFactorsOf(index)), index, movedTo(body_T_imu_, step)));
   dropFactorsOf(*anchor_);
-
-  // A random step s leaves residual + J s of the prior, with the covariance I + J S J^T.
-  const auto at =
-      std::find_if(prior_.at.begin(), prior_.at.end(), [&](const NavState& s) { return s.stamp == anchor_; });
-  const auto by_pose = prior_.jacobian.middleCols<kPoseSize>((at - prior_.at.begin()) * kStateSize);
-  Eigen::MatrixXd covariance = by_pose * movedTo(body_T_imu_, step) * by_pose.transpose();
-  covariance.diagonal().array() += 1;
-  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
-  root.matrixL().solveInPlace(prior_.jacobian);
-  root.matrixL().solveInPlace(prior_.residual);
 }
 
 /** The prior, and the factors of the state. */

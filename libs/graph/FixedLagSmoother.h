@@ -75,9 +75,9 @@ class FixedLagSmoother
   void anchorNewest();
 
   /**
-   * What lidar poses are relative to has moved unseen, by a random step of this covariance: of the anchor's body, in
-   * the tangent of boxPlus. Poses measured before belong to where it was, and are linear from now on. Throws
-   * std::invalid_argument without an anchor older than the newest state.
+   * From now on, lidar poses are measured from a place that is an unknown step away from the anchor's body. `step`: its
+   * covariance (m², rad²), in the tangent of boxPlus at that body. Poses measured before stay relative to the old place
+   * and are linear from now on. Throws std::invalid_argument without an anchor older than the newest state.
    */
   void loosenAnchor(const Matrix6d& step);
 

@@ -115,6 +115,20 @@ LinearFactor combined(const std::vector<LinearFactor>& factors)
   return {states, equations.leftCols(equations.cols() - 1), equations.col(equations.cols() - 1)};
 }
 
+LinearFactor loosened(LinearFactor factor, std::size_t state, const Matrix6d& step)
+{
+  // The step s leaves residual + J s, which has the covariance I + J S J^T.
+  const auto place =
+      static_cast<std::size_t>(std::find(factor.states.begin(), factor.states.end(), state) - factor.states.begin());
+  const auto by_pose = factor.jacobian.middleCols<kPoseSize>(columnsOf(place));
+  Eigen::MatrixXd covariance = by_pose * step * by_pose.transpose();
+  covariance.diagonal().array() += 1;
+  const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+  root.matrixL().solveInPlace(factor.jacobian);
+  root.matrixL().solveInPlace(factor.residual);
+  return factor;
+}
+
 LinearFactor eliminate(const std::vector<LinearFactor>& factors, std::size_t state)
 {
   std::vector<std::size_t> others = statesOf(factors);

@@ -44,6 +44,9 @@ LinearFactor eliminate(const std::vector<LinearFactor>&, std::size_t state);
 /** All equations in one; at most as many rows as columns. */
 LinearFactor combined(const std::vector<LinearFactor>&);
 
+/** The equations after the pose of `state`, one of theirs, has moved by an unknown step of covariance `step`. */
+LinearFactor loosened(LinearFactor, std::size_t state, const Matrix6d& step);
+
 /** Joint covariance of the states `kept`, in their order, given all the factors, which must determine them. */
 Eigen::MatrixXd marginalCovariance(const std::vector<LinearFactor>&, const std::vector<std::size_t>& kept);
 }  // namespace scanloom

@@ -45,8 +45,8 @@ class LocalMap
 
   /**
    * Adds a keyframe and removes those that no longer belong to the map. `alignment`: covariance of the pose within the
-   * map, tangent of boxPlus. Returns how the map creeps: the covariance of the step by which it errs otherwise than
-   * before, as of a body at the map's origin.
+   * map, tangent of boxPlus. Returns how far the map, as the newest keyframe sees it, may have moved by that: the
+   * covariance of the change of its error, as a step (m, rad) of a body at the map's origin.
    */
   Matrix6d add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment);
 
@@ -71,7 +71,7 @@ class LocalMap
   LocalMapOptions options_;
   std::deque<Keyframe> keyframes_;
   KeyframeErrors errors_;
-  ErrorShares map_error_;
+  ErrorShares map_error_;  // of what the newest keyframe sees
   NdtMap ndt_;
 };
 }  // namespace scanloom

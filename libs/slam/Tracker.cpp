@@ -47,7 +47,7 @@ Matrix6d informationAmongOthers(const RegistrationResult& registration, const At
                               registrationsPerMeasurement(travel, doubt.length()) * doubt.covariance(up));
 }
 
-/** Of the pose relative to the first one: as the smoother knows it, and from before its window began. */
+/** Covariance of the pose relative to the first one: as the smoother knows it, and from before its window began. */
 Matrix6d errorSinceStart(const Rigid& map_T_body, const TrackerState& state)
 {
   const Matrix6d of_imu = state.smoother.newestCovariance().topLeftCorner<6, 6>();
@@ -57,8 +57,8 @@ Matrix6d errorSinceStart(const Rigid& map_T_body, const TrackerState& state)
   return covariance;
 }
 
-/** By which all registrations err alike: structure that is seen from one side shortens the way, and what is seen from
- * nearer than the map saw it lifts it. */
+/** Covariance of the pose relative to the first one, from what all registrations err alike: structure that is seen from
+ * one side shortens the way, and what is seen from nearer than the map saw it lifts it. */
 Matrix6d errorOfWay(const Rigid& map_T_body)
 {
   constexpr double kShare = 6e-4;  // by the NEES of simulated drives (doc/study/localisation.md#consistency)

@@ -97,3 +97,14 @@ TEST(LocalMap, creepsTheLessTheMoreKeyframesItIsTheMeanOf)
   EXPECT_NEAR(map.add(cube(), at(0), alignment)(0, 0), 1e-4 / 4, 1e-9);
   EXPECT_NEAR(map.add(cube(), at(0), alignment)(0, 0), 1e-4 / 9, 1e-9);
 }
+
+TEST(LocalMap, aKeyframeIsAlignedToWhatItSees)
+{
+  LocalMap map({}, {});
+  const Matrix6d alignment = 1e-4 * Matrix6d::Identity();
+  map.add(cube(), at(0), alignment);
+  for (int i = 0; i < 9; ++i) map.add(cube(), at(4), alignment);
+  LocalMap further = map;
+  EXPECT_GT(map.add(cube(), at(0), alignment)(2, 2), 1.5 * further.add(cube(), at(4), alignment)(2, 2))
+      << "it sees the first keyframe, which has no error, instead of the nine; alike if all counted alike";
+}
