@@ -23,7 +23,7 @@ Supervisor::Supervisor(const SlamSettings& settings)
   : tracking_(settings.slam.tracking),
     trust_(settings.slam.trust),
     smoother_(settings.smoother),
-    limited_effort_(withLimitedEffort(settings.registration))
+    registration_(settings.registration)
 {
 }
 
@@ -49,8 +49,11 @@ Supervisor::Verdict Supervisor::judge(const std::vector<View>& views, const NavS
                                                                  fromSeconds(trust_.lost_after + trust_.restart_after);
   if (verdict.lost_for_good)
     comeToRest(before, state, estimate);
-  else
+  else if (state.resting_since)
+  {
     state.resting_since.reset();
+    state.before_window = state.when_trusted;  // it is in sight of where it was then
+  }
   return verdict;
 }
 
@@ -98,7 +101,7 @@ bool Supervisor::recover(const std::vector<View>& views, TrackerState& state, St
   const LostBody lost{estimate.stamp, (state.map_T_local().inverse() * estimate.map_T_body).rotation,
                       estimate.stamp - state.trust.last_trusted};
   const std::optional<FoundBody> found =
-      state.recovery.search(state.local_map.ndt(), views, lost, limited_effort_, times);
+      state.recovery.search(state.local_map.ndt(), views, lost, withLimitedEffort(registration_), times);
   if (!found) return false;
   beginAgainAt(*found, state, estimate);
   state.trust.contradiction.clear();
@@ -132,7 +135,6 @@ void Supervisor::beginAgainAt(const FoundBody& found, TrackerState& state, State
   beginWindow(foundAt(seen.map_T_local * local_T_body, covariance, state.newest(), seen.bias, imu), imu,
               seen.map_T_local, state);
   state.before_window = state.when_trusted;
-  state.reach = 0;
   state.trust.separation = {};
 
   estimate.registration = found.registration;
@@ -153,11 +155,13 @@ void Supervisor::comeToRest(const NavState& before, TrackerState& state, StateEs
   beginWindow(atRest(map_T_body, state.newest(), imu), imu, state.map_T_local(), state);
 
   if (!state.resting_since) state.resting_since = before.stamp;
-  state.reach = kSpeed * seconds(estimate.stamp - *state.resting_since);
+  const double reach = kSpeed * seconds(estimate.stamp - *state.resting_since);
   estimate.map_T_body = map_T_body;
   estimate.covariance = state.smoother.newestBodyCovariance();
-  estimate.covariance.diagonal().head<3>().array() += state.reach * state.reach;
   estimate.velocity.setZero();
+  state.before_window = state.when_trusted;
+  for (Matrix6d* covariance : {&estimate.covariance, &state.before_window})
+    covariance->diagonal().head<3>().array() += reach * reach;
 }
 
 void Supervisor::beginWindow(const NavEstimate& newest, const PlacedImu& imu, const Rigid& map_T_local,

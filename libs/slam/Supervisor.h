@@ -44,6 +44,6 @@ class Supervisor
   TrackingOptions tracking_;
   TrustOptions trust_;
   SmootherOptions smoother_;
-  ScanRegistrationOptions limited_effort_;
+  ScanRegistrationOptions registration_;
 };
 }  // namespace scanloom

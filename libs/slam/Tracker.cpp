@@ -51,10 +51,7 @@ Matrix6d informationAmongOthers(const RegistrationResult& registration, const At
 Matrix6d errorSinceStart(const Rigid& map_T_body, const TrackerState& state)
 {
   const Matrix6d of_imu = state.smoother.newestCovariance().topLeftCorner<6, 6>();
-  Matrix6d covariance =
-      movedTo(state.smoother.body_T_imu().inverse(), of_imu) + movedTo(map_T_body, state.before_window);
-  covariance.diagonal().head<3>().array() += state.reach * state.reach;
-  return covariance;
+  return movedTo(state.smoother.body_T_imu().inverse(), of_imu) + movedTo(map_T_body, state.before_window);
 }
 
 /** Covariance of the pose relative to the first one, from what all registrations err alike: structure that is seen from
@@ -71,7 +68,7 @@ Matrix6d errorOfWay(const Rigid& map_T_body)
 }  // namespace
 
 Tracker::Tracker(const SlamSettings& settings, const std::vector<MountedLidar>& lidars)
-  : settings_(settings), limited_effort_(withLimitedEffort(settings.registration)), supervisor_(settings)
+  : settings_(settings), supervisor_(settings)
 {
   if (settings.slam.tracking.stem_axes) viewpoints_ = positionsOf(lidars);
 }
@@ -148,7 +145,7 @@ void Tracker::locate(const Seen& seen, const Prediction& predicted, TrackerState
   estimate.registration =
       state.trust.lost
           // The effort is the search's: the prediction of an IMU that lost the body is worth little.
-          ? registerFinely(map, seen.views, guess.target_T_source, limited_effort_, times)
+          ? registerFinely(map, seen.views, guess.target_T_source, withLimitedEffort(settings_.registration), times)
           : registerScan(seen.views, guess, state, times);
   if (estimate.registration->outcome != Outcome::LowOverlap) addRegistration(guess, state, estimate);
 }
@@ -206,6 +203,7 @@ void Tracker::updateMap(const Seen& seen, const Supervisor::Verdict& verdict, Tr
     state.recovery.forget();
     state.trust.contradiction.clear();
     state.trust.last_trusted = estimate.stamp;
+    state.resting_since.reset();  // how far it may have moved since then stays in before_window
   }
   const bool sure = estimate.trusted && !estimate.recovered && !verdict.contradicted &&
                     !state.trust.separation.suspected() && estimate.registration->outcome == Outcome::Converged;

@@ -55,7 +55,6 @@ class Tracker
   void addKeyframe(const Seen&, TrackerState&, StateEstimate&) const;
 
   SlamSettings settings_;
-  ScanRegistrationOptions limited_effort_;  // for a lost body
   Supervisor supervisor_;
   std::vector<Eigen::Vector3d> viewpoints_;  // of the lidars in the body frame; empty: stems stay where they are seen
 };

@@ -23,7 +23,6 @@ struct TrackerState
   Recovery recovery{};
   AttitudeDoubt attitude_doubt{};
   std::optional<Timestamp> resting_since{};  // lost, and no longer carried by the IMU
-  double reach = 0;                          // m, standard deviation of where it rests
   // Covariances relative to the first pose, as of steps (m, rad) of a body at the map's origin:
   Matrix6d before_window = Matrix6d::Zero();  // of what erred before the smoother's window began
   Matrix6d when_trusted = Matrix6d::Zero();   // of the last pose that was not LOST, without errorOfWay()

@@ -223,6 +223,43 @@ TEST(LidarInertialSlam, aLostBodyComesToRestAndIsFoundAgainWhenTheViewComesBack)
   EXPECT_EQ(late.health, Health::Lost);
   EXPECT_EQ(run.estimates.back().health, Health::Ok);
   EXPECT_LT(run.estimates.back().map_T_body.translation.norm(), 0.05);
+  EXPECT_GT(std::sqrt(late.since_start(0, 0)), 1.5 * 19);
+  EXPECT_LT(std::sqrt(run.estimates.back().since_start(0, 0)), 0.2) << "the deskewing of the scan that finds it";
+}
+
+namespace
+{
+Machine machineThatDrivesStraight()
+{
+  Machine machine;
+  machine.standstill = 3s;
+  machine.drive.x = {0, 1.0, -1.0 / 0.9, 0.9, 0};
+  machine.drive.z = {1.5, 0, 0, 1, 0};
+  return machine;
+}
+
+Eigen::Vector3d deviationSinceStart(const StateEstimate& e) { return e.since_start.diagonal().head<3>().cwiseSqrt(); }
+}  // namespace
+
+TEST(LidarInertialSlam, theDoubtOfThePoseSinceTheStartGrowsWithTheWayAndHoldsItsError)
+{
+  const Machine machine = machineThatDrivesStraight();
+  const Driven run = runFor(machine, 33s);
+  const StateEstimate &first = run.estimates.front(), &last = run.estimates.back();
+  double before = 0;
+  for (const Duration t : {5s, 10s, 15s, 20s, 25s, 30s})
+  {
+    const double now = deviationSinceStart(run.at(t)).x();
+    EXPECT_GT(now, before);
+    before = now;
+  }
+  const Rigid measured = first.map_T_body.inverse() * last.map_T_body;
+  const Rigid moved = machine.bodyAt(first.stamp).inverse() * machine.bodyAt(last.stamp);
+  const Vector6d error = boxMinus(moved, measured);
+  const double nees = error.dot(last.since_start.llt().solve(error));
+  EXPECT_LT(nees, 16.8) << "99 % of chi square with 6 degrees of freedom";
+  EXPECT_GT(deviationSinceStart(last).x(), 6e-4 * moved.translation.norm()) << "by which all registrations err alike";
+  EXPECT_LT(deviationSinceStart(last).maxCoeff(), 1e-2 * moved.translation.norm());
 }
 
 TEST(LidarInertialSlam, isFoundAgainFarFromWhereAWrongImuCarriedIt)
@@ -396,7 +433,13 @@ TEST(LidarInertialSlam, beginsANewMapWhereTheOldOneIsOutOfSightForGood)
                               scan = stand.scanAt(scan.start, above);
                             });
   EXPECT_EQ(run.map_restarts, 1u);
-  EXPECT_EQ(run.estimates.back().health, Health::Ok);
+  const StateEstimate& end = run.estimates.back();
+  EXPECT_EQ(end.health, Health::Ok);
+  EXPECT_LT(std::sqrt(end.covariance(0, 0)), 0.02) << "seen from the new map";
+  const auto restart =
+      std::find_if(run.estimates.begin(), run.estimates.end(), [](const StateEstimate& e) { return e.map_restarted; });
+  EXPECT_GE(deviationSinceStart(end).x(), deviationSinceStart(*restart).x()) << "where that began is not known better";
+  EXPECT_GT(deviationSinceStart(*restart).x(), 0.1);
 }
 
 TEST(LidarInertialSlam, everyEstimateComesWithACovarianceThatGrowsWhileItIsBlind)
