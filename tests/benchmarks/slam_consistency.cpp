@@ -171,7 +171,7 @@ class Comparison
       addPoses(e, smoother);
       addState(smoother);
     }
-    if (e.keyframe) keyframe_ = {e.stamp, anchor_.map_T_body.inverse() * e.keyframe->map_T_body};
+    if (e.keyframe) keyframe_ = {e.stamp, smoother.anchorBody().inverse() * e.keyframe->map_T_body};
     lost_ = lost_ || e.health == Health::Lost || e.recovered;
   }
 
@@ -194,8 +194,7 @@ class Comparison
 
   void addPoses(const StateEstimate& e, const FixedLagSmoother& smoother)
   {
-    const Rigid now_T_map_of_anchor = (smoother.anchor().map_T_imu * body_T_imu_.inverse()).inverse();
-    const Rigid anchor_T_body = now_T_map_of_anchor * e.map_T_body;
+    const Rigid anchor_T_body = smoother.anchorBody().inverse() * e.map_T_body;
     samples_[kSinceStart].push_back(
         poseSample(trulyFrom(first_->stamp, e.stamp), first_->map_T_body.inverse() * e.map_T_body, e.since_start));
     samples_[kFromAnchor].push_back(poseSample(trulyFrom(anchor_.stamp, e.stamp), anchor_T_body, e.covariance));
