@@ -17,7 +17,7 @@ namespace
 {
 Ended slam(const std::filesystem::path& recording, const std::string& arguments)
 {
-  const std::string command = "SCANLOOM_RECORDING=" + recording.string() +
+  const std::string command = "SCANLOOM_RECORDING=" + recording.string() + "/" +  // as a shell completes it
                               " " SCANLOOM_BIN_DIR "/scanloom slam -c " SCANLOOM_SOURCE_DIR
                               "/params/dual_os0_recording.ini " +
                               arguments + " 2>&1 </dev/null";

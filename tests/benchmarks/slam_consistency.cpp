@@ -72,9 +72,8 @@ struct Sample
 
 enum What
 {
-  kSinceStart,  // the pose given out, frames agreed at the first one
-  kFromAnchor,  // what the covariance is said to be of
-  kFromKeyframe,
+  kSinceStart,    // the pose given out, frames agreed at the first one
+  kFromKeyframe,  // the pose in the local map, near what the scan is aligned to
   kRegistration,  // from the last keyframe, with the lidar's own covariance
   kVelocity,
   kTilt
@@ -94,8 +93,6 @@ Named named(What what)
   {
     case kSinceStart:
       return {"pose since the start, as given out", "m", 6};
-    case kFromAnchor:
-      return {"pose seen from the anchor", "m", 6};
     case kFromKeyframe:
       return {"pose seen from the last keyframe", "m", 6};
     case kRegistration:
@@ -165,7 +162,7 @@ class Comparison
   void add(const StateEstimate& e, const FixedLagSmoother& smoother)
   {
     if (!first_)
-      begin(e, smoother);
+      begin(e);
     else
     {
       addPoses(e, smoother);
@@ -179,12 +176,11 @@ class Comparison
   bool lost() const { return lost_; }
 
  private:
-  void begin(const StateEstimate& e, const FixedLagSmoother& smoother)
+  void begin(const StateEstimate& e)
   {
     constexpr Duration kScan = 100ms;
     truth_.emplace(*scene_, body_T_imu_, e.stamp - kScan);
     first_ = {e.stamp, e.map_T_body};
-    anchor_ = {smoother.anchor().stamp, e.map_T_body};
   }
 
   Rigid trulyFrom(Timestamp reference, Timestamp now) const
@@ -197,13 +193,12 @@ class Comparison
     const Rigid anchor_T_body = smoother.anchorBody().inverse() * e.map_T_body;
     samples_[kSinceStart].push_back(
         poseSample(trulyFrom(first_->stamp, e.stamp), first_->map_T_body.inverse() * e.map_T_body, e.since_start));
-    samples_[kFromAnchor].push_back(poseSample(trulyFrom(anchor_.stamp, e.stamp), anchor_T_body, e.covariance));
     const Rigid truth = trulyFrom(keyframe_.stamp, e.stamp);
     const Rigid keyframe_T_anchor = keyframe_.map_T_body.inverse();
     samples_[kFromKeyframe].push_back(poseSample(truth, keyframe_T_anchor * anchor_T_body, e.covariance));
     if (!e.trusted) return;
     const RegistrationResult& r = *e.registration;
-    const Rigid anchor_T_registered = anchor_.map_T_body.inverse() * r.target_T_source;  // the local map began there
+    const Rigid anchor_T_registered = first_->map_T_body.inverse() * r.target_T_source;  // the local map began there
     samples_[kRegistration].push_back(poseSample(truth, keyframe_T_anchor * anchor_T_registered, r.covariance));
   }
 
@@ -225,7 +220,7 @@ class Comparison
   Rigid body_T_imu_;
   std::optional<Truth> truth_;
   std::optional<StampedPose> first_;
-  StampedPose anchor_, keyframe_;  // as the local map has the anchor; the last keyframe as the anchor sees it
+  StampedPose keyframe_;  // the last one, seen from the anchor
   Samples samples_;
   bool lost_ = false;
 };
@@ -303,7 +298,7 @@ void print(const std::vector<Samples>& runs, bool histograms)
       "| | degrees of freedom | mean NEES | at the end | median error | largest | squared error by variance, axis by "
       "axis |\n"
       "|---|--:|--:|--:|--:|--:|---|\n");
-  for (const What what : {kSinceStart, kFromAnchor, kFromKeyframe, kRegistration, kVelocity, kTilt})
+  for (const What what : {kSinceStart, kFromKeyframe, kRegistration, kVelocity, kTilt})
   {
     const Column c = columnOf(what, runs);
     const auto [name, unit, freedom] = named(what);
