@@ -169,6 +169,7 @@ void Supervisor::beginWindow(const NavEstimate& newest, const PlacedImu& imu, co
 {
   state.smoother = windowFrom(newest, imu, smoother_);
   state.last_registered.reset();
+  state.in_place_since.reset();
   state.map_T_local_without_anchor = map_T_local;
 }
 }  // namespace scanloom

@@ -11,14 +11,22 @@
 
 namespace scanloom
 {
+/** Where a registration has placed the body. */
+struct Registered
+{
+  Timestamp stamp;
+  Rigid local_T_body;
+};
+
 struct TrackerState
 {
   FixedLagSmoother smoother;
-  LocalMap local_map;                      // rigid, in a frame of its own
-  Rigid local_T_anchor{};                  // the body at the smoother's anchor
-  Rigid map_T_local_without_anchor{};      // until a keyframe is the anchor
-  std::optional<Rigid> last_registered{};  // local_T_body
-  Trajectory motion_since_last{};          // body poses from the state before the newest up to it
+  LocalMap local_map;                  // rigid, in a frame of its own
+  Rigid local_T_anchor{};              // the body at the smoother's anchor
+  Rigid map_T_local_without_anchor{};  // until a keyframe is the anchor
+  std::optional<Registered> last_registered{};
+  std::optional<Registered> in_place_since{};  // the first of those that are all near to each other
+  Trajectory motion_since_last{};              // body poses from the state before the newest up to it
   TrustHistory trust{};
   Recovery recovery{};
   AttitudeDoubt attitude_doubt{};
