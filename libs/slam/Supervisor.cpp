@@ -52,7 +52,7 @@ Supervisor::Verdict Supervisor::judge(const std::vector<View>& views, const NavS
   else if (state.resting_since)
   {
     state.resting_since.reset();
-    state.before_window = state.when_trusted;  // it is in sight of where it was then
+    state.before_window = state.when_trusted;  // seen in the same map: no rest in between counts
   }
   return verdict;
 }

@@ -55,9 +55,9 @@ bool stands(const Registered& now, const TrackerState& state)
 
 /**
  * How many registrations count as one. Errors of the map's cells, leaves seen from one side and occlusions stay the
- * same from scan to scan until the machine has moved by `correlation` m. Where it stands they cannot be taken for a
- * motion: the registrations of a second count as one, and hold the pose, which floats by centimetres otherwise, as
- * gravity accelerates it along any error of the tilt.
+ * same from scan to scan until the machine has moved by `correlation` m. While it stands, a constant error does not
+ * look like a motion. So only the registrations of one second count as one then. With fewer measurements the estimate
+ * moves by centimetres, because the IMU integrates gravity along any error of the tilt.
  */
 double registrationsAlike(const Registered& now, const TrackerState& state, double correlation)
 {

@@ -25,7 +25,7 @@ struct TrackerState
   Rigid local_T_anchor{};              // the body at the smoother's anchor
   Rigid map_T_local_without_anchor{};  // until a keyframe is the anchor
   std::optional<Registered> last_registered{};
-  std::optional<Registered> in_place_since{};  // the first of those that are all near to each other
+  std::optional<Registered> in_place_since{};  // the first of those at one place
   Trajectory motion_since_last{};              // body poses from the state before the newest up to it
   TrustHistory trust{};
   Recovery recovery{};
