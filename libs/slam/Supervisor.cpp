@@ -168,8 +168,7 @@ void Supervisor::beginWindow(const NavEstimate& newest, const PlacedImu& imu, co
                              TrackerState& state) const
 {
   state.smoother = windowFrom(newest, imu, smoother_);
-  state.last_registered.reset();
-  state.in_place_since.reset();
+  state.repeated_errors = {};
   state.map_T_local_without_anchor = map_T_local;
 }
 }  // namespace scanloom

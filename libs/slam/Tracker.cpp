@@ -20,57 +20,6 @@ std::vector<Eigen::Vector3d> positionsOf(const std::vector<MountedLidar>& lidars
   return positions;
 }
 
-double distanceFrom(const Registered& a, const Registered& b)
-{
-  return (a.local_T_body.translation - b.local_T_body.translation).norm();
-}
-
-/** m, from the last registration. */
-double travelTo(const Registered& now, const TrackerState& state)
-{
-  return state.last_registered ? distanceFrom(*state.last_registered, now) : 0;
-}
-
-bool isInPlace(const Registered& now, const TrackerState& state)
-{
-  constexpr double kPlace = 0.05;  // m: registrations in foliage scatter by 1 to 2 cm
-  return state.in_place_since && distanceFrom(*state.in_place_since, now) <= kPlace;
-}
-
-/**
- * How many registrations, `travel` m apart, count as one if their errors stay the same over `length` m: as independent
- * measurements they would outvote the IMU by their number.
- */
-double registrationsPerMeasurement(double travel, double length)
-{
-  constexpr double kLeastTravel = 0.02;  // m: at rest many scans count as one, but not as none
-  return std::max(1.0, length / std::max(travel, kLeastTravel));
-}
-
-/** Whether the lidar has seen the body in one place for a second: the IMU's velocity is not certain enough to tell. */
-bool stands(const Registered& now, const TrackerState& state)
-{
-  return state.in_place_since && now.stamp - state.in_place_since->stamp >= 1s && isInPlace(now, state);
-}
-
-/**
- * How many registrations count as one. Errors of the map's cells, leaves seen from one side and occlusions stay the
- * same from scan to scan until the machine has moved by `correlation` m. While it stands, a constant error does not
- * look like a motion. So only the registrations of one second count as one then. With fewer measurements the estimate
- * moves by centimetres, because the IMU integrates gravity along any error of the tilt.
- */
-double registrationsAlike(const Registered& now, const TrackerState& state, double correlation)
-{
-  if (stands(now, state)) return std::max(1.0, 1 / seconds(now.stamp - state.last_registered->stamp));
-  return registrationsPerMeasurement(travelTo(now, state), correlation);
-}
-
-void remember(const Registered& now, TrackerState& state)
-{
-  if (!isInPlace(now, state)) state.in_place_since = now;
-  state.last_registered = now;
-}
-
 /** Covariance of the pose relative to the first one: as the smoother knows it, and from before its window began. */
 Matrix6d errorSinceStart(const Rigid& map_T_body, const TrackerState& state)
 {
@@ -191,21 +140,21 @@ void Tracker::addRegistration(const PoseGuess& predicted, TrackerState& state, S
 {
   supervisor_.rate(predicted, state.trust, estimate);
   const RegistrationResult& registration = *estimate.registration;
-  const Registered now{estimate.stamp, registration.target_T_source};
-  const Eigen::Vector3d up = upInBody(state.map_T_local() * now.local_T_body);
-  const double travel = travelTo(now, state);
+  const Rigid& local_T_body = registration.target_T_source;
+  const Eigen::Vector3d up = upInBody(state.map_T_local() * local_T_body);
+  RepeatedErrors& repeated = state.repeated_errors;
+  repeated.add(estimate.stamp, local_T_body.translation);
   AttitudeDoubt& doubt = state.attitude_doubt;
-  doubt.add(registration, up, state.local_map.oldest(), travel);
+  doubt.add(registration, up, state.local_map.oldest(), repeated.travel());
   // Errors of the attitude stay the same on the length of the map.
-  const Matrix6d information = informationWithError(
-      registration.information / registrationsAlike(now, state, settings_.slam.tracking.correlation),
-      registrationsPerMeasurement(travel, doubt.length()) * doubt.covariance(up));
-  remember(now, state);
+  const Matrix6d information =
+      informationWithError(registration.information / repeated.registrationsAlike(settings_.slam.tracking.correlation),
+                           repeated.registrationsWithin(doubt.length()) * doubt.covariance(up));
   FixedLagSmoother& smoother = state.smoother;
   if (smoother.hasAnchor())
-    smoother.addRelativePose(smoother.anchor().stamp, state.local_T_anchor.inverse() * now.local_T_body, information);
+    smoother.addRelativePose(smoother.anchor().stamp, state.local_T_anchor.inverse() * local_T_body, information);
   else
-    smoother.addPosePrior(state.map_T_local() * now.local_T_body, information);
+    smoother.addPosePrior(state.map_T_local() * local_T_body, information);
 }
 
 void Tracker::smooth(const NavState& before, const std::vector<ImuSample>& samples, const Prediction& predicted,

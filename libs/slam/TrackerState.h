@@ -5,30 +5,23 @@
 #include "slam/AttitudeDoubt.h"
 #include "slam/LocalMap.h"
 #include "slam/Recovery.h"
+#include "slam/RepeatedErrors.h"
 #include "slam/WindowStart.h"
 
 #include <optional>
 
 namespace scanloom
 {
-/** Where a registration has placed the body. */
-struct Registered
-{
-  Timestamp stamp;
-  Rigid local_T_body;
-};
-
 struct TrackerState
 {
   FixedLagSmoother smoother;
   LocalMap local_map;                  // rigid, in a frame of its own
   Rigid local_T_anchor{};              // the body at the smoother's anchor
   Rigid map_T_local_without_anchor{};  // until a keyframe is the anchor
-  std::optional<Registered> last_registered{};
-  std::optional<Registered> in_place_since{};  // the first of those at one place
-  Trajectory motion_since_last{};              // body poses from the state before the newest up to it
+  Trajectory motion_since_last{};      // body poses from the state before the newest up to it
   TrustHistory trust{};
   Recovery recovery{};
+  RepeatedErrors repeated_errors{};
   AttitudeDoubt attitude_doubt{};
   std::optional<Timestamp> resting_since{};  // lost, and no longer carried by the IMU
   // Covariances relative to the first pose, as of steps (m, rad) of a body at the map's origin:

@@ -1,0 +1,28 @@
+#include "slam/RepeatedErrors.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+void RepeatedErrors::add(Timestamp stamp, const Eigen::Vector3d& position)
+{
+  constexpr double kPlace = 0.05;  // m: registrations in foliage scatter by 1 to 2 cm
+  travel_ = last_ ? (last_->position - position).norm() : 0;
+  period_ = last_ ? seconds(stamp - last_->stamp) : 0;
+  last_ = {stamp, position};
+  if (!in_place_since_ || (in_place_since_->position - position).norm() > kPlace) in_place_since_ = last_;
+}
+
+double RepeatedErrors::registrationsWithin(double length) const
+{
+  constexpr double kLeastTravel = 0.02;  // m: at rest many scans count as one, but not as none
+  return std::max(1.0, length / std::max(travel_, kLeastTravel));
+}
+
+double RepeatedErrors::registrationsAlike(double length) const
+{
+  return stands() ? std::max(1.0, 1 / period_) : registrationsWithin(length);
+}
+
+bool RepeatedErrors::stands() const { return last_ && last_->stamp - in_place_since_->stamp >= 1s; }
+}  // namespace scanloom

@@ -1,0 +1,49 @@
+/** How many registrations count as one measurement, because their errors repeat. */
+#pragma once
+#include "core/Time.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace scanloom
+{
+/**
+ * Leaves seen from one side, occlusions and the map's cells displace a registration in the same way as the one before,
+ * until the machine has moved on. As independent measurements they would outvote the IMU by their number.
+ */
+class RepeatedErrors
+{
+ public:
+  /** A registration has placed the body here, m, in the local map; stamps ascend. */
+  void add(Timestamp, const Eigen::Vector3d& position);
+
+  /** m, between the last two registrations; 0 if there are none. */
+  double travel() const { return travel_; }
+
+  /** Registrations per measurement, at least 1, of an error that stays the same over `length` m of travel. */
+  double registrationsWithin(double length) const;
+
+  /**
+   * The same, but while the machine stands, registrations of one second count as one: a constant error does not look
+   * like a motion. With fewer measurements the estimate moves by centimetres, because the IMU integrates gravity along
+   * any error of the tilt.
+   */
+  double registrationsAlike(double length) const;
+
+  /** Whether registrations have been in one place for a second: the IMU's velocity is not certain enough to tell. */
+  bool stands() const;
+
+ private:
+  struct Placed
+  {
+    Timestamp stamp;
+    Eigen::Vector3d position;
+  };
+
+  std::optional<Placed> last_;
+  std::optional<Placed> in_place_since_;  // the first of those at one place
+  double travel_ = 0;
+  double period_ = 0;  // s, between the last two
+};
+}  // namespace scanloom
