@@ -15,10 +15,10 @@ namespace scanloom
 class RepeatedErrors
 {
  public:
-  /** A registration has placed the body here, m, in the local map; stamps ascend. */
+  /** Where a registration has placed the body, m, in the local map. Stamps ascend. */
   void add(Timestamp, const Eigen::Vector3d& position);
 
-  /** m, between the last two registrations; 0 if there are none. */
+  /** m, between the last two registrations; 0 until there are two. */
   double travel() const { return travel_; }
 
   /** Registrations per measurement, at least 1, of an error that stays the same over `length` m of travel. */
