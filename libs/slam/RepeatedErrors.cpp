@@ -7,21 +7,22 @@ namespace scanloom
 void RepeatedErrors::add(Timestamp stamp, const Eigen::Vector3d& position)
 {
   constexpr double kPlace = 0.05;  // m: registrations in foliage scatter by 1 to 2 cm
-  travel_ = last_ ? (last_->position - position).norm() : 0;
-  period_ = last_ ? seconds(stamp - last_->stamp) : 0;
+  before_last_ = last_;
   last_ = {stamp, position};
   if (!in_place_since_ || (in_place_since_->position - position).norm() > kPlace) in_place_since_ = last_;
 }
 
-double RepeatedErrors::registrationsWithin(double length) const
+double RepeatedErrors::travel() const { return before_last_ ? (before_last_->position - last_->position).norm() : 0; }
+
+double RepeatedErrors::registrationsPerTravel(double length) const
 {
   constexpr double kLeastTravel = 0.02;  // m: at rest many scans count as one, but not as none
-  return std::max(1.0, length / std::max(travel_, kLeastTravel));
+  return std::max(1.0, length / std::max(travel(), kLeastTravel));
 }
 
-double RepeatedErrors::registrationsAlike(double length) const
+double RepeatedErrors::registrationsPerTravelOrRest(double length) const
 {
-  return stands() ? std::max(1.0, 1 / period_) : registrationsWithin(length);
+  return stands() ? std::max(1.0, 1 / seconds(last_->stamp - before_last_->stamp)) : registrationsPerTravel(length);
 }
 
 bool RepeatedErrors::stands() const { return last_ && last_->stamp - in_place_since_->stamp >= 1s; }

@@ -19,20 +19,17 @@ class RepeatedErrors
   void add(Timestamp, const Eigen::Vector3d& position);
 
   /** m, between the last two registrations; 0 until there are two. */
-  double travel() const { return travel_; }
+  double travel() const;
 
   /** Registrations per measurement, at least 1, of an error that stays the same over `length` m of travel. */
-  double registrationsWithin(double length) const;
+  double registrationsPerTravel(double length) const;
 
   /**
    * The same, but while the machine stands, registrations of one second count as one: a constant error does not look
    * like a motion. With fewer measurements the estimate moves by centimetres, because the IMU integrates gravity along
    * any error of the tilt.
    */
-  double registrationsAlike(double length) const;
-
-  /** Whether registrations have been in one place for a second: the IMU's velocity is not certain enough to tell. */
-  bool stands() const;
+  double registrationsPerTravelOrRest(double length) const;
 
  private:
   struct Placed
@@ -41,9 +38,11 @@ class RepeatedErrors
     Eigen::Vector3d position;
   };
 
+  /** Whether registrations have been in one place for a second: the IMU's velocity is not certain enough to tell. */
+  bool stands() const;
+
   std::optional<Placed> last_;
+  std::optional<Placed> before_last_;
   std::optional<Placed> in_place_since_;  // the first of those at one place
-  double travel_ = 0;
-  double period_ = 0;  // s, between the last two
 };
 }  // namespace scanloom

@@ -147,9 +147,9 @@ void Tracker::addRegistration(const PoseGuess& predicted, TrackerState& state, S
   AttitudeDoubt& doubt = state.attitude_doubt;
   doubt.add(registration, up, state.local_map.oldest(), repeated.travel());
   // Errors of the attitude stay the same on the length of the map.
-  const Matrix6d information =
-      informationWithError(registration.information / repeated.registrationsAlike(settings_.slam.tracking.correlation),
-                           repeated.registrationsWithin(doubt.length()) * doubt.covariance(up));
+  const Matrix6d information = informationWithError(
+      registration.information / repeated.registrationsPerTravelOrRest(settings_.slam.tracking.correlation),
+      repeated.registrationsPerTravel(doubt.length()) * doubt.covariance(up));
   FixedLagSmoother& smoother = state.smoother;
   if (smoother.hasAnchor())
     smoother.addRelativePose(smoother.anchor().stamp, state.local_T_anchor.inverse() * local_T_body, information);
