@@ -11,7 +11,7 @@ namespace scanloom
 {
 struct TrustOptions
 {
-  double contradiction = 9.0;
+  double contradiction = 12.0;
   double restart_after = 10.0;
   double lost_after = 2.0;
 
