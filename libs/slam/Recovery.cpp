@@ -1,9 +1,27 @@
 #include "slam/Recovery.h"
 
+#include "imu/MeanForce.h"
+
 #include <algorithm>
 
 namespace scanloom
 {
+namespace
+{
+/**
+ * Places that look alike are found with a wrong tilt, along which gravity would then accelerate the body. A working IMU
+ * knows the tilt; where place and IMU differ, the accelerometer tells which of them is right.
+ */
+bool isTiltPossible(const Eigen::Quaterniond& local_R_body, const LostBody& lost, const Eigen::Vector3d& up_in_local)
+{
+  constexpr double kWorkingImu = 3;  // deg
+  const auto lean = [&](const Eigen::Quaterniond& rotation) { return degreesBetween(rotation * lost.up, up_in_local); };
+  const double apart =
+      degreesBetween(local_R_body.conjugate() * up_in_local, lost.local_R_body.conjugate() * up_in_local);
+  return apart < kWorkingImu || lean(local_R_body) < lean(lost.local_R_body);
+}
+}  // namespace
+
 void Recovery::changeBias(const ImuBias& bias)
 {
   if (last_seen_) last_seen_->bias = bias;
@@ -30,8 +48,10 @@ std::optional<FoundBody> Recovery::search(const NdtMap& local_map, const std::ve
   const SearchArea area{{lost.local_R_body, last_seen_->local_T_body.translation},
                         std::min(kFarthest, kSpeed * seconds(lost.since_trusted))};
   const std::vector<Rigid> starts = nextStarts(area);
-  const auto found =
-      times.measure("recovery", [&] { return relocalise(local_map, views, starts, options.fine_cells, options.fine); });
+  const Eigen::Vector3d up = last_seen_->map_T_local.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  const auto isPossible = [&](const Rigid& local_T_body) { return isTiltPossible(local_T_body.rotation, lost, up); };
+  const auto found = times.measure(
+      "recovery", [&] { return relocalise(local_map, views, starts, isPossible, options.fine_cells, options.fine); });
   if (!found || found->score > kAsGood * last_seen_->score) return std::nullopt;  // scores are negative
   next_start_ = 0;
   return FoundBody{*found, covarianceWithin(area, *found)};

@@ -18,11 +18,12 @@ struct LastSeen
   ImuBias bias;
 };
 
-/** Where the IMU alone says that the body is. */
+/** What the IMU alone says about the body. */
 struct LostBody
 {
   Timestamp stamp;
   Eigen::Quaterniond local_R_body;
+  Eigen::Vector3d up;  // in the body, by the mean specific force while it is lost; of any length
   Duration since_trusted;
 };
 
@@ -45,9 +46,10 @@ class Recovery
   void forget() { *this = {}; }
 
   /**
-   * Searches around the place where the body was last seen, as far as a machine can drive since then. The tilt is the
-   * IMU's; all headings are tried, the IMU's first, because the IMU may be wrong. The effort for a scan is limited, by
-   * the number of starts: the next scan goes on with the starts after them.
+   * Searches around the place where the body was last seen, as far as a machine can drive since then. All headings are
+   * tried, the IMU's first, because the IMU may be wrong. The tilt is the IMU's within 3 deg, or one that agrees better
+   * with the accelerometer. The effort for a scan is limited, by the number of starts: the next scan goes on with the
+   * starts after them.
    */
   std::optional<FoundBody> search(const NdtMap& local_map, const std::vector<View>& seen_from_body, const LostBody&,
                                   const ScanRegistrationOptions&, StageTimes&);

@@ -211,8 +211,9 @@ std::vector<Rigid> startsWithin(const SearchArea& area)
 }
 
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views,
-                                             const std::vector<Rigid>& starts, const NdtOptions& cells,
-                                             const RegistrationOptions& options)
+                                             const std::vector<Rigid>& starts,
+                                             const std::function<bool(const Rigid& map_T_body)>& isPossible,
+                                             const NdtOptions& cells, const RegistrationOptions& options)
 {
   constexpr double kRivals = 0.8;     // share of the best score with which another place may be the true one
   constexpr std::size_t kOthers = 2;  // that are tried only where the first is a place
@@ -221,7 +222,7 @@ std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vecto
   for (const Rigid& start : pyramid.mostPromising(starts, 1 + kOthers))
   {
     RegistrationResult result = pyramid.align(start, options);
-    if (isPlace(result)) found.push_back(std::move(result));
+    if (isPlace(result) && isPossible(result.target_T_source)) found.push_back(std::move(result));
     if (found.empty()) return std::nullopt;
   }
   if (found.empty()) return std::nullopt;

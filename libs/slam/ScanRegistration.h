@@ -4,6 +4,7 @@
 #include "ndt/Registration.h"
 #include "ndt/View.h"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -63,10 +64,12 @@ Matrix6d covarianceWithin(const SearchArea&, const RegistrationResult&);
 std::vector<Rigid> startsWithin(const SearchArea&);
 
 /**
- * The pose that alignment finds from the most promising start. None if it is not trustworthy, or if one that is found
- * from the next starts, far from it, is nearly as good. To fail takes a score for each start and about two alignments.
+ * The pose that alignment finds from the most promising start. None if it is not trustworthy or not possible, or if one
+ * that is found from the next starts, far from it, is nearly as good. To fail takes a score for each start and about
+ * two alignments.
  */
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& seen_from_body,
-                                             const std::vector<Rigid>& starts, const NdtOptions& cells,
-                                             const RegistrationOptions&);
+                                             const std::vector<Rigid>& starts,
+                                             const std::function<bool(const Rigid& map_T_body)>& isPossible,
+                                             const NdtOptions& cells, const RegistrationOptions&);
 }  // namespace scanloom

@@ -17,6 +17,11 @@ bool isWhereItIsSaidToBe(const StateEstimate& estimate)
   return estimate.registration && estimate.registration->outcome == Outcome::Degenerate &&
          3 * largestDeviation(estimate.covariance) < kReach;
 }
+
+LostMotion motionWhileLost(const TrackerState& state, const StateEstimate& estimate)
+{
+  return {estimate.velocity - state.last_good.velocity, estimate.stamp - state.last_good.stamp};
+}
 }  // namespace
 
 Supervisor::Supervisor(const SlamSettings& settings)
@@ -45,14 +50,15 @@ Supervisor::Verdict Supervisor::judge(const std::vector<View>& views, const NavS
   compareWithRegistration(estimate, state);
   Verdict verdict;
   verdict.contradicted = assessedAndMended(views, state, estimate, times).contradicted;
-  verdict.lost_for_good = estimate.health == Health::Lost && estimate.stamp - state.trust.last_trusted >
-                                                                 fromSeconds(trust_.lost_after + trust_.restart_after);
-  if (verdict.lost_for_good)
-    comeToRest(before, state, estimate);
+  const bool lost_for_good =
+      estimate.health == Health::Lost &&
+      estimate.stamp - state.trust.last_trusted > fromSeconds(trust_.lost_after + trust_.restart_after);
+  if (lost_for_good)
+    verdict.begins_map = giveUpMap(before, state, estimate);
   else if (state.resting_since)
   {
     state.resting_since.reset();
-    state.before_window = state.when_trusted;  // seen in the same map: no rest in between counts
+    state.before_window = state.last_good.since_start;  // seen in the same map: no rest in between counts
   }
   return verdict;
 }
@@ -99,6 +105,7 @@ bool Supervisor::recover(const std::vector<View>& views, TrackerState& state, St
 {
   if (state.local_map.empty() || estimate.cloud.empty()) return false;
   const LostBody lost{estimate.stamp, (state.map_T_local().inverse() * estimate.map_T_body).rotation,
+                      estimate.map_T_body.rotation.conjugate() * meanForce(motionWhileLost(state, estimate)),
                       estimate.stamp - state.trust.last_trusted};
   const std::optional<FoundBody> found =
       state.recovery.search(state.local_map.ndt(), views, lost, withLimitedEffort(registration_), times);
@@ -134,7 +141,7 @@ void Supervisor::beginAgainAt(const FoundBody& found, TrackerState& state, State
   covariance.diagonal().head<3>().array() += kSmear * kSmear;
   beginWindow(foundAt(seen.map_T_local * local_T_body, covariance, state.newest(), seen.bias, imu), imu,
               seen.map_T_local, state);
-  state.before_window = state.when_trusted;
+  state.before_window = state.last_good.since_start;
   state.trust.separation = {};
 
   estimate.registration = found.registration;
@@ -144,22 +151,45 @@ void Supervisor::beginAgainAt(const FoundBody& found, TrackerState& state, State
   estimate.trusted = estimate.recovered = true;
 }
 
-/** The IMU's attitude at the place before. How far the body may be from there is not for the smoother: it computes
- * with differences of a millimetre. */
-void Supervisor::comeToRest(const NavState& before, TrackerState& state, StateEstimate& estimate) const
+/**
+ * Whether the scan begins a new map, which moves on as the IMU says. The body rests instead where nothing is seen, and
+ * where it cannot have moved so: a scan that was deskewed by such a motion begins no map.
+ */
+bool Supervisor::giveUpMap(const NavState& before, TrackerState& state, StateEstimate& estimate) const
+{
+  const Eigen::Quaterniond map_R_body = state.smoother.newestBody().rotation;
+  const bool sees = !estimate.cloud.empty();
+  if (state.resting_since)
+  {
+    comeToRest({map_R_body}, before, state, estimate);
+    return sees;
+  }
+  const LostMotion motion = motionWhileLost(state, estimate);
+  if (isPossible(motion) && sees)
+  {
+    beginWindow(state.newest(), state.imu(), state.map_T_local(), state);
+    return true;
+  }
+  state.resting_since = before.stamp;
+  comeToRest(levelled(map_R_body, motion), before, state, estimate);
+  return false;
+}
+
+/** At the place before. How far the body may be from there is not for the smoother: it computes with differences of a
+ * millimetre. */
+void Supervisor::comeToRest(const Attitude& attitude, const NavState& before, TrackerState& state,
+                            StateEstimate& estimate) const
 {
   constexpr double kSpeed = 1.5;  // m/s, a machine's
   const PlacedImu imu = state.imu();
-  const Rigid map_T_body{state.smoother.newestBody().rotation,
-                         (before.map_T_imu * imu.body_T_imu.inverse()).translation};
-  beginWindow(atRest(map_T_body, state.newest(), imu), imu, state.map_T_local(), state);
+  const Rigid map_T_body{attitude.map_R_body, (before.map_T_imu * imu.body_T_imu.inverse()).translation};
+  beginWindow(atRest(map_T_body, attitude.tilt_sigma, state.newest(), imu), imu, state.map_T_local(), state);
 
-  if (!state.resting_since) state.resting_since = before.stamp;
   const double reach = kSpeed * seconds(estimate.stamp - *state.resting_since);
   estimate.map_T_body = map_T_body;
   estimate.covariance = state.smoother.newestBodyCovariance();
   estimate.velocity.setZero();
-  state.before_window = state.when_trusted;
+  state.before_window = state.last_good.since_start;
   for (Matrix6d* covariance : {&estimate.covariance, &state.before_window})
     covariance->diagonal().head<3>().array() += reach * reach;
 }

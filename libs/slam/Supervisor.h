@@ -1,6 +1,7 @@
 /** Whether an estimate is to be believed, and what is done where it is not. */
 #pragma once
 #include "core/StageTimes.h"
+#include "slam/LostMotion.h"
 #include "slam/SlamSettings.h"
 #include "slam/StateEstimate.h"
 #include "slam/TrackerState.h"
@@ -14,8 +15,8 @@ class Supervisor
  public:
   struct Verdict
   {
-    bool contradicted = false;   // see Assessment
-    bool lost_for_good = false;  // for so long that the local map is of no use any more
+    bool contradicted = false;  // see Assessment
+    bool begins_map = false;    // lost for so long that the local map is of no use any more
   };
 
   explicit Supervisor(const SlamSettings&);
@@ -38,7 +39,8 @@ class Supervisor
   bool recover(const std::vector<View>&, TrackerState&, StateEstimate&, StageTimes&) const;
   void believeLidar(TrackerState&, StateEstimate&) const;
   void beginAgainAt(const FoundBody&, TrackerState&, StateEstimate&) const;
-  void comeToRest(const NavState& before, TrackerState&, StateEstimate&) const;
+  bool giveUpMap(const NavState& before, TrackerState&, StateEstimate&) const;
+  void comeToRest(const Attitude&, const NavState& before, TrackerState&, StateEstimate&) const;
   void beginWindow(const NavEstimate&, const PlacedImu&, const Rigid& map_T_local, TrackerState&) const;
 
   TrackingOptions tracking_;

@@ -50,6 +50,7 @@ TrackerState Tracker::begin(const NavEstimate& start, const PlacedImu& imu) cons
 {
   TrackerState state{windowFrom(start, imu, settings_.smoother), LocalMap(settings_.local_map, settings_.map_cells)};
   state.trust.last_trusted = start.state.stamp;
+  state.last_good = {start.state.stamp, start.state.velocity};
   return state;
 }
 
@@ -70,7 +71,8 @@ TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSa
   state.motion_since_last = estimate.recovered ? Trajectory{} : estimate.since_last;
   updateMap(seen, verdict, state, estimate, times);
   const Matrix6d since_start = errorSinceStart(estimate.map_T_body, state);
-  if (!state.trust.lost) state.when_trusted = movedTo(estimate.map_T_body.inverse(), since_start);
+  if (!state.trust.lost)
+    state.last_good = {estimate.stamp, estimate.velocity, movedTo(estimate.map_T_body.inverse(), since_start)};
   estimate.since_start = since_start + errorOfWay(estimate.map_T_body);
   return {std::move(state), std::move(estimate)};
 }
@@ -172,7 +174,7 @@ void Tracker::updateMap(const Seen& seen, const Supervisor::Verdict& verdict, Tr
                         StateEstimate& estimate, StageTimes& times) const
 {
   if (estimate.cloud.empty()) return;
-  if (verdict.lost_for_good && !state.local_map.empty())
+  if (verdict.begins_map && !state.local_map.empty())
   {
     estimate.map_restarted = true;
     state.local_map.clear();

@@ -12,6 +12,14 @@
 
 namespace scanloom
 {
+/** The last pose that was not LOST. */
+struct LastGood
+{
+  Timestamp stamp;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, in the map
+  Matrix6d since_start = Matrix6d::Zero();             // as TrackerState::before_window; without errorOfWay()
+};
+
 struct TrackerState
 {
   FixedLagSmoother smoother;
@@ -24,9 +32,10 @@ struct TrackerState
   RepeatedErrors repeated_errors{};
   AttitudeDoubt attitude_doubt{};
   std::optional<Timestamp> resting_since{};  // lost, and no longer carried by the IMU
-  // Covariances relative to the first pose, as of steps (m, rad) of a body at the map's origin:
-  Matrix6d before_window = Matrix6d::Zero();  // of what erred before the smoother's window began
-  Matrix6d when_trusted = Matrix6d::Zero();   // of the last pose that was not LOST, without errorOfWay()
+  LastGood last_good{};
+  // Covariance relative to the first pose, of what erred before the smoother's window began; as of steps (m, rad) of a
+  // body at the map's origin:
+  Matrix6d before_window = Matrix6d::Zero();
 
   Rigid map_T_local() const;
   NavEstimate newest() const { return {smoother.newest(), smoother.newestCovariance()}; }

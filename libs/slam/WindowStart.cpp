@@ -62,6 +62,16 @@ Eigen::Vector3d rateAt(Timestamp stamp, const std::vector<ImuSample>& samples, c
   return then.empty() ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(then.front().gyro - bias.gyro);
 }
 
+/** Of a body whose roll and pitch have this deviation (rad), in its frame. */
+Matrix6d tiltCovariance(const Rigid& map_T_body, double sigma)
+{
+  const Eigen::Matrix3d body_R_map = map_T_body.rotation.conjugate().toRotationMatrix();
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.bottomRightCorner<3, 3>() =
+      sigma * sigma * body_R_map.leftCols<2>() * body_R_map.leftCols<2>().transpose();
+  return covariance;
+}
+
 /** The newest state, with another pose of the body, at rest for all that is known. */
 NavEstimate withUnknownVelocity(const Rigid& map_T_body, const Matrix6d& body_covariance, NavEstimate newest,
                                 const PlacedImu& imu)
@@ -93,18 +103,16 @@ NavEstimate continuedBy(const ImuChange& change, const NavEstimate& newest, cons
 NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, const NavEstimate& newest,
                     const ImuBias& bias, const PlacedImu& imu)
 {
-  const double level = imu.noise.accel_bias_sigma / kGravity;  // rad
-  const Eigen::Matrix3d body_R_map = map_T_body.rotation.conjugate().toRotationMatrix();
-  Matrix6d of_body = body_covariance;
-  of_body.bottomRightCorner<3, 3>() += level * level * body_R_map.leftCols<2>() * body_R_map.leftCols<2>().transpose();
-  NavEstimate found = withUnknownVelocity(map_T_body, of_body, newest, imu);
+  const Matrix6d tilt = tiltCovariance(map_T_body, imu.noise.accel_bias_sigma / kGravity);
+  NavEstimate found = withUnknownVelocity(map_T_body, body_covariance + tilt, newest, imu);
   found.state.bias = bias;
   return found;
 }
 
-NavEstimate atRest(const Rigid& map_T_body, const NavEstimate& newest, const PlacedImu& imu)
+NavEstimate atRest(const Rigid& map_T_body, double tilt_sigma, const NavEstimate& newest, const PlacedImu& imu)
 {
   const Matrix6d of_imu = newest.covariance.topLeftCorner<6, 6>();
-  return withUnknownVelocity(map_T_body, movedTo(imu.body_T_imu.inverse(), of_imu), newest, imu);
+  const Matrix6d of_body = movedTo(imu.body_T_imu.inverse(), of_imu) + tiltCovariance(map_T_body, tilt_sigma);
+  return withUnknownVelocity(map_T_body, of_body, newest, imu);
 }
 }  // namespace scanloom

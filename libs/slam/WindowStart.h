@@ -39,6 +39,7 @@ NavEstimate continuedBy(const ImuChange&, const NavEstimate& newest, const Rigid
 NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, const NavEstimate& newest,
                     const ImuBias& bias, const PlacedImu&);
 
-/** The newest state with another pose of the body, and its velocity unknown. */
-NavEstimate atRest(const Rigid& map_T_body, const NavEstimate& newest, const PlacedImu&);
+/** The newest state with another pose of the body, and its velocity unknown. `tilt_sigma`: by which the tilt
+ * of that pose is less certain than the newest state's (rad). */
+NavEstimate atRest(const Rigid& map_T_body, double tilt_sigma, const NavEstimate& newest, const PlacedImu&);
 }  // namespace scanloom

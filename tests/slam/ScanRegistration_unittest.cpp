@@ -51,7 +51,8 @@ RegistrationResult registerScan(const NdtMap& map, const std::vector<View>& view
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views, const SearchArea& area)
 {
   const ScanRegistrationOptions options = SlamSettings().registration;
-  return scanloom::relocalise(map, views, startsWithin(area), options.fine_cells, options.fine);
+  return scanloom::relocalise(
+      map, views, startsWithin(area), [](const Rigid&) { return true; }, options.fine_cells, options.fine);
 }
 
 double distance(const Rigid& a, const Rigid& b) { return boxMinus(a, b).norm(); }

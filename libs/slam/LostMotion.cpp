@@ -1,0 +1,22 @@
+#include "slam/LostMotion.h"
+
+#include "imu/NavState.h"
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kMostGained = 3;  // m/s
+}
+
+bool isPossible(const LostMotion& motion) { return motion.gained.norm() < kMostGained; }
+
+Eigen::Vector3d meanForce(const LostMotion& motion) { return motion.gained / seconds(motion.within) - gravityInMap(); }
+
+Attitude levelled(const Eigen::Quaterniond& map_R_body, const LostMotion& motion)
+{
+  if (isPossible(motion)) return {map_R_body};
+  const Eigen::Quaterniond correction = Eigen::Quaterniond::FromTwoVectors(meanForce(motion), Eigen::Vector3d::UnitZ());
+  return {correction * map_R_body, kMostGained / seconds(motion.within) / kGravity};
+}
+}  // namespace scanloom
