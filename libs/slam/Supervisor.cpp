@@ -152,8 +152,9 @@ void Supervisor::beginAgainAt(const FoundBody& found, TrackerState& state, State
 }
 
 /**
- * Whether the scan begins a new map, which moves on as the IMU says. The body rests instead where nothing is seen, and
- * where it cannot have moved so: a scan that was deskewed by such a motion begins no map.
+ * Whether the scan begins a new map, in which the body moves on as the IMU says. It rests instead where nothing is seen,
+ * where no scan was ever found in the map (the motion is older than that), and where it cannot have moved so: a scan
+ * that was deskewed by such a motion begins no map.
  */
 bool Supervisor::giveUpMap(const NavState& before, TrackerState& state, StateEstimate& estimate) const
 {
@@ -165,7 +166,7 @@ bool Supervisor::giveUpMap(const NavState& before, TrackerState& state, StateEst
     return sees;
   }
   const LostMotion motion = motionWhileLost(state, estimate);
-  if (isPossible(motion) && sees)
+  if (sees && state.recovery.lastSeen() && isPossible(motion))
   {
     beginWindow(state.newest(), state.imu(), state.map_T_local(), state);
     return true;
