@@ -152,9 +152,9 @@ void Supervisor::beginAgainAt(const FoundBody& found, TrackerState& state, State
 }
 
 /**
- * Whether the scan begins a new map, in which the body moves on as the IMU says. It rests instead where nothing is seen,
- * where no scan was ever found in the map (the motion is older than that), and where it cannot have moved so: a scan
- * that was deskewed by such a motion begins no map.
+ * Whether the scan begins a new map, in which the body moves on as the IMU says. It rests instead where nothing is
+ * seen, where no scan was ever found in the map (the motion is older than that), and where it cannot have moved so: a
+ * scan that was deskewed by such a motion begins no map.
  */
 bool Supervisor::giveUpMap(const NavState& before, TrackerState& state, StateEstimate& estimate) const
 {

@@ -483,6 +483,27 @@ TEST(LidarInertialSlam, beginsANewMapWhereTheImuSaysIfTheOldOneIsOutOfSightForGo
   EXPECT_GT(deviationSinceStart(end).x(), in_map) << "where the map began is not known better";
 }
 
+TEST(LidarInertialSlam, movesOnIntoANewMapButRestsWhereNothingOfThatIsSeenAgain)
+{
+  // From 4 s on, scans show places that have nothing in common.
+  SlamSettings settings;
+  settings.slam.trust.lost_after = settings.slam.trust.restart_after = 1;
+  Machine machine = gentleMachine(0s);
+  machine.drive.x = {0, 1.5, 0, 1, 0};
+  const Driven run = runFor(machine, 10s, settings,
+                            [&](Scan& scan)
+                            {
+                              const auto n = scan.start.time_since_epoch() / 100ms;
+                              if (n >= 40) liftTo(7.0 * static_cast<double>(n % 25) - 80, machine, scan);
+                            });
+  std::vector<double> speeds;
+  for (const StateEstimate& e : run.estimates)
+    if (e.map_restarted) speeds.push_back(e.velocity.norm());
+  ASSERT_EQ(speeds.size(), 2u);
+  EXPECT_NEAR(speeds[0], 1.5, 0.2);
+  EXPECT_EQ(speeds[1], 0);
+}
+
 TEST(LidarInertialSlam, aNewMapIsLevelWhereAWrongImuTiltedTheLostBody)
 {
   // Four seconds of the gyroscope tilt it by 7 degrees, by which gravity then accelerates it to 10 m/s.
