@@ -152,24 +152,25 @@ void Supervisor::beginAgainAt(const FoundBody& found, TrackerState& state, State
 }
 
 /**
- * Whether the scan begins a new map, in which the body moves on as the IMU says. It rests instead where nothing is
- * seen, where no scan was ever found in the map (the motion is older than that), and where it cannot have moved so: a
- * scan that was deskewed by such a motion begins no map.
+ * Whether the scan begins a new map. The body moves on as the IMU says, unless that does not know its velocity any
+ * more, or cannot be right, or no scan was ever found in the map (the velocity is older than that): then it rests. A
+ * scan that was deskewed by an impossible motion begins no map.
  */
 bool Supervisor::giveUpMap(const NavState& before, TrackerState& state, StateEstimate& estimate) const
 {
   const Eigen::Quaterniond map_R_body = state.smoother.newestBody().rotation;
-  const bool sees = !estimate.cloud.empty();
+  const bool sees = state.scans_seen > 1;
   if (state.resting_since)
   {
     comeToRest({map_R_body}, before, state, estimate);
     return sees;
   }
   const LostMotion motion = motionWhileLost(state, estimate);
-  if (sees && state.recovery.lastSeen() && isPossible(motion))
+  const NavEstimate newest = state.newest();
+  if (state.recovery.lastSeen() && isPossible(motion) && knowsVelocity(newest))
   {
-    beginWindow(state.newest(), state.imu(), state.map_T_local(), state);
-    return true;
+    if (sees) beginWindow(newest, state.imu(), state.map_T_local(), state);
+    return sees;
   }
   state.resting_since = before.stamp;
   comeToRest(levelled(map_R_body, motion), before, state, estimate);

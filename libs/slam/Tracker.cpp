@@ -64,6 +64,7 @@ TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSa
   const Prediction predicted = predict(samples, state, times);
   Seen seen = preprocess(std::move(scan), before, samples, state, times);
   estimate.cloud = std::move(seen.cloud);
+  state.scans_seen = estimate.cloud.empty() ? 0 : state.scans_seen + 1;
   locate(seen, predicted, state, estimate, times);
   smooth(before, samples, predicted, state, estimate, times);
   const Supervisor::Verdict verdict = supervisor_.judge(seen.views, before, state, estimate, times);
@@ -183,7 +184,7 @@ void Tracker::updateMap(const Seen& seen, const Supervisor::Verdict& verdict, Tr
     state.trust.last_trusted = estimate.stamp;
     state.resting_since.reset();  // how far it may have moved since then stays in before_window
   }
-  const bool sure = estimate.trusted && !estimate.recovered && !verdict.contradicted &&
+  const bool sure = state.scans_seen > 1 && estimate.trusted && !estimate.recovered && !verdict.contradicted &&
                     !state.trust.separation.suspected() && estimate.registration->outcome == Outcome::Converged;
   if (state.local_map.empty() || (sure && state.local_map.wants(state.map_T_local().inverse() * estimate.map_T_body)))
     times.measure("keyframe", [&] { addKeyframe(seen, state, estimate); });

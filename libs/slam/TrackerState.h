@@ -32,6 +32,7 @@ struct TrackerState
   RepeatedErrors repeated_errors{};
   AttitudeDoubt attitude_doubt{};
   std::optional<Timestamp> resting_since{};  // lost, and no longer carried by the IMU
+  int scans_seen = 0;  // in a row that have points: the first after a silence may be a single packet
   LastGood last_good{};
   // Covariance relative to the first pose, of what erred before the smoother's window began; as of steps (m, rad) of a
   // body at the map's origin:

@@ -11,6 +11,8 @@ namespace scanloom
 {
 namespace
 {
+constexpr double kAtRest = 1;  // m/s, how far the velocity may be from that
+
 /** Derivatives of the new IMU's state by that of the one before; its biases are other ones where they are not known. */
 Matrix15d byStateBefore(const Rigid& old_T_new, bool biases_known)
 {
@@ -76,13 +78,12 @@ Matrix6d tiltCovariance(const Rigid& map_T_body, double sigma)
 NavEstimate withUnknownVelocity(const Rigid& map_T_body, const Matrix6d& body_covariance, NavEstimate newest,
                                 const PlacedImu& imu)
 {
-  constexpr double kVelocity = 1;  // m/s
   newest.state.map_T_imu = map_T_body * imu.body_T_imu;
   newest.state.velocity.setZero();
   newest.covariance.topRows<9>().setZero();
   newest.covariance.leftCols<9>().setZero();
   newest.covariance.topLeftCorner<6, 6>() = movedTo(imu.body_T_imu, body_covariance);
-  newest.covariance.diagonal().segment<3>(6).setConstant(kVelocity * kVelocity);
+  newest.covariance.diagonal().segment<3>(6).setConstant(kAtRest * kAtRest);
   return newest;
 }
 }  // namespace
@@ -107,6 +108,11 @@ NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, co
   NavEstimate found = withUnknownVelocity(map_T_body, body_covariance + tilt, newest, imu);
   found.state.bias = bias;
   return found;
+}
+
+bool knowsVelocity(const NavEstimate& estimate)
+{
+  return estimate.covariance.diagonal().segment<3>(6).maxCoeff() < kAtRest * kAtRest;
 }
 
 NavEstimate atRest(const Rigid& map_T_body, double tilt_sigma, const NavEstimate& newest, const PlacedImu& imu)

@@ -39,7 +39,10 @@ NavEstimate continuedBy(const ImuChange&, const NavEstimate& newest, const Rigid
 NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, const NavEstimate& newest,
                     const ImuBias& bias, const PlacedImu&);
 
-/** The newest state with another pose of the body, and its velocity unknown. `tilt_sigma`: by which the tilt
+/** Whether the velocity is known better than that of a body at rest is. */
+bool knowsVelocity(const NavEstimate&);
+
+/** The newest state with another pose of the body, at rest within 1 m/s. `tilt_sigma`: by which the tilt
  * of that pose is less certain than the newest state's (rad). */
 NavEstimate atRest(const Rigid& map_T_body, double tilt_sigma, const NavEstimate& newest, const PlacedImu&);
 }  // namespace scanloom

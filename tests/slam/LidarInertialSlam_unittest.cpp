@@ -215,6 +215,41 @@ void blind(Scan& scan)
 }
 }  // namespace
 
+TEST(LidarInertialSlam, aBlindBodyIsCarriedOnAsLongAsTheImuKnowsItsVelocity)
+{
+  const Machine machine = gentleMachine(3s);
+  const Driven run = runFor(machine, 34s, {},
+                            [](Scan& scan)
+                            {
+                              if (scan.start >= Timestamp{6s} && scan.start < Timestamp{30s}) blind(scan);
+                            });
+  EXPECT_EQ(run.at(29s).health, Health::Lost);
+  EXPECT_GT(run.at(29s).velocity.norm(), 0.1);
+  EXPECT_LT(largestError(run, machine), 0.5);
+  EXPECT_EQ(run.estimates.back().health, Health::Ok);
+  EXPECT_EQ(run.map_restarts, 0u);
+}
+
+TEST(LidarInertialSlam, whatIsLeftOfAScanWhenASilenceEndsIsNoKeyframe)
+{
+  Machine machine = gentleMachine(0s);
+  machine.drive.x = {0, 1.5, 0, 1, 0};
+  const Timestamp from{5s}, to{9s};
+  const Driven run = runFor(machine, 10s, {},
+                            [&](Scan& scan)
+                            {
+                              if (scan.start >= from && scan.start < to) blind(scan);
+                              if (scan.start != to) return;
+                              scan.columns.resize(4);
+                              scan.points.resize(scan.columns.back().first_point + scan.columns.back().count);
+                            });
+  const StateEstimate &part = run.at(9100ms), &whole = run.at(9200ms);
+  EXPECT_LT(part.cloud.size(), whole.cloud.size() / 10);
+  EXPECT_EQ(part.health, Health::Ok) << "its place is known, 6 m from the last keyframe";
+  EXPECT_FALSE(part.keyframe);
+  EXPECT_TRUE(whole.keyframe);
+}
+
 TEST(LidarInertialSlam, aLostBodyComesToRestAndIsFoundAgainWhenTheViewComesBack)
 {
   const Machine machine = gentleMachine(100s);
