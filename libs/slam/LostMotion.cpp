@@ -6,7 +6,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kMostGained = 3;  // m/s
+constexpr double kMostGained = 2 * kMachineSpeed;
 }
 
 bool isPossible(const LostMotion& motion) { return motion.gained.norm() < kMostGained; }

@@ -5,19 +5,21 @@
 
 namespace scanloom
 {
-/** How the IMU alone has moved a body since it was lost. */
+inline constexpr double kMachineSpeed = 1.5;  // m/s, the most that a lost body is taken to drive
+
+/** How the IMU has changed the velocity of a body since its last pose that was not LOST. */
 struct LostMotion
 {
-  Eigen::Vector3d gained;  // velocity, m/s, in the map
+  Eigen::Vector3d gained;  // m/s, in the map
   Duration within;
 };
 
-/** Below 3 m/s: no machine gains more in the seconds until its map is given up. */
+/** Whether a machine can have gained that: less than from full speed forwards to full speed backwards. */
 bool isPossible(const LostMotion&);
 
 /**
- * Mean specific force (m/s2) in the map by the attitude of the IMU, without what the body gained before it was lost. It
- * points up but for the acceleration of the drive and for the error of the attitude.
+ * Mean specific force since then, in m/s2, turned into the map by the attitudes of the IMU. It points up; it leans by
+ * the acceleration of the drive, and where these attitudes are wrong.
  */
 Eigen::Vector3d meanForce(const LostMotion&);
 
@@ -27,6 +29,9 @@ struct Attitude
   double tilt_sigma = 0;  // rad, by which the tilt is less certain than it was
 };
 
-/** A velocity that is not possible comes from gravity along an error of the tilt: the attitude without that error. */
+/**
+ * An impossible gain comes from a wrong tilt, along which gravity has accelerated the body. Returns the attitude
+ * without that error; after a possible gain, the attitude as it is.
+ */
 Attitude levelled(const Eigen::Quaterniond& map_R_body, const LostMotion&);
 }  // namespace scanloom

@@ -1,6 +1,7 @@
 #include "slam/Recovery.h"
 
 #include "imu/MeanForce.h"
+#include "slam/LostMotion.h"
 
 #include <algorithm>
 
@@ -42,11 +43,11 @@ std::vector<Rigid> Recovery::nextStarts(const SearchArea& area)
 std::optional<FoundBody> Recovery::search(const NdtMap& local_map, const std::vector<View>& views, const LostBody& lost,
                                           const ScanRegistrationOptions& options, StageTimes& times)
 {
-  constexpr double kSpeed = 1.5, kFarthest = 10;  // m/s, m
-  constexpr double kAsGood = 0.75;                // of the last trusted registration's score
+  constexpr double kFarthest = 10;  // m
+  constexpr double kAsGood = 0.75;  // of the last trusted registration's score
   if (!last_seen_) return std::nullopt;
   const SearchArea area{{lost.local_R_body, last_seen_->local_T_body.translation},
-                        std::min(kFarthest, kSpeed * seconds(lost.since_trusted))};
+                        std::min(kFarthest, kMachineSpeed * seconds(lost.since_trusted))};
   const std::vector<Rigid> starts = nextStarts(area);
   const Eigen::Vector3d up = last_seen_->map_T_local.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   const auto isPossible = [&](const Rigid& local_T_body) { return isTiltPossible(local_T_body.rotation, lost, up); };

@@ -21,9 +21,8 @@ struct LastSeen
 /** What the IMU alone says about the body. */
 struct LostBody
 {
-  Timestamp stamp;
   Eigen::Quaterniond local_R_body;
-  Eigen::Vector3d up;  // in the body, by the mean specific force while it is lost; of any length
+  Eigen::Vector3d up;  // in the body's frame: the mean specific force while it is lost, of any length
   Duration since_trusted;
 };
 

@@ -104,7 +104,7 @@ bool Supervisor::recover(const std::vector<View>& views, TrackerState& state, St
                          StageTimes& times) const
 {
   if (state.local_map.empty() || estimate.cloud.empty()) return false;
-  const LostBody lost{estimate.stamp, (state.map_T_local().inverse() * estimate.map_T_body).rotation,
+  const LostBody lost{(state.map_T_local().inverse() * estimate.map_T_body).rotation,
                       estimate.map_T_body.rotation.conjugate() * meanForce(motionWhileLost(state, estimate)),
                       estimate.stamp - state.trust.last_trusted};
   const std::optional<FoundBody> found =
@@ -182,12 +182,11 @@ bool Supervisor::giveUpMap(const NavState& before, TrackerState& state, StateEst
 void Supervisor::comeToRest(const Attitude& attitude, const NavState& before, TrackerState& state,
                             StateEstimate& estimate) const
 {
-  constexpr double kSpeed = 1.5;  // m/s, a machine's
   const PlacedImu imu = state.imu();
   const Rigid map_T_body{attitude.map_R_body, (before.map_T_imu * imu.body_T_imu.inverse()).translation};
   beginWindow(atRest(map_T_body, attitude.tilt_sigma, state.newest(), imu), imu, state.map_T_local(), state);
 
-  const double reach = kSpeed * seconds(estimate.stamp - *state.resting_since);
+  const double reach = kMachineSpeed * seconds(estimate.stamp - *state.resting_since);
   estimate.map_T_body = map_T_body;
   estimate.covariance = state.smoother.newestBodyCovariance();
   estimate.velocity.setZero();

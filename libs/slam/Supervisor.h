@@ -16,7 +16,7 @@ class Supervisor
   struct Verdict
   {
     bool contradicted = false;  // see Assessment
-    bool begins_map = false;    // lost for so long that the local map is of no use any more
+    bool begins_map = false;    // with this scan: lost for so long that the local map is of no use any more
   };
 
   explicit Supervisor(const SlamSettings&);

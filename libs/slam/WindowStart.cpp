@@ -11,7 +11,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kAtRest = 1;  // m/s, how far the velocity may be from that
+constexpr double kAtRest = 1;  // m/s, standard deviation of the velocity of a body that is taken to be at rest
 
 /** Derivatives of the new IMU's state by that of the one before; its biases are other ones where they are not known. */
 Matrix15d byStateBefore(const Rigid& old_T_new, bool biases_known)

@@ -39,10 +39,12 @@ NavEstimate continuedBy(const ImuChange&, const NavEstimate& newest, const Rigid
 NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, const NavEstimate& newest,
                     const ImuBias& bias, const PlacedImu&);
 
-/** Whether the velocity is known better than that of a body at rest is. */
+/** Whether the velocity is known better than atRest() assumes it. */
 bool knowsVelocity(const NavEstimate&);
 
-/** The newest state with another pose of the body, at rest within 1 m/s. `tilt_sigma`: by which the tilt
- * of that pose is less certain than the newest state's (rad). */
+/**
+ * The newest state with another pose of the body and no velocity, with a standard deviation of 1 m/s. `tilt_sigma`: by
+ * how much the tilt of that pose is less certain than that of the newest state (rad).
+ */
 NavEstimate atRest(const Rigid& map_T_body, double tilt_sigma, const NavEstimate& newest, const PlacedImu&);
 }  // namespace scanloom
