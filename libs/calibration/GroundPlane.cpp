@@ -1,8 +1,8 @@
 #include "calibration/GroundPlane.h"
 
+#include "core/Decompositions.h"
 #include "preprocessing/Thin.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
@@ -98,9 +98,8 @@ Plane refined(const Plane& plane, const Points& points)
     ++n;
   }
   const Eigen::Vector3d mean = sum / n;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares / n - mean * mean.transpose());
   Plane better;
-  better.normal = solver.eigenvectors().col(0);
+  better.normal = eigensystem3(squares / n - mean * mean.transpose()).vectors.col(0);
   better.offset = better.normal.dot(mean);
   better.points = pointsOn(better, points);
   return better;

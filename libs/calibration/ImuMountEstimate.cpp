@@ -1,9 +1,9 @@
 #include "calibration/ImuMountEstimate.h"
 
 #include "core/Angle.h"
+#include "core/Decompositions.h"
 #include "imu/GyroAgreement.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ constexpr double kMostMisfit = 3;                       // standard deviations
 constexpr PoseNoise kMostResidual{0.1, 1.0 * kDegree};  // registrations are ten times better
 constexpr double kLeastTurn = 0.5 * kDegree;            // rad/s
 // What simulated drives have in common, beyond the scatter within each.
-constexpr double kCommonOffset = 0.01, kCommonTurn = 0.02 * kDegree, kCommonClock = 3e-4;  // m, rad, s
+constexpr double kCommonImuOffset = 0.01, kCommonTurn = 0.02 * kDegree, kCommonClock = 3e-4;  // m, rad, s
 
 std::vector<BodyTurn> turnsOf(const Trajectory& poses)
 {
@@ -65,7 +65,7 @@ Matrix7d covarianceOf(const ImuMountSolution& s)
   turn.topLeftCorner<3, 3>() = turn.block<3, 3>(3, 3) = s.mount.body_T_sensor.rotation.toRotationMatrix();
   Matrix7d covariance = turn * sandwich(s.information, s.gradients, Clock::Estimated) * turn.transpose();
   Vector7d common;
-  common << Eigen::Vector3d::Constant(kCommonOffset), Eigen::Vector3d::Constant(kCommonTurn), kCommonClock;
+  common << Eigen::Vector3d::Constant(kCommonImuOffset), Eigen::Vector3d::Constant(kCommonTurn), kCommonClock;
   covariance.diagonal() += common.cwiseQuotient(mountStepOfMetres()).cwiseAbs2();
   return covariance;
 }
@@ -92,7 +92,7 @@ double secondTurnRate(const Trajectory& poses)
     sum += (turn / seconds(between)) * (turn / seconds(between)).transpose();
     ++turns;
   }
-  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(sum / std::max(1.0, turns)).eigenvalues()[1]);
+  return std::sqrt(eigensystem3(sum / std::max(1.0, turns)).values[1]);
 }
 }  // namespace
 

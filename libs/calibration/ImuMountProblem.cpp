@@ -59,7 +59,7 @@ Eigen::Quaterniond levelled(const Trajectory& poses, const std::vector<Preintegr
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < motions.size(); ++i)
     up += poses[i].map_T_body.rotation * (mount.body_T_sensor.rotation * motions[i].delta.velocity);
-  return Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ());
+  return rotationBetween(up, Eigen::Vector3d::UnitZ());
 }
 
 /** Unknowns and factors of a drive; Ceres keeps pointers into it. */

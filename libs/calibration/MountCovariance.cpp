@@ -1,5 +1,7 @@
 #include "calibration/MountCovariance.h"
 
+#include "core/Decompositions.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -66,12 +68,12 @@ void addCommon(Matrix7d& covariance, double offset)
 std::vector<OpenDirection> openDirections(const Matrix7d& covariance, double limit)
 {
   std::vector<OpenDirection> open;
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(covariance.topLeftCorner<6, 6>());
+  const Eigensystem6 of_pose = eigensystem(covariance.topLeftCorner<6, 6>());
   for (int i = 5; i >= 0; --i)
   {
-    const double sigma = std::sqrt(std::max(0.0, solver.eigenvalues()[i]));
+    const double sigma = std::sqrt(std::max(0.0, of_pose.values[i]));
     Vector7d direction;
-    direction << solver.eigenvectors().col(i), 0;
+    direction << of_pose.vectors.col(i), 0;
     if (sigma > limit) open.push_back({direction, sigma});
   }
   const double of_clock = std::sqrt(covariance(6, 6));

@@ -16,7 +16,7 @@ constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
 constexpr double kFarthestApart = 0.25;  // m, surfaceDistance: twice that of a dense stand; 0.45 m the wrong way round
 constexpr int kRounds = 15;
 constexpr double kFarthest = 1;  // m, from the start: so far off a level finds nothing any more
-constexpr double kNear = 1e-2;   // m, a round's correction: enough for the next level
+constexpr double kNextLevel = 1e-2;   // m, a round's correction: enough for the next level
 constexpr double kSettled = 5e-4;
 constexpr double kNearlySettled = 2e-3;  // m: the last round's, where cells come and go at the limit of thickness
 
@@ -141,7 +141,7 @@ Approach approachFrom(const Mount& start, const std::vector<Station>& stations, 
   Approach approach{start};
   for (const MountLevel& level : {kCoarse, kMiddle})
     LevelOfDrive(stations, trajectory, clock == Clock::Kept ? level : ofOwnScan(level), clock)
-        .improve(approach.mount, kNear);
+        .improve(approach.mount, kNextLevel);
   if (clock == Clock::Kept) return approach;
   const LevelOfDrive own(stations, trajectory, ofOwnScan(kFinestLevel), clock);
   approach.settled = own.improve(approach.mount, kSettled) < kNearlySettled;

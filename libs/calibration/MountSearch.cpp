@@ -13,7 +13,7 @@ namespace
 {
 constexpr std::size_t kCompared = 8;      // stations
 constexpr std::size_t kScansAtStart = 4;  // of a station
-constexpr MountLevel kWide{4.0, 0.05, kScansAtStart}, kNarrow{2.0, 0.5, kScansAtStart}, kFine{1.0, 0.4, kScansAtStart};
+constexpr MountLevel kWideLevel{4.0, 0.05, kScansAtStart}, kNarrowLevel{2.0, 0.5, kScansAtStart}, kFineLevel{1.0, 0.4, kScansAtStart};
 
 /** Without ground and crowns in thick cells, which fit nearly as well the wrong way round. */
 constexpr MountLevel scoredLevel()
@@ -71,8 +71,8 @@ Mount bestFrom(const std::vector<Mount>& starts, const Mount& guess, double fart
                const Trajectory& trajectory)
 {
   const std::vector<Station> stations = someOf(all, kCompared);
-  const LevelOfSearch wide(kWide, stations, trajectory), narrow(kNarrow, stations, trajectory),
-      fine(kFine, stations, trajectory), scored(scoredLevel(), stations, trajectory);
+  const LevelOfSearch wide(kWideLevel, stations, trajectory), narrow(kNarrowLevel, stations, trajectory),
+      fine(kFineLevel, stations, trajectory), scored(scoredLevel(), stations, trajectory);
   Mount best = guess;
   double best_score = -1;
   for (const Mount& start : starts)
@@ -117,7 +117,7 @@ Mount levelled(Mount mount, const std::vector<LidarScan>& of_lidar, const std::v
   const std::optional<GroundPlane> reference = groundOf(of_reference, body_T_reference);
   if (!ours || !reference) return mount;
   Rigid& pose = mount.body_T_sensor;
-  pose.rotation = (Eigen::Quaterniond::FromTwoVectors(ours->up, reference->up) * pose.rotation).normalized();
+  pose.rotation = (rotationBetween(ours->up, reference->up) * pose.rotation).normalized();
   const double height = reference->up.dot(pose.translation) + reference->body_height;
   pose.translation += (ours->sensor_height - height) * reference->up;
   return mount;

@@ -1,5 +1,6 @@
 #include "calibration/StationMaps.h"
 
+#include "core/Decompositions.h"
 #include "core/Statistics.h"
 
 #include <Eigen/Eigenvalues>
@@ -117,8 +118,8 @@ double surfaceDistance(const std::vector<Neighbourhoods>& pairs)
       const Eigen::Vector3d mean(cell.x, cell.y, cell.z);
       const GaussianCell* nearest = nearestTo(mean, pair, i);
       if (!nearest) continue;
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(nearest->covariance);
-      distances.push_back(std::abs(axes.eigenvectors().col(0).dot(nearest->mean - mean)));
+      const Eigen::Vector3d normal = eigensystem3(nearest->covariance).vectors.col(0);
+      distances.push_back(std::abs(normal.dot(nearest->mean - mean)));
     }
   return distances.empty() ? 0 : median(distances);
 }

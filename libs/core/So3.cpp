@@ -27,6 +27,11 @@ Eigen::Quaterniond expSo3(const Eigen::Vector3d& v)
   return q.normalized();
 }
 
+Eigen::Quaterniond rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+{
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
 Eigen::Vector3d logSo3(const Eigen::Quaterniond& q)
 {
   const double sign = q.w() < 0 ? -1.0 : 1.0;  // q and -q are the same rotation: take the shorter vector

@@ -1,6 +1,6 @@
 #include "evaluation/Alignment.h"
 
-#include <Eigen/Eigenvalues>
+#include "core/Decompositions.h"
 
 #include <cmath>
 #include <limits>
@@ -41,12 +41,9 @@ Eigen::Quaterniond yawOf(const PairMoments& m)
   return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
 }
 
-/** Umeyama 1991, eq. (40) and (43). */
 Eigen::Quaterniond rotationOf(const PairMoments& m)
 {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  return Eigen::Quaterniond(Eigen::Matrix3d(svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose()));
+  return Eigen::Quaterniond(rotationOfLargestTrace(m.cross).rotation);
 }
 }  // namespace
 
@@ -63,8 +60,7 @@ Alignment align(const std::vector<PositionPair>& pairs, AlignmentKind kind)
     alignment.lever = std::sqrt(m.spread(0, 0) + m.spread(1, 1));
     return alignment;
   }
-  const Eigen::Vector3d variances =  // ascending
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m.spread, Eigen::EigenvaluesOnly).eigenvalues().cwiseMax(0.0);
+  const Eigen::Vector3d variances = eigensystem3(m.spread).values.cwiseMax(0.0);  // ascending
   const double worst = variances(0) + variances(1), best = variances(1) + variances(2);
   alignment.lever = std::sqrt(worst);
   alignment.condition = worst > 0 ? best / worst : std::numeric_limits<double>::infinity();

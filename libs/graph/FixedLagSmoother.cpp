@@ -1,6 +1,6 @@
 #include "graph/FixedLagSmoother.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "graph/ImuFactor.h"
 #include "graph/PosePriorFactor.h"
 #include "graph/RelativePoseFactor.h"

@@ -1,6 +1,6 @@
 #include "graph/PosePriorFactor.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "graph/Whitening.h"
 
 namespace scanloom

@@ -1,6 +1,6 @@
 #include "graph/Whitening.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 
 #include <Eigen/Cholesky>
 

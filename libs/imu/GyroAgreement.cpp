@@ -1,8 +1,7 @@
 #include "imu/GyroAgreement.h"
 
+#include "core/Decompositions.h"
 #include "core/So3.h"
-
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -126,22 +125,6 @@ Duration timeOf(const std::vector<BodyTurn>& turns)
   return sum;
 }
 
-/** The rotation R with the largest tr(R' a b'), and the singular values that tell its accuracy. */
-struct Alignment
-{
-  Eigen::Matrix3d a_R_b;
-  double correlation;  // sum of singular values
-  double second;       // singular value
-};
-
-Alignment alignmentOf(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b)
-{
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(a * b.transpose(), Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  return {svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose(), svd.singularValues().dot(sign),
-          svd.singularValues()[1]};
-}
-
 /** Offset of a maximum from its sample, by the parabola through the neighbours: -0.5 to 0.5. */
 double peakBeside(const std::vector<double>& values, std::size_t maximum)
 {
@@ -164,7 +147,7 @@ std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const
   for (int lag = -kMostLagSteps; lag <= kMostLagSteps; ++lag)
   {
     const Eigen::Matrix3Xd rates_b = ratesOf(turns, gyro, lag * kStep);
-    correlations.push_back(alignmentOf(rates_a, rates_b).correlation / rates_b.norm());
+    correlations.push_back(rotationOfLargestTrace(rates_a * rates_b.transpose()).singular_values.sum() / rates_b.norm());
   }
   const auto best = std::max_element(correlations.begin(), correlations.end()) - correlations.begin();
 
@@ -172,13 +155,13 @@ std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const
   agreement.lag = (best - kMostLagSteps) * kStep +
                   fromSeconds(seconds(kStep) * peakBeside(correlations, static_cast<std::size_t>(best)));
   const Eigen::Matrix3Xd rates_b = ratesOf(turns, gyro, agreement.lag);
-  const Alignment alignment = alignmentOf(rates_a, rates_b);
-  agreement.rotation = logSo3(Eigen::Quaterniond(alignment.a_R_b));
+  const LargestTrace alignment = rotationOfLargestTrace(rates_a * rates_b.transpose());
+  agreement.rotation = logSo3(Eigen::Quaterniond(alignment.rotation));
   agreement.scale = rates_b.norm() / rates_a.norm();
-  const Eigen::Matrix3Xd residual = rates_a - alignment.a_R_b * rates_b / agreement.scale;
+  const Eigen::Matrix3Xd residual = rates_a - alignment.rotation * rates_b / agreement.scale;
   const double noise = residual.norm() / std::sqrt(3.0 * static_cast<double>(residual.cols()));
   // By the two axes with the most motion: the third follows from them.
-  agreement.sigma = noise / std::sqrt(alignment.second / agreement.scale);
+  agreement.sigma = noise / std::sqrt(alignment.singular_values[1] / agreement.scale);
   if (!(agreement.sigma < kWorstSigma)) return std::nullopt;
   const double by_lag =
       (ratesOf(turns, gyro, agreement.lag + kStep / 2) - ratesOf(turns, gyro, agreement.lag - kStep / 2)).norm();

@@ -14,7 +14,7 @@ namespace scanloom
 namespace
 {
 constexpr double kLowestRate = 1, kHighestRate = 100;
-constexpr int kMostChannels = 256;
+constexpr int kMostCloudChannels = 256;
 constexpr float kFarthest = 4e6F;  // m, in mm below 2^32
 }  // namespace
 
@@ -36,7 +36,7 @@ CloudMetadata parseCloudMetadata(const std::string& text, const std::string& nam
   const MetadataKeys keys(text, name);
   CloudMetadata metadata;
   metadata.rate = keys.number("", "rate", kLowestRate, kHighestRate).value_or(metadata.rate);
-  metadata.channels = keys.integer("", "channels", 1, kMostChannels).value_or(metadata.channels);
+  metadata.channels = keys.integer("", "channels", 1, kMostCloudChannels).value_or(metadata.channels);
   return metadata;
 }
 
@@ -44,7 +44,7 @@ std::string toJson(const CloudMetadata& metadata)
 {
   return fmt::format(R"({{"lidar": "cloud", "rate": {:g}, "channels": {}}})",
                      std::clamp(metadata.rate, kLowestRate, kHighestRate),
-                     std::clamp(metadata.channels, 1, kMostChannels));
+                     std::clamp(metadata.channels, 1, kMostCloudChannels));
 }
 
 CloudDecoder::CloudDecoder(const CloudMetadata& metadata, const Rigid& body_T_sensor)

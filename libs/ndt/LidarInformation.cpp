@@ -1,6 +1,6 @@
 #include "ndt/LidarInformation.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "core/forAll.h"
 #include "ndt/KeyIndex.h"
 #include "ndt/NormalEquations.h"

@@ -1,6 +1,6 @@
 #include "ndt/Minimiser.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "ndt/LidarInformation.h"
 
 #include <Eigen/Cholesky>

@@ -1,6 +1,6 @@
 #include "ndt/NormalEquations.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "ndt/Symmetric3.h"
 
 #include <tbb/parallel_for.h>

@@ -1,6 +1,6 @@
 #include "ndt/Registration.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "core/Statistics.h"
 #include "ndt/LidarInformation.h"
 #include "ndt/Minimiser.h"

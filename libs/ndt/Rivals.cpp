@@ -1,9 +1,7 @@
 #include "ndt/Rivals.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "ndt/Minimiser.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +32,8 @@ struct Shifts
 /** As far as the guess allows, along the two directions that the clouds determine least: not into the ground. */
 Shifts shiftsOf(const Eigen::Matrix3d& guess, const Eigen::Matrix3d& clouds, double step)
 {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(clouds);
-  const Eigen::Vector3d first = eigen.eigenvectors().col(2), second = eigen.eigenvectors().col(1);
+  const Eigensystem3 eigen = eigensystem3(clouds);
+  const Eigen::Vector3d first = eigen.vectors.col(2), second = eigen.vectors.col(1);
   const auto most = [&](const Eigen::Vector3d& along)
   {
     const double reach = kDeviations * std::sqrt(along.dot(guess * along));

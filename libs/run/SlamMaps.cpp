@@ -10,7 +10,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kMostWaiting = 8;
+constexpr std::size_t kMostWaitingMaps = 8;
 constexpr const char *kPly = "map.ply", *kSimpleMap = "keyframes.simplemap", *kOctoMaps = "map.bt, map.ot",
                      *kPicture = "map.png";
 }  // namespace
@@ -24,7 +24,7 @@ SlamMaps::SlamMaps(const std::filesystem::path& folder, const std::vector<Record
     simple_map_(mountedLidars(lidars)),
     octomap_(std::in_place, octomap, posesOf(mountedLidars(lidars))),
     picture_(MapPictureOptions{}),
-    queue_(kMostWaiting),
+    queue_(kMostWaitingMaps),
     drawn_(std::async(std::launch::async, [this] { draw(); }))
 {
 }

@@ -60,7 +60,7 @@ Cone Stem::wood() const
 
 Eigen::Quaterniond Stem::rotation() const
 {
-  return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis) *
+  return rotationBetween(Eigen::Vector3d::UnitZ(), axis) *
          Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ());
 }
 

@@ -10,7 +10,7 @@ namespace scanloom
 namespace
 {
 // Both fitted to drives of 120 to 315 m (doc/study/localisation.md).
-constexpr double kDeviations = 4;         // displacements (of cells one deviation farther away) by which a heading errs
+constexpr double kHeadingDeviations = 4;         // displacements (of cells one deviation farther away) by which a heading errs
 constexpr double kTilt = 0.03 * kDegree;  // deviation; with more, one lidar's wrong registrations cost more
 constexpr double kSight = 12;             // m: on less way the same is seen from the same side
 }  // namespace
@@ -26,7 +26,7 @@ void AttitudeDoubt::add(const RegistrationResult& seen, const Eigen::Vector3d& u
   sideways_ += std::min(1.0, travel / length_) * (across.normalized().dot(seen.one_sided) - sideways_);
 }
 
-double AttitudeDoubt::heading() const { return length_ > 0 ? kDeviations * std::abs(sideways_) / length_ : 0; }
+double AttitudeDoubt::heading() const { return length_ > 0 ? kHeadingDeviations * std::abs(sideways_) / length_ : 0; }
 
 Matrix6d AttitudeDoubt::covariance(const Eigen::Vector3d& up_in_source) const
 {

@@ -1,6 +1,6 @@
 /** How far the attitudes of registrations can be trusted: errors that all registrations to the same map share. */
 #pragma once
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "ndt/Registration.h"
 
 namespace scanloom

@@ -16,7 +16,7 @@ Eigen::Vector3d meanForce(const LostMotion& motion) { return motion.gained / sec
 Attitude levelled(const Eigen::Quaterniond& map_R_body, const LostMotion& motion)
 {
   if (isPossible(motion)) return {map_R_body};
-  const Eigen::Quaterniond correction = Eigen::Quaterniond::FromTwoVectors(meanForce(motion), Eigen::Vector3d::UnitZ());
+  const Eigen::Quaterniond correction = rotationBetween(meanForce(motion), Eigen::Vector3d::UnitZ());
   return {correction * map_R_body, kMostGained / seconds(motion.within) / kGravity};
 }
 }  // namespace scanloom

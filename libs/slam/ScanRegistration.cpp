@@ -1,7 +1,7 @@
 #include "slam/ScanRegistration.h"
 
 #include "core/Angle.h"
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "ndt/LidarInformation.h"
 #include "ndt/Minimiser.h"
 #include "ndt/NormalEquations.h"

@@ -1,6 +1,6 @@
 #include "slam/Separation.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 
 #include <cmath>
 

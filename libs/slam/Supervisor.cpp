@@ -1,6 +1,6 @@
 #include "slam/Supervisor.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "ndt/LidarInformation.h"
 
 namespace scanloom

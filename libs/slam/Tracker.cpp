@@ -1,6 +1,6 @@
 #include "slam/Tracker.h"
 
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 #include "graph/PosePriorFactor.h"
 #include "preprocessing/Deskew.h"
 #include "slam/BodyPoses.h"

@@ -9,7 +9,7 @@
 #include "support/TestData.h"
 #include "support/runProgram.h"
 
-namespace scanloom
+namespace scanloom::doctor_unittest
 {
 namespace
 {
@@ -83,4 +83,4 @@ TEST(Doctor, namesTheKeyOfAPortThatIsWrong)
   EXPECT_THAT(ended.output, HasSubstr("lidar2_port = 7504"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::doctor_unittest

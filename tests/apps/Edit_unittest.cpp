@@ -9,7 +9,7 @@
 
 #include <fstream>
 
-namespace scanloom
+namespace scanloom::edit_unittest
 {
 namespace
 {
@@ -203,4 +203,4 @@ TEST_F(Edit, capturesGiveTheSameBytesAsRecordDoes)
             runProgram("gunzip -c < " + out + " | md5sum").output);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::edit_unittest

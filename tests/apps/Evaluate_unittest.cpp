@@ -11,7 +11,7 @@
 
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::evaluate_unittest
 {
 namespace
 {
@@ -130,4 +130,4 @@ TEST_F(EvaluateVerb, namesWhatIsWrong)
   EXPECT_EQ(evaluate("--reference missing.tum").status, 1);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::evaluate_unittest

@@ -12,7 +12,7 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
-namespace scanloom
+namespace scanloom::experiment_on_recordings_unittest
 {
 namespace
 {
@@ -171,4 +171,4 @@ TEST(ExperimentOnRecordings, aDryRunReadsTheMetadataThatAConfigurationNames)
   EXPECT_THAT(ended.output, HasSubstr("dense/left.json"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::experiment_on_recordings_unittest

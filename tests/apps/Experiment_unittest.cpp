@@ -11,7 +11,7 @@
 
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::experiment_unittest
 {
 namespace
 {
@@ -205,4 +205,4 @@ TEST(ReportVerb, isOneFileWithFiguresAndTheCommand)
   EXPECT_EQ(scanloom("report " + folder.path().string()).status, 1);       // no experiment
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::experiment_unittest

@@ -18,7 +18,7 @@
 #include <set>
 #include <sstream>
 
-namespace scanloom
+namespace scanloom::map_unittest
 {
 namespace
 {
@@ -264,4 +264,4 @@ TEST_F(Map, refusesToListAHugeLeafAndSaysHowHuge)
   }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::map_unittest

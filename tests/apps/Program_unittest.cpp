@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace scanloom
+namespace scanloom::program_unittest
 {
 namespace
 {
@@ -231,11 +231,16 @@ TEST_F(Program, writesThePageOfAllParameters)
   EXPECT_THAT(page, testing::HasSubstr("| `cell_size` | 1 | m | > 0 | edge of a cell |\n"));
 }
 }  // namespace
+}  // namespace scanloom::program_unittest
 
+namespace scanloom
+{
 Verb configVerb();
 
+/** The program's table of verbs, which apps/scanloom/allVerbs.cpp has for users. */
 const std::vector<Verb>& verbs()
 {
+  using namespace program_unittest;
   static const std::vector<Verb> table{
       {"weave", "a test's verb", schemaOf<WeavingSettings<0>>(), &addWeave},
       {"knit", "another one", schemaOf<WeavingSettings<1>>(), &addWeave},

@@ -16,7 +16,7 @@
 
 #include "lidar/OusterMetadata.h"
 
-namespace scanloom
+namespace scanloom::record_from_sensors_unittest
 {
 namespace
 {
@@ -148,4 +148,4 @@ TEST(RecordFromSensors, aDryRunWritesToNoSensor)
   EXPECT_EQ(record.wait(), 0) << record.log();
   for (const std::string& request : sensor.requests()) EXPECT_EQ(request.rfind("GET ", 0), 0u) << request;
 }
-}  // namespace scanloom
+}  // namespace scanloom::record_from_sensors_unittest

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <regex>
 
-namespace scanloom
+namespace scanloom::record_live_unittest
 {
 namespace
 {
@@ -182,4 +182,4 @@ TEST(RecordLive, namesThePortThatIsTaken)
   first.child->send(SIGINT);
   EXPECT_EQ(first.child->wait(), 130) << first.child->log();
 }
-}  // namespace scanloom
+}  // namespace scanloom::record_live_unittest

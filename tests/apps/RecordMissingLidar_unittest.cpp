@@ -10,7 +10,7 @@
 
 #include <fstream>
 
-namespace scanloom
+namespace scanloom::record_missing_lidar_unittest
 {
 namespace
 {
@@ -61,4 +61,4 @@ TEST(Record, readsAnEarlyVlp16WithTheCommonFile)
   EXPECT_EQ(ended.status, 0) << ended.output;
   EXPECT_THAT(ended.output, HasSubstr("front: 2016 blocks sent"));  // 84 packets
 }
-}  // namespace scanloom
+}  // namespace scanloom::record_missing_lidar_unittest

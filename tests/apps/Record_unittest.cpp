@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-namespace scanloom
+namespace scanloom::record_unittest
 {
 namespace
 {
@@ -54,4 +54,4 @@ TEST(RecordVerb, anInterruptedRecordingOfCapturesReplacesNoWholeOne)
   EXPECT_FALSE(std::filesystem::exists(part));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::record_unittest

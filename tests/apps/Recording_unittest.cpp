@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::recording_unittest
 {
 namespace
 {
@@ -163,4 +163,4 @@ TEST(Recording, thatIsMissingEndsWithTwoAndSaysWhatIsExpected)
   EXPECT_THAT(ended.output, HasSubstr("nowhere.pcap: no such file or folder"));
   EXPECT_THAT(scanloom("/", "slam -c nothing.ini").output, HasSubstr("--out-dir"));
 }
-}  // namespace scanloom
+}  // namespace scanloom::recording_unittest

@@ -12,7 +12,7 @@
 #include <fstream>
 #include <random>
 
-namespace scanloom
+namespace scanloom::register_unittest
 {
 namespace
 {
@@ -210,4 +210,4 @@ TEST(RegisterRecorded, aPoseThatALittleOverlapSuggestsIsOnlyTrustedWhereTheOther
   }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::register_unittest

@@ -14,7 +14,7 @@
 #include <fstream>
 #include <thread>
 
-namespace scanloom
+namespace scanloom::simulate_udp_unittest
 {
 namespace
 {
@@ -107,4 +107,4 @@ TEST(SimulateUdp, isEitherForAFolderOrForRealTime)
   EXPECT_EQ(neither.wait(), 2);
   EXPECT_THAT(neither.log(), HasSubstr("--out-dir"));
 }
-}  // namespace scanloom
+}  // namespace scanloom::simulate_udp_unittest

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-namespace scanloom
+namespace scanloom::simulate_unittest
 {
 namespace
 {
@@ -78,4 +78,4 @@ TEST_F(Simulate, theMetadataThatItReadsAreNotReplaced)
   EXPECT_EQ(contentOf(out / "left.json"), before);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::simulate_unittest

@@ -11,8 +11,8 @@
 #include "support/TestData.h"
 #include "support/runProgram.h"
 
-using namespace scanloom;
-
+namespace scanloom::slam_unittest
+{
 namespace
 {
 Ended slam(const std::filesystem::path& recording, const std::string& arguments)
@@ -168,3 +168,4 @@ TEST(SlamVerb, aDryRunPrintsWhatIsInEffectAndWritesNothing)
   EXPECT_NE(ended.output.find("every_nth = 7"), std::string::npos) << ended.output;
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
+}  // namespace scanloom::slam_unittest

@@ -8,7 +8,7 @@
 #include "support/TestData.h"
 #include "support/runProgram.h"
 
-namespace scanloom
+namespace scanloom::web_unittest
 {
 TEST(Web, listensAtPort8080UnlessToldOtherwise)
 {
@@ -57,4 +57,4 @@ TEST(Web, changesNoBitOfTheTrajectory)
   };
   EXPECT_EQ(slam("without", ""), slam("with", " --web=127.0.0.1:18080"));
 }
-}  // namespace scanloom
+}  // namespace scanloom::web_unittest

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string>
 
-namespace scanloom
+namespace scanloom::main_unittest
 {
 namespace
 {
@@ -86,4 +86,4 @@ TEST(Executable, saysThatStdoutIsFull)
   EXPECT_EQ(ended.output, "scanloom config: stdout cannot be written\n");
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::main_unittest

@@ -5,7 +5,7 @@
 #include "support/HandmadeMessages.h"
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::bag_contents_unittest
 {
 namespace
 {
@@ -61,4 +61,4 @@ TEST(BagContents, givePosesInTheOrderOfStampsEachOnce)
   EXPECT_THAT(problemOf([&] { readBagImu({folder / "bag"}, "/imu"); }), HasSubstr("topics with sensor_msgs/Imu: none"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::bag_contents_unittest

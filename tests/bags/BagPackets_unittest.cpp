@@ -8,7 +8,7 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
-namespace scanloom
+namespace scanloom::bag_packets_unittest
 {
 namespace
 {
@@ -125,4 +125,4 @@ TEST(BagPackets, ofATypeWithoutPacketsAreNone)
   EXPECT_FALSE(isPacketType("sensor_msgs/Imu"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::bag_packets_unittest

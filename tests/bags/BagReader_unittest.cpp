@@ -5,7 +5,7 @@
 #include "support/HandmadeBag.h"
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::bag_reader_unittest
 {
 namespace
 {
@@ -150,4 +150,4 @@ TEST(BagReader, refusesWhatIsNoBag)
 
 TEST(BagReader, writesTypesAsRos1Does) { EXPECT_EQ(typeNameOf("sensor_msgs/msg/Imu"), "sensor_msgs/Imu"); }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::bag_reader_unittest

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::frame_tree_unittest
 {
 namespace
 {
@@ -34,4 +34,4 @@ TEST(FrameTree, endsWhereFramesGoInCircles)
   EXPECT_TRUE(tree.transform("a", "b"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::frame_tree_unittest

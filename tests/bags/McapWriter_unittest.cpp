@@ -9,7 +9,7 @@
 #include "bags/SensorMessages.h"
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::mcap_writer_unittest
 {
 namespace
 {
@@ -53,4 +53,4 @@ TEST(MessageWriter, writesWhatTheMessagesAreReadFrom)
   EXPECT_EQ(pose.map_T_body.rotation.z(), 1);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::mcap_writer_unittest

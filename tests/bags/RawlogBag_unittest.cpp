@@ -11,7 +11,7 @@
 #include "support/PacketRawlogFile.h"
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::rawlog_bag_unittest
 {
 namespace
 {
@@ -98,4 +98,4 @@ TEST(RawlogBag, isReadUpToWhereTheFileIsCut)
   EXPECT_EQ(turns, 1U);
   EXPECT_THAT(bag->takeWarnings(), ElementsAre(HasSubstr("after 1 objects")));
 }
-}  // namespace scanloom
+}  // namespace scanloom::rawlog_bag_unittest

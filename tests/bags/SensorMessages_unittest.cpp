@@ -4,7 +4,7 @@
 
 #include "support/HandmadeBag.h"
 
-namespace scanloom
+namespace scanloom::sensor_messages_unittest
 {
 namespace
 {
@@ -97,4 +97,4 @@ TEST(MessageReader, readsBigEndianCdrWithItsAlignment)
   EXPECT_TRUE(reader.atEnd());
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::sensor_messages_unittest

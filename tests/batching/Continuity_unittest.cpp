@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::continuity_unittest
+{
 namespace
 {
 using Verdict = Continuity::Verdict;
@@ -158,3 +158,4 @@ TEST(Continuity, withoutIdsAStepShowsAgainstHostTime)
   EXPECT_EQ(judged.verdict, Verdict::ClockSteps);
   EXPECT_NEAR(seconds(judged.step), 37, 1e-3);
 }
+}  // namespace scanloom::continuity_unittest

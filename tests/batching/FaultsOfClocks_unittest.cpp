@@ -4,8 +4,8 @@
 #include "FaultRig.h"
 #include "support/pushPacket.h"
 
-using namespace scanloom;
-
+namespace scanloom::faults_of_clocks_unittest
+{
 namespace
 {
 /** From true time `from` on the lidar's clock is `by` ahead. */
@@ -278,3 +278,4 @@ TEST(F23, stampsThatWrapEveryHourGoOnWithoutAJump)
     }
   }
 }
+}  // namespace scanloom::faults_of_clocks_unittest

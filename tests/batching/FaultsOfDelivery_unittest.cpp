@@ -5,8 +5,8 @@
 
 #include "FaultRig.h"
 
-using namespace scanloom;
-
+namespace scanloom::faults_of_delivery_unittest
+{
 namespace
 {
 constexpr auto kLost = &LidarCounters::lost;
@@ -287,3 +287,4 @@ TEST(F24, afterThreeSecondsWithoutNetworkEverybodyIsBackAtOnceAndTheLossIsExact)
   measured("back_after_ms", 1e3 * seconds(back.back().when - up));
   for (const LidarCounters& c : outcome.counters) EXPECT_EQ(c.restarts, 0u);
 }
+}  // namespace scanloom::faults_of_delivery_unittest

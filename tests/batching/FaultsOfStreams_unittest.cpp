@@ -4,8 +4,8 @@
 #include "FaultRig.h"
 #include "support/pushPacket.h"
 
-using namespace scanloom;
-
+namespace scanloom::faults_of_streams_unittest
+{
 namespace
 {
 /** From true time `from` on the lidar has started again: init id, frame ids, and its clock if `epoch` is given. */
@@ -229,3 +229,4 @@ TEST(F26, whatALidarSaysOfItsHealthIsKnownWithTheSameScan)
   EXPECT_EQ(alerts[1].flags, 0u);
   EXPECT_NEAR(static_cast<double>(outcome.count(0, &LidarCounters::alert_packets)), 320, 1);
 }
+}  // namespace scanloom::faults_of_streams_unittest

@@ -7,8 +7,8 @@
 #include "batching/PacketConsensus.h"
 #include "support/pushPacket.h"
 
-using namespace scanloom;
-
+namespace scanloom::findings_unittest
+{
 namespace
 {
 /** The batcher with everything that came out of it. */
@@ -186,3 +186,4 @@ TEST(Findings, aStampThatIsFarFromTheHostsIsNotTurnedIntoOneNearby)
   EXPECT_EQ(session.batcher.counters(0).invalid, 1u);
   EXPECT_EQ(session.batcher.counters(0).implausible, 0u);
 }
+}  // namespace scanloom::findings_unittest

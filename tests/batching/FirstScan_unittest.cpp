@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::first_scan_unittest
+{
 namespace
 {
 constexpr Duration kPeriod = 100ms, kPatience = 5ms;
@@ -45,3 +45,4 @@ TEST(FirstScan, atTheEndOfInputNobodyIsWaitedFor)
   EXPECT_EQ(latestFirstStamp({heard(30ms), silent()}, kPeriod, std::nullopt), Timestamp{30ms});
   EXPECT_EQ(latestFirstStamp({silent()}, kPeriod, std::nullopt), std::nullopt);
 }
+}  // namespace scanloom::first_scan_unittest

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::imu_order_unittest
+{
 namespace
 {
 SensorImu imu(int sensor, Duration stamp)
@@ -52,3 +52,4 @@ TEST(ImuOrder, givesTheBodysSamplesAheadWhereThatIsAsked)
   EXPECT_EQ(order.release(Timestamp::max()).size(), 2u);
   EXPECT_EQ(order.late(), 0u);
 }
+}  // namespace scanloom::imu_order_unittest

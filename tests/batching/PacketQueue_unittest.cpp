@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-using namespace scanloom;
-
+namespace scanloom::packet_queue_unittest
+{
 namespace
 {
 const std::vector<std::uint8_t> kBytes{1, 2, 3};
@@ -41,3 +41,4 @@ TEST(PacketQueue, aReorderedPacketIsTakenInTimeOrder)
   EXPECT_TRUE(std::is_sorted(taken.begin(), taken.end()));
   EXPECT_EQ(taken.size(), 6u);
 }
+}  // namespace scanloom::packet_queue_unittest

@@ -10,8 +10,8 @@
 #include "support/FakeLidar.h"
 #include "support/pushPacket.h"
 
-using namespace scanloom;
-
+namespace scanloom::properties_unittest
+{
 namespace
 {
 struct Arrival
@@ -189,3 +189,4 @@ TEST(BatchingProperties, accountsCloseUnderLossAndDuplication)
                    RC_ASSERT(keysOf(scans).size() == emitted);
                  });
 }
+}  // namespace scanloom::properties_unittest

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::scan_measures_unittest
+{
 TEST(ScanMeasures, theSpanIsBetweenTheOldestAndTheNewestColumnWhateverTheirOrder)
 {
   Scan scan;
@@ -32,3 +32,4 @@ TEST(ScanMeasures, theExtentIsThatOfTheChosenPointsAlongTheDirection)
   EXPECT_DOUBLE_EQ(extentAlong(Eigen::Vector3d::UnitY(), cloud, {0, 3}), 0);
   EXPECT_DOUBLE_EQ(extentAlong(x, cloud, {}), 0);
 }
+}  // namespace scanloom::scan_measures_unittest

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::sequencer_unittest
+{
 namespace
 {
 LidarDescription lidar(int first_column = 0, int last_column = 63)
@@ -96,3 +96,4 @@ TEST(Sequencer, aRestartCountsWhatWasMissingAndForgetsTheRest)
   EXPECT_FALSE(sequencer.watermark());
   EXPECT_EQ(sequencer.finish(), 0u);
 }
+}  // namespace scanloom::sequencer_unittest

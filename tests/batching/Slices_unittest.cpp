@@ -3,8 +3,8 @@
 #include "FaultRig.h"
 #include "support/pushPacket.h"
 
-using namespace scanloom;
-
+namespace scanloom::slices_unittest
+{
 namespace
 {
 struct Given
@@ -129,3 +129,4 @@ TEST(ScanRate, mayBeAnythingFromOneTo200HzAndTheScansAreCutFromTheSameColumns)
     }
   }
 }
+}  // namespace scanloom::slices_unittest

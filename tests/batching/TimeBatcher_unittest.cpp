@@ -8,8 +8,8 @@
 #include "support/FakeLidar.h"
 #include "support/pushPacket.h"
 
-using namespace scanloom;
-
+namespace scanloom::time_batcher_unittest
+{
 namespace
 {
 struct Arrival
@@ -334,3 +334,4 @@ TEST(TimeBatcher, skipsScansThatNobodyWantsBetweenTwoRecordingsAndKeepsTheGrid)
   EXPECT_EQ(batcher.counters(0).emitted + batcher.counters(0).before_start + batcher.counters(0).late,
             batcher.counters(0).received);
 }
+}  // namespace scanloom::time_batcher_unittest

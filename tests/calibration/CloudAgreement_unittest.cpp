@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::cloud_agreement_unittest
+{
 TEST(CommonView, ofTheSamePlaceAgreesAndOfAnotherDoesNot)
 {
   const RayWorld world = forest(1);
@@ -81,3 +81,4 @@ TEST(CloudAgreement, ofLidarsThatSeeNothingInCommonIsNone)
   EXPECT_FALSE(cloudAgreement({{&snapshot[1], &snapshot[0]}}, pose, pose));
   EXPECT_FALSE(cloudAgreement({}, pose, pose));
 }
+}  // namespace scanloom::cloud_agreement_unittest

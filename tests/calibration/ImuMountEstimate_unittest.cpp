@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::imu_mount_estimate_unittest
+{
 namespace
 {
 const Mount kTruth{at(0.15, -0.3, 2.85, 86, 6, -11), 0.012};
@@ -201,3 +201,4 @@ TEST(ImuMountEstimate, ofNoReadingsOrPosesIsNone)
   expectAsGiven(calibrated({{}, seen.imu}, off(0.1, 3)), off(0.1, 3));
   expectAsGiven(estimateImuMount({}, {}, off(0.1, 3), off(0.1, 3), {}), off(0.1, 3));
 }
+}  // namespace scanloom::imu_mount_estimate_unittest

@@ -10,8 +10,8 @@
 
 #include <algorithm>
 
-using namespace scanloom;
-
+namespace scanloom::mount_estimate_unittest
+{
 namespace
 {
 const Rigid kLeft = at(1.5, 1.2, 2.5, 30, 15, -25), kRight = at(1.5, -1.2, 2.5, -30, 15, 25);
@@ -248,3 +248,4 @@ TEST(LidarScans, areNeverMoreThanMemoryHolds)
   EXPECT_LE(scans.byLidar()[0].size(), 601u);
   EXPECT_GE(scans.byLidar()[0].size(), 300u);
 }
+}  // namespace scanloom::mount_estimate_unittest

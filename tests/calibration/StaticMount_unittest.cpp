@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::static_mount_unittest
+{
 namespace
 {
 const Rigid kTop = at(0, 0, 3), kLeft = at(0, 0.6, 2.6, 90, 0, -40), kRight = at(0.1, -0.6, 2.6, -90, 0, -40);
@@ -80,3 +80,4 @@ TEST(StaticMounts, ofACoveredLidarStayAsGiven)
   EXPECT_NE(estimates[1].outcome, MountOutcome::Estimated);
   EXPECT_EQ(estimates[1].mount.body_T_sensor.translation, kLeft.translation);
 }
+}  // namespace scanloom::static_mount_unittest

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace scanloom
+namespace scanloom::configuration_unittest
 {
 namespace
 {
@@ -371,4 +371,4 @@ TEST(Configuration, lendsItsWordsToTheChecksOfAVerb)
                "[ndt] overlap is not set: must divide 10");
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::configuration_unittest

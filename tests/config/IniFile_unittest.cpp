@@ -12,7 +12,7 @@
 #include <fstream>
 #include <map>
 
-namespace scanloom
+namespace scanloom::ini_file_unittest
 {
 namespace
 {
@@ -158,4 +158,4 @@ TEST(IniFile, refusesCommentsThatMrptWouldTakeForTheValue)
                           "it on a line of its own"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::ini_file_unittest

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::lists_unittest
 {
 namespace
 {
@@ -86,4 +86,4 @@ TEST(Lists, areReadBackFromWhatIsWritten)
   ASSERT_EQ(seats.size(), 3u);
   EXPECT_EQ(seats[2].height, 5);
 }
-}  // namespace scanloom
+}  // namespace scanloom::lists_unittest

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::names_unittest
 {
 namespace
 {
@@ -42,4 +42,4 @@ TEST(Names, loseBlanksAtBothEnds)
   EXPECT_EQ(trimmed(" \n"), "");
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::names_unittest

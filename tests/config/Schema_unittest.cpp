@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace scanloom
+namespace scanloom::schema_unittest
 {
 namespace
 {
@@ -112,4 +112,4 @@ TEST(Schema, refusesTwoDeclarationsOfAKeyThatDiffer)
   EXPECT_THROW(merge(schema, schemaOf(other_default)), std::logic_error);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::schema_unittest

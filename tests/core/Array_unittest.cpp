@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-using namespace scanloom;
-
+namespace scanloom::array_unittest
+{
 TEST(Array, whatIsWrittenIntoItsRoomBecomesPartOfItByGrowing)
 {
   Array<int> array{1, 2};
@@ -65,3 +65,4 @@ TEST(Array, anEmptyOneHasNoMemoryAndCanBeCopied)
   EXPECT_EQ(copy.capacity(), 0u);
   EXPECT_TRUE(copy.empty());
 }
+}  // namespace scanloom::array_unittest

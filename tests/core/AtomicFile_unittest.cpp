@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace scanloom
+namespace scanloom::atomic_file_unittest
 {
 namespace
 {
@@ -156,4 +156,4 @@ TEST_F(AtomicFileTest, refusesToReplaceFilesUnlessAsked)
   EXPECT_NO_THROW(refuseExisting(outputs, true));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::atomic_file_unittest

@@ -7,7 +7,7 @@
 #include <string>
 #include <thread>
 
-namespace scanloom
+namespace scanloom::bounded_queue_unittest
 {
 namespace
 {
@@ -98,4 +98,4 @@ TEST(BoundedQueue, letsWhoeverPushesGoOnWhenNobodyPopsAnyMore)
   EXPECT_FALSE(queue.push(2));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::bounded_queue_unittest

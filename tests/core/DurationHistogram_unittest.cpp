@@ -4,7 +4,7 @@
 
 #include <initializer_list>
 
-namespace scanloom
+namespace scanloom::duration_histogram_unittest
 {
 namespace
 {
@@ -41,4 +41,4 @@ TEST(DurationHistogram, takesWhatIsOutOfItsRangeForItsEnds)
   EXPECT_NEAR(histogram.quantile(1), 67e3, 5e3);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::duration_histogram_unittest

@@ -4,8 +4,8 @@
 
 #include <sstream>
 
-using namespace scanloom;
-
+namespace scanloom::finding_unittest
+{
 namespace
 {
 const std::string kLong =
@@ -42,3 +42,4 @@ TEST(Finding, tablesFitTheWidthAndLoseNoWord)
   }
   EXPECT_EQ(words, "left warning loss " + kLong + " -> " + kLong + " right ok loss none ");
 }
+}  // namespace scanloom::finding_unittest

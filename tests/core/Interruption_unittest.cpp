@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-namespace scanloom
+namespace scanloom::interruption_unittest
 {
 TEST(Interruption, isSeenAndDoesNotEndTheProgramTheFirstTime)
 {
@@ -28,4 +28,4 @@ TEST(Interruption, leavesSignalsThatAreHandledToTheirHandlers)
 
   std::signal(SIGINT, SIG_DFL);
 }
-}  // namespace scanloom
+}  // namespace scanloom::interruption_unittest

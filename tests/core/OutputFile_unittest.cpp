@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::output_file_unittest
 {
 namespace
 {
@@ -32,4 +32,4 @@ TEST(OutputFile, noticesThatTheDiskTookNoMore)
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::output_file_unittest

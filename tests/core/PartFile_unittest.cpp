@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
-namespace scanloom
+namespace scanloom::part_file_unittest
 {
 namespace
 {
@@ -58,4 +58,4 @@ TEST(PartFile, leavesThatOfARunningWriterAlone)
   EXPECT_EQ(contentOf(folder / "a.rawlog.part"), "running");
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::part_file_unittest

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::point_cloud_unittest
+{
 namespace
 {
 /** Every field of every point has a different value. */
@@ -35,3 +35,4 @@ TEST(PointCloud, appendingACloudIsAppendingItsPoints)
   EXPECT_EQ(fields[0], fields[1]);
   EXPECT_EQ(fields[0].size(), 11u);
 }
+}  // namespace scanloom::point_cloud_unittest

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace scanloom
+namespace scanloom::progress_unittest
 {
 namespace
 {
@@ -116,4 +116,4 @@ TEST(TimeText, isShort)
   EXPECT_EQ(timeText(7500), "2:05 h");
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::progress_unittest

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::result_folder_unittest
 {
 namespace
 {
@@ -80,4 +80,4 @@ TEST_F(Results, thatAreNotCommittedLeaveTheFolderAsItWas)
   EXPECT_THAT(filesIn(folder), UnorderedElementsAre("poses.tum: first"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::result_folder_unittest

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::rigid_unittest
+{
 namespace
 {
 }
@@ -53,3 +53,4 @@ TEST(Rigid, refusesAMatrixThatIsNotARotation)
   m(0, 0) = -1;
   EXPECT_THROW(Rigid::fromMatrix(m), std::invalid_argument);
 }
+}  // namespace scanloom::rigid_unittest

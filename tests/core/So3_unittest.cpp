@@ -4,7 +4,8 @@
 
 #include <unsupported/Eigen/MatrixFunctions>
 
-using namespace scanloom;
+namespace scanloom::so3_unittest
+{
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -48,3 +49,4 @@ TEST(So3, rightJacobianIsTheDerivativeOfExp)
     EXPECT_LT((rightJacobianSo3(v) * rightJacobianInverseSo3(v) - Matrix3d::Identity()).norm(), 1e-11) << v.transpose();
   }
 }
+}  // namespace scanloom::so3_unittest

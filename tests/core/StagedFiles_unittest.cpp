@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::staged_files_unittest
 {
 namespace
 {
@@ -35,4 +35,4 @@ TEST(StagedFiles, areAllPutBesideIfOnePartialFileWouldReplaceAnother)
   EXPECT_FALSE(std::filesystem::exists(folder / "m.ply"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::staged_files_unittest

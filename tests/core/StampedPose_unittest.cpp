@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::stamped_pose_unittest
 {
 namespace
 {
@@ -33,4 +33,4 @@ TEST(Trajectory, isInterpolatedBetweenItsPosesAndNotBeyondThem)
   EXPECT_FALSE(poseAt(trajectory, fromNanoseconds(2001)));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::stamped_pose_unittest

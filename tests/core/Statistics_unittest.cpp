@@ -6,8 +6,8 @@
 #include <random>
 #include <stdexcept>
 
-using namespace scanloom;
-
+namespace scanloom::statistics_unittest
+{
 TEST(Statistics, quantilesLieBetweenNeighbours)
 {
   EXPECT_DOUBLE_EQ(quantileOfSorted({1, 2, 3, 4, 5}, 0.5), 3);
@@ -58,3 +58,4 @@ TEST(Statistics, theSlopesUncertaintyIsHonest)
   }
   EXPECT_NEAR(within_two_sigma / 500.0, 0.95, 0.05);
 }
+}  // namespace scanloom::statistics_unittest

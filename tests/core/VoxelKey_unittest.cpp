@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::voxel_key_unittest
 {
 TEST(VoxelKey, isThatOfTheCubeThatHoldsThePoint)
 {
@@ -16,4 +16,4 @@ TEST(VoxelKey, differsAlongEveryAxisAndAcrossZero)
   EXPECT_NE(voxelKey(0, -1, 0), voxelKey(-1, 0, 0));
   EXPECT_NE(voxelKey(0, 0, -1), voxelKey(0, -1, 0));
 }
-}  // namespace scanloom
+}  // namespace scanloom::voxel_key_unittest

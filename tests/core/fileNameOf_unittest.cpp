@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::file_name_of_unittest
 {
 TEST(FileNameOf, keepsOrdinaryLabels)
 {
@@ -17,4 +17,4 @@ TEST(FileNameOf, leavesNoWayOutOfTheFolder)
   EXPECT_EQ(fileNameOf("a\x1b[2J\n"), "a%1B[2J%0A");
   EXPECT_NE(fileNameOf("%2F"), fileNameOf("/"));
 }
-}  // namespace scanloom
+}  // namespace scanloom::file_name_of_unittest

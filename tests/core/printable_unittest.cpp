@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::printable_unittest
+{
 TEST(Printable, leavesTextOfEveryLanguageAsItIs)
 {
   for (const char* text : {"OS-0-128", "", "größer ≥ 5 °", "雷达", "🌲"}) EXPECT_EQ(printable(text), text);
@@ -32,3 +32,4 @@ TEST(Printable, showsBytesThatAreNoUtf8AsMarks)
   EXPECT_EQ(printable("\xc0\x9b"), "??") << "too long a form";
   EXPECT_EQ(printable("\xf0\x9f\x8c"), "???") << "cut";
 }
+}  // namespace scanloom::printable_unittest

@@ -13,8 +13,8 @@
 #include "support/TestData.h"
 #include "traces.h"
 
-using namespace scanloom;
-
+namespace scanloom::clocks_unittest
+{
 namespace
 {
 const LidarDescription kLidar = smallLidar();
@@ -186,3 +186,4 @@ TEST(RotorPhase, ofARecordedVelodyneIsThatOfItsAzimuths)
   EXPECT_EQ(seen.lidars.front().delivery.loss.packets, 0u);
   EXPECT_EQ(seen.lidars.front().delivery.order.duplicates, 0u);
 }
+}  // namespace scanloom::clocks_unittest

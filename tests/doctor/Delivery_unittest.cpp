@@ -6,8 +6,8 @@
 
 #include "traces.h"
 
-using namespace scanloom;
-
+namespace scanloom::delivery_unittest
+{
 namespace
 {
 const LidarDescription kLidar = smallLidar();
@@ -166,3 +166,4 @@ TEST(Delivery, withoutIdsAClockThatIsSetIsNoLoss)
   for (std::size_t i = 200; i < traces.size(); ++i) *traces[i].stamp += 37s;
   EXPECT_EQ(deliveryOf(packetRuns(traces, lidar), lidar).loss.packets, 0u);
 }
+}  // namespace scanloom::delivery_unittest

@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-using namespace scanloom;
-
+namespace scanloom::geometry_unittest
+{
 class Tilts : public testing::TestWithParam<double>
 {
 };
@@ -112,3 +112,4 @@ TEST(OwnParts, areNotToldWhileTheMachineStands)
   EXPECT_FALSE(markOwnParts(snapshots, 0, ground).known);
   EXPECT_TRUE(snapshots[0][0].own.empty());
 }
+}  // namespace scanloom::geometry_unittest

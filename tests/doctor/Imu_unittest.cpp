@@ -12,8 +12,8 @@
 #include "imu/MeanForce.h"
 #include "support/peakMemory.h"
 
-using namespace scanloom;
-
+namespace scanloom::imu_unittest
+{
 namespace
 {
 const Timestamp kStart{1750000000s};
@@ -201,3 +201,4 @@ TEST(GyroAgreement, saysNothingOfABodyThatTurnsAboutOneAxisOrNotAtAll)
   EXPECT_FALSE(gyroAgreement({a, {}}, {b, {}}));
   EXPECT_FALSE(gyroAgreement({a, {}}, {{}, {}}));
 }
+}  // namespace scanloom::imu_unittest

@@ -8,8 +8,8 @@
 #include "doctor/RigExamination.h"
 #include "rig/liveRig.h"
 
-using namespace scanloom;
-
+namespace scanloom::listening_unittest
+{
 namespace
 {
 /** Sends while the listener listens. */
@@ -57,3 +57,4 @@ TEST(Listening, endsWhenToldTo)
   listenLive(live.rig, 1h, listener, [] { return false; });
   EXPECT_TRUE(listener.finish().lidars.front().packets.empty());
 }
+}  // namespace scanloom::listening_unittest

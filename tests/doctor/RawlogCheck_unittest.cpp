@@ -14,7 +14,7 @@
 
 #include <limits>
 
-namespace scanloom
+namespace scanloom::rawlog_check_unittest
 {
 namespace
 {
@@ -213,4 +213,4 @@ TEST_F(RawlogCheck, isToldAsJson)
   EXPECT_DOUBLE_EQ(json["labels"]["imu"]["usual_interval_s"], 0.05);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::rawlog_check_unittest

@@ -13,8 +13,8 @@
 #include "packets/MergedCaptures.h"
 #include "support/TestData.h"
 
-using namespace scanloom;
-
+namespace scanloom::rig_faults_unittest
+{
 namespace
 {
 constexpr std::uint16_t kRightPort = 7504;
@@ -406,3 +406,4 @@ TEST(RigFaults, aLidarWhosePoseNamesAWrongAxisIsNotFit)
   EXPECT_EQ(seen.verdictOn("imu_right", "up"), Verdict::NotFit);
   EXPECT_EQ(seen.verdictOn("left", "ground"), Verdict::Ok);
 }
+}  // namespace scanloom::rig_faults_unittest

@@ -13,8 +13,8 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
-using namespace scanloom;
-
+namespace scanloom::scan_evidence_unittest
+{
 TEST(ScanEvidence, pointsAndImusTellTheSameAsThePacketsDid)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
@@ -83,3 +83,4 @@ TEST(ScanEvidence, cloudsTellTheGroundButNoDelivery)
   EXPECT_LT(degreesBetween(seen.lidars[0].ground->up, Eigen::Vector3d::UnitZ()), 0.1);
   for (const Finding& finding : findingsOf(seen, {})) EXPECT_LE(finding.verdict, Verdict::Ok) << finding.says;
 }
+}  // namespace scanloom::scan_evidence_unittest

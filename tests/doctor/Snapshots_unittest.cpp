@@ -5,8 +5,8 @@
 #include "doctor/RigEvidence.h"
 #include "support/FakeLidar.h"
 
-using namespace scanloom;
-
+namespace scanloom::snapshots_unittest
+{
 namespace
 {
 std::vector<RigSnapshot> taken(Duration length)
@@ -70,3 +70,4 @@ TEST(RigExamination, tellsHowFarAwayIsWhatComesBack)
   EXPECT_NEAR(returns->range_p50, 5, 1e-9);
   EXPECT_NEAR(returns->range_p95, 9.5, 1e-9);
 }
+}  // namespace scanloom::snapshots_unittest

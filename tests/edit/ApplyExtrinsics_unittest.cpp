@@ -15,7 +15,7 @@
 
 #include <fstream>
 
-namespace scanloom
+namespace scanloom::apply_extrinsics_unittest
 {
 namespace
 {
@@ -80,4 +80,4 @@ TEST_F(ApplyExtrinsics, deskewedPointsAreWhereTheyWereAtTheStart)
   EXPECT_EQ(observationsIn(out, "imu").size(), 8u);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::apply_extrinsics_unittest

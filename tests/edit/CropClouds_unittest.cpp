@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 
-namespace scanloom
+namespace scanloom::crop_clouds_unittest
 {
 namespace
 {
@@ -99,4 +99,4 @@ TEST(ThinClouds, keepsTheFirstPointOfEachCube)
   EXPECT_THAT(xOf(thinClouds(2)(fivePoints())), ElementsAre(1, 2, 4));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::crop_clouds_unittest

@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::deskew_by_gyro_unittest
 {
 namespace
 {
@@ -195,4 +195,4 @@ TEST_F(DeskewByGyro, anEmptyCloudStays)
   EXPECT_EQ(deskewedWith(kBias).size(), 1u);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::deskew_by_gyro_unittest

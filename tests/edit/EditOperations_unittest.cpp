@@ -10,7 +10,7 @@
 
 #include <fstream>
 
-namespace scanloom
+namespace scanloom::edit_operations_unittest
 {
 namespace
 {
@@ -125,4 +125,4 @@ TEST_F(EditOperations, aTrajectoryWithoutPosesIsAnError)
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::edit_operations_unittest

@@ -18,7 +18,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace scanloom
+namespace scanloom::export_clouds_unittest
 {
 namespace
 {
@@ -172,4 +172,4 @@ TEST_F(ExportClouds, cloudsOfTheClassAlreadyKeepTheirBytes)
   EXPECT_TRUE(uncompressed(out) == uncompressed(in));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::export_clouds_unittest

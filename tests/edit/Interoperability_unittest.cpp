@@ -13,7 +13,7 @@
 #include <map>
 #include <sstream>
 
-namespace scanloom
+namespace scanloom::interoperability_unittest
 {
 namespace
 {
@@ -248,4 +248,4 @@ TEST_F(Interoperability, molaFindsLabelsAndFieldsInTheRawlogItself)
   EXPECT_NE(bytes.find(imu_label, bytes.find("mrpt::obs::CObservationIMU")), std::string::npos);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::interoperability_unittest

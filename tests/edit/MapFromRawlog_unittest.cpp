@@ -6,7 +6,7 @@
 #include <mrpt/maps/CSimpleMap.h>
 #include <octomap/octomap.h>
 
-namespace scanloom
+namespace scanloom::map_from_rawlog_unittest
 {
 namespace
 {
@@ -52,4 +52,4 @@ TEST_F(MapFromRawlog, aTrajectoryOfAnotherRecordingMakesNoMap)
   EXPECT_THROW(writeMaps({folder / "k.simplemap"}, other), std::runtime_error);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::map_from_rawlog_unittest

@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::rawlog_edit_unittest
 {
 namespace
 {
@@ -182,4 +182,4 @@ TEST_F(RawlogEdit, clocksOfDifferentEpochsAreBroughtTogether)
   EXPECT_TRUE(uncompressed(out) == uncompressed(in));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::rawlog_edit_unittest

@@ -12,7 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::rebatch_clouds_unittest
 {
 namespace
 {
@@ -98,4 +98,4 @@ TEST_F(RebatchClouds, aRateThatIsNotKnownIsAnError)
   EXPECT_THROW(rebatch(20, header), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::rebatch_clouds_unittest

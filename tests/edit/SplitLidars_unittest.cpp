@@ -13,7 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::split_lidars_unittest
 {
 namespace
 {
@@ -199,4 +199,4 @@ TEST_F(SplitLidars, theImuWithinALidarThatGoesGoesToo)
 
 TEST_F(SplitLidars, aNameThatNoLidarHasIsAMistake) { EXPECT_THROW(keepLidars({"centre"}, someHeader()), UsageError); }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::split_lidars_unittest

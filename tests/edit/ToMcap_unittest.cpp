@@ -7,7 +7,7 @@
 #include "mrpt_bridge/Observations.h"
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::to_mcap_unittest
 {
 namespace
 {
@@ -108,4 +108,4 @@ TEST(ToMcap, writesPointsWithTheirTimesAndRings)
   EXPECT_FALSE(bag->next(message));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::to_mcap_unittest

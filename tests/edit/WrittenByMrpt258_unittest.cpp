@@ -14,7 +14,7 @@
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/version.h>
 
-namespace scanloom
+namespace scanloom::written_by_mrpt258_unittest
 {
 namespace
 {
@@ -157,4 +157,4 @@ TEST(WrittenByMrpt258, aSceneIsReadWithItsPointsAndItsPath)
   EXPECT_EQ(read->getByClass<mrpt::opengl::CSetOfLines>()->size(), 1U);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::written_by_mrpt258_unittest

@@ -15,8 +15,8 @@
 #include <map>
 #include <sstream>
 
-using namespace scanloom;
-
+namespace scanloom::faulty_imu_unittest
+{
 namespace
 {
 constexpr Duration kGone = 7s, kBack = 12s;  // after the start; the machine drives from 2.5 to 13.5 s
@@ -436,3 +436,4 @@ TEST(FaultyImu, silentWithoutAnotherOneNoPoseIsOk)
   }
   EXPECT_LT(outcome.largestErrorWhile("OK"), 0.15);
 }
+}  // namespace scanloom::faulty_imu_unittest

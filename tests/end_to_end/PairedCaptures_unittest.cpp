@@ -12,8 +12,8 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
-using namespace scanloom;
-
+namespace scanloom::paired_captures_unittest
+{
 namespace
 {
 const std::string kFolder = "ouster/ouster-lidar+ouster-sdk/tests/pcaps/";
@@ -130,3 +130,4 @@ TEST(PairedCaptures, twoRealOustersBecomeOneRawlogWithExactCounts)
   EXPECT_EQ(points_of[0], first.points);
   EXPECT_EQ(points_of[1], second.points);
 }
+}  // namespace scanloom::paired_captures_unittest

@@ -13,8 +13,8 @@
 #include "support/TestData.h"
 #include "support/harvesterSettings.h"
 
-using namespace scanloom;
-
+namespace scanloom::recordings_unittest
+{
 namespace
 {
 Rig rigOf(const std::filesystem::path& recording, const std::vector<std::string>& only = {})
@@ -121,3 +121,4 @@ TEST(Recordings, aRawlogGivesThePosesOfItsCaptureWithinAMillimetre)
   for (std::size_t i = 0; i < got.size(); ++i)
     EXPECT_LT((got[i].map_T_body.translation - expected[i].map_T_body.translation).norm(), 1e-3);
 }
+}  // namespace scanloom::recordings_unittest

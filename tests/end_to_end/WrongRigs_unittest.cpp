@@ -14,7 +14,8 @@
 #include <algorithm>
 #include <fstream>
 
-using namespace scanloom;
+namespace scanloom::wrong_rigs_unittest
+{
 using testing::HasSubstr;
 
 namespace
@@ -108,3 +109,4 @@ INSTANTIATE_TEST_SUITE_P(
                         WrongRig{"altitudes_reversed", "1.5 1.2 2.5 30 15 -25", "reversed", "the lidar 'right': "},
                         WrongRig{"beams_of_another", "1.5 1.2 2.5 30 15 -25", "of another", "the lidar '"})),
     [](const auto& p) { return std::string(std::get<0>(p.param)) + "_" + std::get<1>(p.param).name; });
+}  // namespace scanloom::wrong_rigs_unittest

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::alignment_unittest
 {
 namespace
 {
@@ -91,4 +91,4 @@ TEST(Alignment, isConditionedByTheSpreadAcrossThePath)
   EXPECT_NEAR(cross.condition, 5, 1e-12);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::alignment_unittest

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::clock_offset_unittest
 {
 namespace
 {
@@ -52,4 +52,4 @@ TEST(ClockOffset, cannotBeToldAtRestOrAtConstantVelocity)
 
 TEST(ClockOffset, cannotBeToldWithoutTimeInCommon) { EXPECT_FALSE(clockOffset({}, kPrism, {})); }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::clock_offset_unittest

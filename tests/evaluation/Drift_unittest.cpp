@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::drift_unittest
 {
 namespace
 {
@@ -92,4 +92,4 @@ TEST(Drift, isToldAlongTheReference)
 
 TEST(Drift, needsPairs) { EXPECT_THROW(driftOf({}, AlignmentKind::Yaw), std::invalid_argument); }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::drift_unittest

@@ -9,7 +9,7 @@
 
 #include "support/TestData.h"
 
-namespace scanloom
+namespace scanloom::evaluation_unittest
 {
 namespace
 {
@@ -102,4 +102,4 @@ TEST(Evaluation, givesTheFiguresOfAnIndependentScript)
   }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::evaluation_unittest

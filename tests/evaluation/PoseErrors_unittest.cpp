@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::pose_errors_unittest
 {
 namespace
 {
@@ -95,4 +95,4 @@ TEST(PoseErrors, ofAnOffsetPointAreThoseOfItsOwnPath)
   EXPECT_TRUE(pairs[1].reference_T_body.translation.isApprox(Eigen::Vector3d(0, 1, 0), 1e-12));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::pose_errors_unittest

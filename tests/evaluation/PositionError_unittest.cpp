@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::position_error_unittest
 {
 namespace
 {
@@ -68,4 +68,4 @@ TEST(PositionError, refusesTrajectoriesOfDifferentTimes)
   EXPECT_THROW(positionErrorFromFirstPose({}, straight(1s)), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::position_error_unittest

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::position_track_unittest
 {
 namespace
 {
@@ -37,4 +37,4 @@ TEST(PositionTrack, pairsNothingOutsideTheEstimateAndInItsGaps)
   EXPECT_EQ(pairs[2].stamp, Timestamp{5500ms});
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::position_track_unittest

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::registration_trials_unittest
 {
 namespace
 {
@@ -113,4 +113,4 @@ TEST(RegistrationTrials, withoutSuccessHaveNoConsistency)
   EXPECT_THROW(tryRegistration(kTruth, TrialOptions{0}, unmoved), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::registration_trials_unittest

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-namespace scanloom
+namespace scanloom::total_station_unittest
 {
 namespace
 {
@@ -98,4 +98,4 @@ TEST(TotalStation, aHeaderThatLacksAColumnOrHasAnUnknownUnitIsRefused)
   EXPECT_THAT(complaintAbout("t,x,e,y,z\n"), testing::HasSubstr("another one holds the same"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::total_station_unittest

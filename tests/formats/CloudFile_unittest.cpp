@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace scanloom
+namespace scanloom::cloud_file_unittest
 {
 namespace
 {
@@ -275,4 +275,4 @@ TEST(RecordedClouds, areReadFromGzippedKitti)
   EXPECT_LT(std::max_element(cloud.points.begin(), cloud.points.end(), range)->norm(), 130);  // m, the HDL-64E's reach
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::cloud_file_unittest

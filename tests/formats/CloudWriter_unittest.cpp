@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace scanloom
+namespace scanloom::cloud_writer_unittest
 {
 namespace
 {
@@ -145,4 +145,4 @@ TEST(CloudWriter, mayWriteAnEmptyFile)
   EXPECT_EQ(std::filesystem::file_size(folder / "a.las"), 375U);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::cloud_writer_unittest

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <random>
 
-using namespace scanloom;
-
+namespace scanloom::compressed_file_unittest
+{
 namespace
 {
 /** Half a megabyte, half of which repeats itself: several blocks of both formats. */
@@ -138,3 +138,4 @@ TEST(CompressedFile, thatCannotBeReadIsNamed)
   std::filesystem::create_directory(folder / "drive.rawlog");
   EXPECT_THAT(messageOfReading(folder / "drive.rawlog"), testing::EndsWith("drive.rawlog: is a directory"));
 }
+}  // namespace scanloom::compressed_file_unittest

@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-namespace scanloom
+namespace scanloom::euroc_imu_unittest
 {
 namespace
 {
@@ -92,4 +92,4 @@ TEST(EurocImu, readsTheRecordingsAt200Hz)
   EXPECT_NEAR(samples.front().accel.norm(), 9.80665, 0.1);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::euroc_imu_unittest

@@ -12,7 +12,7 @@
 #include <laszip_api.h>
 #endif
 
-namespace scanloom
+namespace scanloom::laz_file_unittest
 {
 namespace
 {
@@ -80,4 +80,4 @@ TEST(LazFile, holdsThePointsForOtherReadersInAQuarterOfTheBytes)
 }
 #endif
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::laz_file_unittest

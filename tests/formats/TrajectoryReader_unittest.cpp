@@ -6,7 +6,7 @@
 
 #include <functional>
 
-namespace scanloom
+namespace scanloom::trajectory_reader_unittest
 {
 namespace
 {
@@ -112,4 +112,4 @@ TEST_F(ForeignTrajectories, stampsWhoseDifferenceOverflowsAreRefused)
   EXPECT_EQ(readTrajectory(write("2111.csv", "4449999999999999999" + pose)).size(), 1U);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::trajectory_reader_unittest

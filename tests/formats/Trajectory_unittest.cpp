@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::trajectory_unittest
 {
 namespace
 {
@@ -113,4 +113,4 @@ TEST(Trajectory, isWrittenAsEurocWithWFirst)
               HasSubstr("\n1750000000000000000,2.000000000,0.000000000,0.000000000,1.000000000,0.000000000,"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::trajectory_unittest

@@ -11,8 +11,8 @@
 
 #include <algorithm>
 
-using namespace scanloom;
-
+namespace scanloom::fixed_lag_smoother_on_recording_unittest
+{
 namespace
 {
 // extrinsics.txt and summary.json of the recording
@@ -128,3 +128,4 @@ TEST(FixedLagSmootherOnRecording, predictsOverFifteenScans)
   EXPECT_LT(quantile(out.prediction_angles, 0.5), 0.5 * kDegree);
   EXPECT_LT(quantile(out.prediction_angles, 1.0), 2 * kDegree);
 }
+}  // namespace scanloom::fixed_lag_smoother_on_recording_unittest

@@ -7,8 +7,8 @@
 
 #include <Eigen/Cholesky>
 
-using namespace scanloom;
-
+namespace scanloom::fixed_lag_smoother_unittest
+{
 namespace
 {
 const AnalyticDrive kDrive;
@@ -490,3 +490,4 @@ TEST(FixedLagSmoother, reportsWhatTheSolverDid)
   EXPECT_GE(report.iterations, 1);
   EXPECT_LE(report.final_cost, report.initial_cost);
 }
+}  // namespace scanloom::fixed_lag_smoother_unittest

@@ -2,8 +2,8 @@
 
 #include "graph/checkFactor.h"
 
-using namespace scanloom;
-
+namespace scanloom::imu_factor_unittest
+{
 namespace
 {
 const AnalyticDrive kDrive;
@@ -66,3 +66,4 @@ TEST(ImuFactor, isFiniteForASingleStepWhoseCovarianceIsSingular)
   EXPECT_LT(residualOf(ImuFactor(motion, {}), {from, predict(from, motion)}).norm(), 1e-6);
   EXPECT_TRUE(residualOf(ImuFactor(motion, {}), {from, disturbed(from, 0.1, 3)}).allFinite());
 }
+}  // namespace scanloom::imu_factor_unittest

@@ -5,8 +5,8 @@
 
 #include <Eigen/QR>
 
-using namespace scanloom;
-
+namespace scanloom::linear_factor_unittest
+{
 namespace
 {
 LinearFactor randomFactor(std::vector<std::size_t> states, Noise& random)
@@ -119,3 +119,4 @@ TEST(LinearFactor, weighsARobustFactorDown)
   EXPECT_NEAR(normOf(10), 8, 1e-9);
   EXPECT_NEAR(normOf(2), std::sqrt(2 * 8), 1e-9);  // Huber's gradient is that of a residual of 2
 }
+}  // namespace scanloom::linear_factor_unittest

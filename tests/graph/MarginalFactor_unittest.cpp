@@ -2,8 +2,8 @@
 
 #include "graph/checkFactor.h"
 
-using namespace scanloom;
-
+namespace scanloom::marginal_factor_unittest
+{
 namespace
 {
 const AnalyticDrive kDrive;
@@ -28,3 +28,4 @@ TEST(MarginalFactor, ofAFirstStateCountsStandardDeviations)
   for (int k = 0; k < 15; ++k)
     EXPECT_NEAR(residualOf(factor, {boxPlus(kFirst, 2 * sigma[k] * Vector15d::Unit(k))}).norm(), 2, 1e-9) << k;
 }
+}  // namespace scanloom::marginal_factor_unittest

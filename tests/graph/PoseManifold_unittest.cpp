@@ -4,8 +4,8 @@
 
 #include <ceres/manifold_test_utils.h>
 
-using namespace scanloom;
-
+namespace scanloom::pose_manifold_unittest
+{
 namespace
 {
 const Rigid kHere = Rigid::fromXyzYawPitchRoll(1, -2, 3, 0.7, -0.4, 2.5);
@@ -41,3 +41,4 @@ TEST(PoseManifold, derivativeOfBoxMinusEqualsCentralDifferences)
                 [](const Eigen::VectorXd& step) -> Eigen::VectorXd
                 { return boxMinus(boxPlus(kThere, Vector6d(step)), kHere); });
 }
+}  // namespace scanloom::pose_manifold_unittest

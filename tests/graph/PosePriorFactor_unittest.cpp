@@ -2,8 +2,8 @@
 
 #include "graph/checkFactor.h"
 
-using namespace scanloom;
-
+namespace scanloom::pose_prior_factor_unittest
+{
 namespace
 {
 const Rigid kBodyFromImu = Rigid::fromXyzYawPitchRoll(0.15, -0.3, 2.85, 1.5, 0.1, -0.2);
@@ -55,3 +55,4 @@ TEST(PosePriorFactor, takesSlightlyNegativeEigenvaluesForZero)
   moved.map_T_imu = boxPlus(bodyOf(kState), Vector6d(5 * Vector6d::Unit(2))) * kBodyFromImu;
   EXPECT_LT(residualOf(PosePriorFactor(bodyOf(kState), information, kBodyFromImu), {moved}).norm(), 1e-12);
 }
+}  // namespace scanloom::pose_prior_factor_unittest

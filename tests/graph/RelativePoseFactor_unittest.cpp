@@ -3,8 +3,8 @@
 #include "graph/PosePriorFactor.h"
 #include "graph/checkFactor.h"
 
-using namespace scanloom;
-
+namespace scanloom::relative_pose_factor_unittest
+{
 namespace
 {
 const Rigid kBodyFromImu = Rigid::fromXyzYawPitchRoll(0.15, -0.3, 2.85, 1.5, 0.1, -0.2);
@@ -44,3 +44,4 @@ TEST(RelativePoseFactor, toAFixedReferenceIsAPosePrior)
       residualOf(PosePriorFactor(bodyOf(kReference) * kMeasured, information, kBodyFromImu), {off});
   EXPECT_LT((relative - absolute).norm(), 1e-12);
 }
+}  // namespace scanloom::relative_pose_factor_unittest

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::bias_of_replacement_unittest
 {
 namespace
 {
@@ -60,4 +60,4 @@ TEST(BiasOfReplacement, isNotToldByLessThanASecond)
   EXPECT_FALSE(biasOfReplacement({}, kKnown, other, kKnownTOther));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::bias_of_replacement_unittest

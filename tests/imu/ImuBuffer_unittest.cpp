@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::imu_buffer_unittest
+{
 namespace
 {
 Timestamp at(Duration since_epoch) { return Timestamp{since_epoch}; }
@@ -117,3 +117,4 @@ TEST(ImuBuffer, tellsAGapFromAnIntervalThatIsMerelyNotAligned)
   EXPECT_FALSE(buffer.coversDensely(at(200ms), at(205ms), 10ms)) << "ended long ago";
   EXPECT_FALSE(ImuBuffer().coversDensely(at(1ms), at(2ms), 10ms));
 }
+}  // namespace scanloom::imu_buffer_unittest

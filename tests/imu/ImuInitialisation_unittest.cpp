@@ -9,8 +9,8 @@
 
 #include <Eigen/Cholesky>
 
-using namespace scanloom;
-
+namespace scanloom::imu_initialisation_unittest
+{
 namespace
 {
 const Rigid kBodyFromImu = Rigid::fromXyzYawPitchRoll(0.15, -0.3, 2.85, 1.5, 0.1, -0.2);
@@ -193,3 +193,4 @@ TEST(ImuInitialisation, tellsTheStandstillOfARecordingFromItsDrive)
   for (const Duration from : {3s, 5s, 10s, 15s, 20s})
     EXPECT_FALSE(initialiseAtRest(part(samples, from, from + 2100ms), kBodyFromImu, {})) << seconds(from);
 }
+}  // namespace scanloom::imu_initialisation_unittest

@@ -7,8 +7,8 @@
 #include <functional>
 #include <limits>
 
-using namespace scanloom;
-
+namespace scanloom::imu_screening_unittest
+{
 namespace
 {
 using Change = std::function<void(ImuSample&, double t)>;
@@ -179,3 +179,4 @@ TEST(ImuScreening, refusesWhatIsNotFiniteOrNotInOrder)
   EXPECT_EQ(screened.refused.sum(), 3u);
   EXPECT_EQ(screened.refused.toString(), "3 not finite or out of order");
 }
+}  // namespace scanloom::imu_screening_unittest

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::nav_state_unittest
+{
 TEST(NavState, boxMinusUndoesBoxPlus)
 {
   const NavState state = AnalyticDrive{}.stateAt(Timestamp{3s}, {{0.01, 0.02, 0.03}, {0.1, 0.2, 0.3}});
@@ -20,3 +20,4 @@ TEST(NavState, knowsWhenAValueIsNotFinite)
   state.bias.accel.z() = NAN;
   EXPECT_FALSE(state.allFinite());
 }
+}  // namespace scanloom::nav_state_unittest

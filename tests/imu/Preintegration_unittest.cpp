@@ -6,8 +6,8 @@
 
 #include <Eigen/Cholesky>
 
-using namespace scanloom;
-
+namespace scanloom::preintegration_unittest
+{
 namespace
 {
 const AnalyticDrive kDrive;
@@ -252,3 +252,4 @@ TEST(Preintegration, refusesToPredictFromAnotherInstant)
   EXPECT_THROW(predictAt(kDrive.stateAt(Timestamp{1s}), samples, {Timestamp{1050ms}, Timestamp{1040ms}}),
                std::invalid_argument);
 }
+}  // namespace scanloom::preintegration_unittest

@@ -4,8 +4,8 @@
 
 #include "AnalyticDrive.h"
 
-using namespace scanloom;
-
+namespace scanloom::turn_correlation_unittest
+{
 namespace
 {
 /** The drive's rates as an IMU turned by 90 deg reads them, stamped late by `late`. */
@@ -43,3 +43,4 @@ TEST(TurnCorrelation, isNoneAtRestAndForOtherTimes)
   EXPECT_FALSE(turnCorrelation({resting, Rigid::identity()}, {resting, Rigid::identity()}));
   EXPECT_FALSE(withOneThatIsLateBy(1h));
 }
+}  // namespace scanloom::turn_correlation_unittest

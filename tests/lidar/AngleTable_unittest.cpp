@@ -5,8 +5,8 @@
 
 #include <stdexcept>
 
-using namespace scanloom;
-
+namespace scanloom::angle_table_unittest
+{
 TEST(AngleTable, readsRowsInAnyOrder)
 {
   std::string csv = "Channel,Elevation,Azimuth\r\n";
@@ -46,3 +46,4 @@ TEST(AngleTable, saysWhichLineIsWrong)
   EXPECT_EQ(said("1,2\n1,2\n1,2\n"), "unit.csv:3: channel 3 is none of 1 to 2");
   EXPECT_THAT(said("1,2,3\n2,nan,3\n"), testing::HasSubstr("expected"));
 }
+}  // namespace scanloom::angle_table_unittest

@@ -8,8 +8,8 @@
 #include "core/Angle.h"
 #include "simpleMetadata.h"
 
-using namespace scanloom;
-
+namespace scanloom::beam_table_unittest
+{
 namespace
 {
 /** The maker's documented formula in double, millimetres and degrees as in the metadata; the result in metres. */
@@ -107,3 +107,4 @@ TEST(ColumnAngles, columnsCountClockwiseFromTheFirst)
   EXPECT_NEAR(angles.cosine[2], -1, 1e-7);
   EXPECT_NEAR(angles.sine[3], 1, 1e-7);
 }
+}  // namespace scanloom::beam_table_unittest

@@ -7,7 +7,8 @@
 #include "lidar/LidarModels.h"
 #include "velodynePackets.h"
 
-using namespace scanloom;
+namespace scanloom::built_in_models_unittest
+{
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -65,3 +66,4 @@ TEST(BuiltInModels, areFoundByAPacket)
   EXPECT_THAT(modelsThatSend({std::vector<std::uint8_t>(1206)}), IsEmpty());
   EXPECT_THAT(modelsThatSend({}), IsEmpty());
 }
+}  // namespace scanloom::built_in_models_unittest

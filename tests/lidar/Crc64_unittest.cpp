@@ -5,8 +5,8 @@
 #include <random>
 #include <string>
 
-using namespace scanloom;
-
+namespace scanloom::crc64_unittest
+{
 namespace
 {
 std::uint64_t bitByBit(Bytes bytes)
@@ -38,3 +38,4 @@ TEST(Crc64, equalsTheDefinitionAtEveryLengthAndAlignment)
     ASSERT_EQ(crc64(some), bitByBit(some)) << length;
   }
 }
+}  // namespace scanloom::crc64_unittest

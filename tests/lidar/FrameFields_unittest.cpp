@@ -10,8 +10,8 @@
 #include "core/Digest.h"
 #include "simpleMetadata.h"
 
-using namespace scanloom;
-
+namespace scanloom::frame_fields_unittest
+{
 namespace
 {
 const std::vector<std::string> kDigested{"OS-0-32-U1_v2.2.0_1024x10", "OS-1-32-G_v2.1.1_1024x10",
@@ -137,3 +137,4 @@ TEST(Digest, isMd5)
   EXPECT_EQ(md5({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}), "f96b697d7cb7938d525a2f31aaf161d0");
   EXPECT_EQ(md5({}), "d41d8cd98f00b204e9800998ecf8427e");
 }
+}  // namespace scanloom::frame_fields_unittest

@@ -11,8 +11,8 @@
 #include "lidar/LidarModels.h"
 #include "velodynePackets.h"
 
-using namespace scanloom;
-
+namespace scanloom::hesai_decoder_unittest
+{
 namespace
 {
 constexpr Timestamp kStamp{1'677'673'815'500'000'000ns};  // 2023-03-01 12:30:15.5
@@ -216,3 +216,4 @@ TEST_P(HesaiMistakes, areSaidWithKeyAndCure)
     EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("folder/"), testing::HasSubstr(GetParam().says)));
   }
 }
+}  // namespace scanloom::hesai_decoder_unittest

@@ -13,8 +13,8 @@
 #include "support/TestData.h"
 #include "support/shareFound.h"
 
-using namespace scanloom;
-
+namespace scanloom::hesai_reference_unittest
+{
 namespace
 {
 const std::string kHesai = "other-lidars/tier4+nebula/src/nebula_hesai/";
@@ -76,3 +76,4 @@ TEST_P(HesaiClouds, consistOfPointsOfOurs)
   const auto theirs = readPlainPcd(theFile(folder, ".pcd"));
   EXPECT_EQ(shareFound(theirs, ours, 0), 1) << "within 0.1 mm";
 }
+}  // namespace scanloom::hesai_reference_unittest

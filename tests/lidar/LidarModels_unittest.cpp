@@ -9,8 +9,8 @@
 #include "simpleMetadata.h"
 #include "support/TemporaryFolder.h"
 
-using namespace scanloom;
-
+namespace scanloom::lidar_models_unittest
+{
 TEST(LidarModels, everyMetadataFileOfOusterMakesADecoderWithTheExtrinsicsFoldedIn)
 {
   SCANLOOM_NEEDS_DATA(file, kOusterCaptures + "OS-0-128_v3.0.1_1024x10.json");
@@ -46,3 +46,4 @@ TEST(LidarModels, aFileOfNoFamilyIsRefusedWithWhatWouldBeRead)
   }
   EXPECT_THROW(makeDecoder((folder.path() / "missing.json").string(), Rigid::identity()), std::invalid_argument);
 }
+}  // namespace scanloom::lidar_models_unittest

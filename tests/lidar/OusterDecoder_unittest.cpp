@@ -10,8 +10,8 @@
 #include "lidar/Crc64.h"
 #include "simpleMetadata.h"
 
-using namespace scanloom;
-
+namespace scanloom::ouster_decoder_unittest
+{
 namespace
 {
 std::map<PacketKind, int> kindsOf(const OusterDecoder& decoder, const std::filesystem::path& capture)
@@ -302,3 +302,4 @@ TEST(OusterDecoder, readsTheOldAndTheNewFileOfADualRecordingByAnotherGenerator)
   EXPECT_EQ(crossed[PacketKind::Foreign], own[PacketKind::Lidar]);
   EXPECT_EQ(crossed[PacketKind::Lidar], 0);
 }
+}  // namespace scanloom::ouster_decoder_unittest

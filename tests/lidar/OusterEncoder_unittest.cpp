@@ -5,8 +5,8 @@
 #include "lidar/OusterDecoder.h"
 #include "simpleMetadata.h"
 
-using namespace scanloom;
-
+namespace scanloom::ouster_encoder_unittest
+{
 namespace
 {
 /** What the decoder should make of a column, said without the decoder's own loops. */
@@ -206,3 +206,4 @@ TEST(OusterEncoder, anImuPacketOfEightMeasurementsHas452Bytes)
   metadata.imu_measurements_per_packet = 8;
   EXPECT_EQ(layoutOf(metadata).imuPacketBytes(), 452u);
 }
+}  // namespace scanloom::ouster_encoder_unittest

@@ -7,7 +7,8 @@
 
 #include "captures.h"
 
-using namespace scanloom;
+namespace scanloom::ouster_metadata_unittest
+{
 using testing::HasSubstr;
 
 namespace
@@ -244,3 +245,4 @@ TEST(OusterMetadata, aFileThatIsNotThereIsNamed)
 {
   EXPECT_THROW(loadOusterMetadata("/nowhere/left.json"), std::invalid_argument);
 }
+}  // namespace scanloom::ouster_metadata_unittest

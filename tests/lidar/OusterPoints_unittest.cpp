@@ -4,8 +4,8 @@
 #include "lidar/OusterDecoder.h"
 #include "simpleMetadata.h"
 
-using namespace scanloom;
-
+namespace scanloom::ouster_points_unittest
+{
 namespace
 {
 struct Case
@@ -141,3 +141,4 @@ TEST(OusterPoints, beamsOfDifferentOriginsAreRefused)
   const BeamTable beams({Beam{}, Beam{0, 0, {0.1, 0, 0}, 0}}, Rigid::identity());
   EXPECT_THROW(OusterPoints(kOusterProfiles[0], beams, Kernel::Portable), std::invalid_argument);
 }
+}  // namespace scanloom::ouster_points_unittest

@@ -10,8 +10,8 @@
 #include "captures.h"
 #include "lidar/FrameFields.h"
 
-using namespace scanloom;
-
+namespace scanloom::reference_decode_unittest
+{
 namespace
 {
 const std::string kName = "OS-1-128_v2.3.0_1024x10";
@@ -117,3 +117,4 @@ TEST(ReferenceDecode, theFirstTurnLiesInTheMakersMapToTenMicrometres)
   const OusterDecoder turned = decoderOf(metadata, Rigid::fromXyzYawPitchRoll(0, 0, 0, 0.1 * M_PI / 180, 0, 0));
   EXPECT_LT(countFound(map, pointsOfTurn(turned, capture, kFirstTurn), 1e-5f), map.size() / 100);
 }
+}  // namespace scanloom::reference_decode_unittest

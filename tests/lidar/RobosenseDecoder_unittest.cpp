@@ -11,8 +11,8 @@
 #include "robosensePackets.h"
 #include "velodynePackets.h"
 
-using namespace scanloom;
-
+namespace scanloom::robosense_decoder_unittest
+{
 namespace
 {
 constexpr Timestamp kStamp{1'700'000'000'500'000'000ns};
@@ -221,3 +221,4 @@ TEST(RobosenseMetadata, saysWhatIsWrongWithKeyAndCure)
   EXPECT_THAT(said({{"returns", 3}}), testing::HasSubstr("returns: must be a whole number from 1 to 2"));
   EXPECT_THAT(said({{"field_of_view_deg", {1}}}), testing::HasSubstr("must be [first, last]"));
 }
+}  // namespace scanloom::robosense_decoder_unittest

@@ -15,8 +15,8 @@
 #include "support/TestData.h"
 #include "support/shareFound.h"
 
-using namespace scanloom;
-
+namespace scanloom::robosense_reference_unittest
+{
 namespace
 {
 const std::string kNebula = "other-lidars/tier4+nebula/";
@@ -95,3 +95,4 @@ TEST(RobosenseRecording, showsALevelFloor)
     EXPECT_NEAR(z[z.size() / 2], -0.68, ring == 28 ? 0.09 : 0.02) << "ring " << ring;
   }
 }
+}  // namespace scanloom::robosense_reference_unittest

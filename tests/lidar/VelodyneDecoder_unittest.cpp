@@ -12,8 +12,8 @@
 #include "support/TestData.h"
 #include "velodynePackets.h"
 
-using namespace scanloom;
-
+namespace scanloom::velodyne_decoder_unittest
+{
 namespace
 {
 struct Sensor
@@ -354,3 +354,4 @@ TEST_P(VelodyneMistakes, areSaidWithKeyAndCure)
     EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("front.json"), testing::HasSubstr(GetParam().says)));
   }
 }
+}  // namespace scanloom::velodyne_decoder_unittest

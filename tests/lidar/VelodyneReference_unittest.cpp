@@ -9,8 +9,8 @@
 #include "support/shareFound.h"
 #include "velodynePackets.h"
 
-using namespace scanloom;
-
+namespace scanloom::velodyne_reference_unittest
+{
 namespace
 {
 const std::string kNebula =
@@ -144,3 +144,4 @@ TEST_P(VeloViewCaptures, giveTheTurnsAndPointsThatVeloViewGives)
     EXPECT_EQ(turns[known.turn].intensity[known.point], known.intensity);
   }
 }
+}  // namespace scanloom::velodyne_reference_unittest

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::http_request_unittest
 {
 namespace
 {
@@ -75,4 +75,4 @@ TEST(HttpRequest, isRefusedIfItIsAmbiguous)
   EXPECT_EQ(refusalOf(std::string("GET /\0 HTTP/1.1\r\n\r\n", 20)), kHttpBadRequest);
   EXPECT_EQ(refusalOf(""), kHttpBadRequest);
 }
-}  // namespace scanloom
+}  // namespace scanloom::http_request_unittest

@@ -6,7 +6,7 @@
 
 #include <thread>
 
-namespace scanloom
+namespace scanloom::live_feed_unittest
 {
 namespace
 {
@@ -160,4 +160,4 @@ TEST(ViewStatusJson, takesTextThatIsNoUtf8)
   status.warnings.push_back({"bad \xff\xfe name", 1, {}});
   EXPECT_NO_THROW(toJson(status, {}, LiveFeed::Clock::now()));
 }
-}  // namespace scanloom
+}  // namespace scanloom::live_feed_unittest

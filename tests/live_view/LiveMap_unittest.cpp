@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace scanloom
+namespace scanloom::live_map_unittest
 {
 namespace
 {
@@ -177,4 +177,4 @@ TEST(LiveMap, pathIsBounded)
   EXPECT_LE(got, LiveMap::kMostPath);
   EXPECT_GE(got, LiveMap::kMostPath / 3);
 }
-}  // namespace scanloom
+}  // namespace scanloom::live_map_unittest

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <thread>
 
-namespace scanloom
+namespace scanloom::live_server_unittest
 {
 namespace
 {
@@ -261,4 +261,4 @@ TEST(LiveServer, aPageThatDoesNotReadCostsTheFeedNothing)
   }
   EXPECT_LT(longest, 2s);  // usually some microseconds; a page may stall for 10 s
 }
-}  // namespace scanloom
+}  // namespace scanloom::live_server_unittest

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <thread>
 
-namespace scanloom
+namespace scanloom::page_unittest
 {
 namespace
 {
@@ -245,4 +245,4 @@ TEST(Page, drawsAMillionPointsOrAsManyAsItCanInTime)
   EXPECT_GE(points, 950000);
   EXPECT_GE(at_rest, 800000) << "all but what the camera does not see";
 }
-}  // namespace scanloom
+}  // namespace scanloom::page_unittest

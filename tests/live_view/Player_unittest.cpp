@@ -4,7 +4,7 @@
 
 #include <thread>
 
-namespace scanloom
+namespace scanloom::player_unittest
 {
 namespace
 {
@@ -127,4 +127,4 @@ TEST(PlayerCommand, isOneOfAFew)
   for (const char* text : {"", "Play", "speed", "speed 0", "speed 1e9", "speed nan", "seek -1", "seek 1 2", "seek  1"})
     EXPECT_FALSE(parsePlayerCommand(text)) << text;
 }
-}  // namespace scanloom
+}  // namespace scanloom::player_unittest

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::open_direction_unittest
 {
 namespace
 {
@@ -58,4 +58,4 @@ TEST(openDirection, saysWhyElseAScanIsNotTrusted)
   estimate.trusted = true;
   EXPECT_EQ(openDirection(estimate), "lidars and IMU are apart");
 }
-}  // namespace scanloom
+}  // namespace scanloom::open_direction_unittest

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::map_picture_unittest
 {
 namespace
 {
@@ -78,4 +78,4 @@ TEST(MapPicture, needsATrajectory)
   EXPECT_THROW(MapPicture({}).write(folder / "map.png", {}, ""), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::map_picture_unittest

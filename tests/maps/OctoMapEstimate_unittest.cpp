@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::octo_map_estimate_unittest
 {
 namespace
 {
@@ -35,4 +35,4 @@ TEST(OctoMapEstimate, fewRaysMeetFewVoxels)
   EXPECT_LT(sparse.bytes, 100 * 300 * 8.0 / 7 * 56 + 1);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::octo_map_estimate_unittest

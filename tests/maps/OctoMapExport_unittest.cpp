@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::octo_map_export_unittest
 {
 namespace
 {
@@ -146,4 +146,4 @@ TEST(OctoMapBuilder, refusesWhatHasNoPoseOrNoName)
   EXPECT_THROW(octoMapPreset("coarse"), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::octo_map_export_unittest

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace scanloom
+namespace scanloom::octo_map_file_unittest
 {
 namespace
 {
@@ -171,4 +171,4 @@ TEST_F(HugeLeaf, isNotListedVoxelByVoxel)
   EXPECT_FALSE(std::filesystem::exists(folder / "m.ply"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::octo_map_file_unittest

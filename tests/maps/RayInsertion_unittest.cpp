@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace scanloom
+namespace scanloom::ray_insertion_unittest
 {
 namespace
 {
@@ -102,4 +102,4 @@ TEST(RayInsertion, leavesOutPointsBeyondTheTree)
   EXPECT_EQ(tree.size(), 0U);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::ray_insertion_unittest

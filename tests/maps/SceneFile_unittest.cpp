@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace scanloom
+namespace scanloom::scene_file_unittest
 {
 namespace
 {
@@ -56,4 +56,4 @@ TEST(SceneBuilder, leavesOutPointsThatAreNotFinite)
   EXPECT_EQ(scene.finished()->getByClass<mrpt::opengl::CPointCloudColoured>()->size(), 500u);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::scene_file_unittest

@@ -8,7 +8,7 @@
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
-namespace scanloom
+namespace scanloom::simple_map_file_unittest
 {
 namespace
 {
@@ -71,4 +71,4 @@ TEST(SimpleMapBuilder, refusesAPointOfAnUnknownLidar)
   EXPECT_THROW(builder.add(onePointOfEach()), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::simple_map_file_unittest

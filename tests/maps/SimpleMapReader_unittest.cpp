@@ -14,7 +14,7 @@
 #include <cmath>
 #include <limits>
 
-namespace scanloom
+namespace scanloom::simple_map_reader_unittest
 {
 namespace
 {
@@ -228,4 +228,4 @@ TEST(SimpleMapReader, takesNoGigabytesForABitThatFlipped)
     }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::simple_map_reader_unittest

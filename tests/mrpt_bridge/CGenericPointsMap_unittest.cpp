@@ -9,7 +9,7 @@
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/version.h>
 
-namespace scanloom
+namespace scanloom::c_generic_points_map_unittest
 {
 namespace
 {
@@ -311,4 +311,4 @@ TEST(CGenericPointsMap, keepsFieldsWithTheirPointsWhenSomeAreDeleted)
   EXPECT_EQ(map.uint16_fields().at("column")[0], 1021);
 }
 #endif
-}  // namespace scanloom
+}  // namespace scanloom::c_generic_points_map_unittest

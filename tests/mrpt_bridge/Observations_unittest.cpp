@@ -8,7 +8,7 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/system/datetime.h>
 
-namespace scanloom
+namespace scanloom::observations_unittest
 {
 TEST(Conversions, agreesWithMrptOnWhatTimeItIs)
 {
@@ -177,4 +177,4 @@ TEST(CloudClass, isNamedAsMrptNamesIt)
   EXPECT_EQ(cloudClassFromName("CPointsMapXYZI"), CloudClass::CPointsMapXYZI);
   EXPECT_THROW(cloudClassFromName("CPointsMapXYZIRT"), std::invalid_argument);
 }
-}  // namespace scanloom
+}  // namespace scanloom::observations_unittest

@@ -34,7 +34,7 @@
 #include <fstream>
 #include <limits>
 
-namespace scanloom
+namespace scanloom::rawlog_unittest
 {
 namespace
 {
@@ -589,4 +589,4 @@ TEST_F(Rawlog, isNotUnpackedIntoMoreThanItsSizeCanMean)
   }
   EXPECT_THAT(rawlogInfo(path_).damage, testing::HasSubstr("an object of more than 64 MB"));
 }
-}  // namespace scanloom
+}  // namespace scanloom::rawlog_unittest

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace scanloom
+namespace scanloom::recording_header_json_unittest
 {
 TEST(RecordingHeaderJson, comesBackFromItsJson)
 {
@@ -93,4 +93,4 @@ TEST(RecordingHeaderJson, refusesWhatNoRigHasAndNamesIt)
   const nlohmann::json lidar = nlohmann::json::parse(toJson(someHeader()))["scanloom"]["lidars"][0];
   EXPECT_THAT(refusalOf("/lidars", std::vector<nlohmann::json>(257, lidar)), testing::HasSubstr("257 lidars"));
 }
-}  // namespace scanloom
+}  // namespace scanloom::recording_header_json_unittest

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace scanloom
+namespace scanloom::xyzi_read_by_all_unittest
 {
 namespace
 {
@@ -70,4 +70,4 @@ TEST(XyziReadByAll, isReadByThisMrptWithEveryField)
   EXPECT_EQ(points->insertionOptions.horizontalTolerance, 0.5F);
   EXPECT_EQ(points->likelihoodOptions.decimation, 7U);
 }
-}  // namespace scanloom
+}  // namespace scanloom::xyzi_read_by_all_unittest

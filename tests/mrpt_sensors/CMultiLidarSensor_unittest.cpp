@@ -12,7 +12,7 @@
 
 #include <thread>
 
-namespace scanloom
+namespace scanloom::c_multi_lidar_sensor_unittest
 {
 namespace
 {
@@ -183,4 +183,4 @@ TEST(CMultiLidarSensor, saysWhichMetadataItCouldNotOpen)
     EXPECT_NE(std::string(e.what()).find("nowhere/a.json"), std::string::npos) << e.what();
   }
 }
-}  // namespace scanloom
+}  // namespace scanloom::c_multi_lidar_sensor_unittest

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace scanloom
+namespace scanloom::handed_over_unittest
 {
 using namespace std::chrono_literals;
 using mrpt::obs::CObservationComment;
@@ -48,4 +48,4 @@ TEST(HandedOver, isPatientAgainWheneverSomethingIsFreed)
   EXPECT_EQ(given.held(start + 900ms), 1u);
   EXPECT_TRUE(given.isWorthWaitingFor(start + 1800ms));
 }
-}  // namespace scanloom
+}  // namespace scanloom::handed_over_unittest

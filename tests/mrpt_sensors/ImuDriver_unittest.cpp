@@ -7,7 +7,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::imu_driver_unittest
 {
 /** A sample 5 ms after the other; after `samples` of them it throws, as a driver does whose cable was pulled. */
 class CTestImu : public mrpt::system::COutputLogger, public mrpt::hwdrivers::CGenericSensor
@@ -33,7 +33,7 @@ class CTestImu : public mrpt::system::COutputLogger, public mrpt::hwdrivers::CGe
  private:
   int samples_ = 0, given_ = 0;
 };
-IMPLEMENTS_GENERIC_SENSOR(CTestImu, scanloom)
+IMPLEMENTS_GENERIC_SENSOR(CTestImu, scanloom::imu_driver_unittest)
 
 namespace
 {
@@ -81,4 +81,4 @@ TEST(ImuDriver, saysSoWhenNoSampleComes)
   ImuDriver driver(sectionOf("CTestImu", "0"), "body_imu");
   EXPECT_THROW(driver.body_T_imu(200ms), std::runtime_error);
 }
-}  // namespace scanloom
+}  // namespace scanloom::imu_driver_unittest

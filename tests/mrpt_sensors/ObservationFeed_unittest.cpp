@@ -7,7 +7,7 @@
 #include <chrono>
 #include <stdexcept>
 
-namespace scanloom
+namespace scanloom::observation_feed_unittest
 {
 namespace
 {
@@ -85,4 +85,4 @@ TEST(ObservationFeed, stopsWithInputLeft)
   ObservationFeed feed([] { return numbered(0); }, 2);
   SUCCEED() << "the destructor returns";
 }
-}  // namespace scanloom
+}  // namespace scanloom::observation_feed_unittest

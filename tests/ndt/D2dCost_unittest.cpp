@@ -9,7 +9,7 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
-namespace scanloom
+namespace scanloom::d2d_cost_unittest
 {
 namespace
 {
@@ -94,4 +94,4 @@ TEST(NormalEquations, agreeWithTheExactCost)
   EXPECT_GE(fast.curvature.eigenvalues().real().minCoeff(), 0);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::d2d_cost_unittest

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <random>
 
-namespace scanloom
+namespace scanloom::eigen_lanes_unittest
 {
 namespace
 {
@@ -72,4 +72,4 @@ TEST(EigenLanes, haveTheSameBitsOnEveryKernel)
   }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::eigen_lanes_unittest

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-using namespace scanloom;
-
+namespace scanloom::fading_density_unittest
+{
 namespace
 {
 constexpr double kExtinction = 0.6;  // 1/m, of these leaves
@@ -107,3 +107,4 @@ TEST(FadingDensity, threePointsStay)
   undoFading(after, kMetre, {5, 0, 0}, 4);
   EXPECT_EQ(after.front().moments.x, before.front().moments.x);
 }
+}  // namespace scanloom::fading_density_unittest

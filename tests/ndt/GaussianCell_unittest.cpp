@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
-namespace scanloom
+namespace scanloom::gaussian_cell_unittest
 {
 namespace
 {
@@ -97,4 +97,4 @@ TEST(Moments, takeOutWhatWasAddedWithoutATrace)
   EXPECT_EQ(both.zz, a.zz);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::gaussian_cell_unittest

@@ -15,7 +15,7 @@
 #include <set>
 #include <tuple>
 
-namespace scanloom
+namespace scanloom::ndt_map_unittest
 {
 namespace
 {
@@ -213,4 +213,4 @@ TEST(NdtMap, refusesOptionsAndMergesThatMakeNoSense)
   EXPECT_THROW(fine.remove(counted(blockAt({0, 0, 0}))), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::ndt_map_unittest

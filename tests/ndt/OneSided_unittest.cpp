@@ -5,8 +5,8 @@
 
 #include <random>
 
-using namespace scanloom;
-
+namespace scanloom::one_sided_unittest
+{
 namespace
 {
 /** Tufts in the middle of cells of 1 m, from 4 to 10 m around the origin; only to the left, or to both sides. Each is
@@ -51,3 +51,4 @@ TEST(RegistrationOfWhatIsSeenFromBothSides, isHardlyDisplaced)
   { return std::abs(align(tufts(both_sides, 0), tufts(both_sides, 0), Rigid::identity(), {}).one_sided.y()); };
   EXPECT_LT(aside(true), 0.2 * aside(false));
 }
+}  // namespace scanloom::one_sided_unittest

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace scanloom
+namespace scanloom::pair_sums_unittest
 {
 namespace
 {
@@ -184,4 +184,4 @@ TEST(PairEvidence, isThatOfTheFormulaPairByPair)
     expectNear(matrixOf(evidence[i].pull), pull);
   }
 }
-}  // namespace scanloom
+}  // namespace scanloom::pair_sums_unittest

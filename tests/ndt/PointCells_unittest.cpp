@@ -9,7 +9,7 @@
 #include <map>
 #include <random>
 
-namespace scanloom
+namespace scanloom::point_cells_unittest
 {
 namespace
 {
@@ -101,4 +101,4 @@ TEST(KeyIndex, numbersKeysInTheOrderOfTheirFirstUseHoweverMany)
   EXPECT_EQ(index.keys().size(), expected.size());
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::point_cells_unittest

@@ -12,7 +12,7 @@
 #include <functional>
 #include <random>
 
-namespace scanloom
+namespace scanloom::recorded_pairs_unittest
 {
 namespace
 {
@@ -167,4 +167,4 @@ TEST(RecordedPair, ofAStandingVehicleIsFoundToMillimetres)
   EXPECT_LT(worst_degrees, 0.2);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::recorded_pairs_unittest

@@ -11,7 +11,7 @@
 #include <Eigen/LU>
 #include <limits>
 
-namespace scanloom
+namespace scanloom::registration_unittest
 {
 namespace
 {
@@ -350,4 +350,4 @@ TEST(RegistrationCovariance, coversTheSpreadOfRepeatedScans)
   EXPECT_LT(nees, 9) << text;
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::registration_unittest

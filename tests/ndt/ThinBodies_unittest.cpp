@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace scanloom;
-
+namespace scanloom::thin_bodies_unittest
+{
 namespace
 {
 struct Stem
@@ -200,3 +200,4 @@ TEST(View, pointsAreToldApartBySensor)
   EXPECT_EQ(views[1].viewpoint->x(), 2);
   EXPECT_FALSE(views[2].viewpoint);
 }
+}  // namespace scanloom::thin_bodies_unittest

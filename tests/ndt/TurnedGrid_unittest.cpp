@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-using namespace scanloom;
-
+namespace scanloom::turned_grid_unittest
+{
 namespace
 {
 /** Leaves, spread evenly in crowns of 3 m that stand at the same places for every `seed`; seen from x = `along`. */
@@ -101,3 +101,4 @@ TEST(TurnedGrid, takesNoFurtherPoints)
   EXPECT_THROW(map.add(binned({crownsFrom(0, 3)}, {})), std::invalid_argument);
 }
 }  // namespace
+}  // namespace scanloom::turned_grid_unittest

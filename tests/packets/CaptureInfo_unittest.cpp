@@ -8,8 +8,8 @@
 
 #include "support/TestData.h"
 
-using namespace scanloom;
-
+namespace scanloom::capture_info_unittest
+{
 namespace
 {
 const std::string kFolder = "ouster/ouster-lidar+ouster-sdk/tests/pcaps/";
@@ -79,3 +79,4 @@ TEST(CaptureInfo, aCaptureIsKnownByItsFirstBytes)
   EXPECT_FALSE(isCapture(metadata));
   EXPECT_THROW(isCapture("no such file"), std::runtime_error);
 }
+}  // namespace scanloom::capture_info_unittest

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::capture_reader_unittest
 {
 namespace
 {
@@ -317,4 +317,4 @@ TEST(CaptureReader, saysWhatAFileIsThatIsNoCapture)
   EXPECT_THAT(errorOf(HandmadeCapture(105).file()), HasSubstr("IEEE802_11"));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::capture_reader_unittest

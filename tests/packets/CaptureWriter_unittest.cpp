@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::capture_writer_unittest
 {
 namespace
 {
@@ -105,4 +105,4 @@ TEST(CaptureWriter, saysThatTheDiskIsFull)
       std::runtime_error);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::capture_writer_unittest

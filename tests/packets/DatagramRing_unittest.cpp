@@ -5,7 +5,7 @@
 #include <cstring>
 #include <thread>
 
-namespace scanloom
+namespace scanloom::datagram_ring_unittest
 {
 TEST(DatagramRing, givesInTheOrderOfPushAndHasNoMoreSlotsThanWereAskedFor)
 {
@@ -88,4 +88,4 @@ TEST(DatagramRing, refusesToHaveNoRoom)
   EXPECT_THROW(DatagramRing(0, 16), std::invalid_argument);
   EXPECT_THROW(DatagramRing(16, 0), std::invalid_argument);
 }
-}  // namespace scanloom
+}  // namespace scanloom::datagram_ring_unittest

@@ -8,7 +8,7 @@
 #include <random>
 #include <set>
 
-namespace scanloom
+namespace scanloom::fragment_joiner_unittest
 {
 namespace
 {
@@ -134,4 +134,4 @@ TEST(FragmentJoiner, givesOnlyDatagramsThatWereSentAndEveryOneThatArrivedWhole)
   EXPECT_EQ(bench.joiner.joined() + bench.joiner.lost(), kDatagrams);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::fragment_joiner_unittest

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::ip_address_unittest
 {
 namespace
 {
@@ -34,4 +34,4 @@ TEST(IpAddress, hasTheBytesOfTheWire)
   EXPECT_THROW(IpAddress::fromBytes(Bytes(wire.data(), 3)), std::out_of_range);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::ip_address_unittest

@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::merged_captures_unittest
 {
 namespace
 {
@@ -57,4 +57,4 @@ TEST(MergedCaptures, needAFile)
   EXPECT_THROW(MergedCaptures(std::vector<std::filesystem::path>{}), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::merged_captures_unittest

@@ -6,8 +6,8 @@
 
 #include "packets/SocketAddress.h"
 
-using namespace scanloom;
-
+namespace scanloom::sensor_address_unittest
+{
 TEST(SensorAddress, takesAnAddressWithAndWithoutAPort)
 {
   EXPECT_EQ(SensorAddress::parse("10.5.6.101").port, 80);
@@ -45,3 +45,4 @@ TEST(SocketAddress, aSensorOnThisComputerIsReachedFromThisComputer)
 {
   EXPECT_EQ(ownAddressTowards(IpAddress::parse("127.0.0.1")), IpAddress::parse("127.0.0.1"));
 }
+}  // namespace scanloom::sensor_address_unittest

@@ -15,8 +15,8 @@
 
 #include "packets/FileDescriptor.h"
 
-using namespace scanloom;
-
+namespace scanloom::sensor_http_unittest
+{
 namespace
 {
 /** Takes one connection and sends `head` and then `again` until the other side has enough. */
@@ -97,3 +97,4 @@ TEST(SensorHttp, headersWithoutEndAreAnAnswerThatIsTooLarge)
 #endif
   EXPECT_LT(mostMegabytes() - before, 60) << "they come with hundreds of megabytes a second";
 }
+}  // namespace scanloom::sensor_http_unittest

@@ -4,7 +4,7 @@
 
 #include <time.h>
 
-namespace scanloom
+namespace scanloom::steady_stamps_unittest
 {
 namespace
 {
@@ -77,4 +77,4 @@ TEST(HostClocks, areReadAtOneInstant)
   EXPECT_GE(clocks.monotonic, std::chrono::seconds(before.tv_sec) + Duration(before.tv_nsec));
   EXPECT_LE(clocks.monotonic, std::chrono::seconds(after.tv_sec) + Duration(after.tv_nsec));
 }
-}  // namespace scanloom
+}  // namespace scanloom::steady_stamps_unittest

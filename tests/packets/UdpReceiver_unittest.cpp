@@ -7,7 +7,7 @@
 #include <functional>
 #include <thread>
 
-namespace scanloom
+namespace scanloom::udp_receiver_unittest
 {
 namespace
 {
@@ -269,4 +269,4 @@ TEST(UdpReceiver, receivesOnOneAddressAlone)
 }
 
 TEST(UdpReceiver, wantsAPort) { EXPECT_THROW(UdpReceiver(onPorts({})), std::invalid_argument); }
-}  // namespace scanloom
+}  // namespace scanloom::udp_receiver_unittest

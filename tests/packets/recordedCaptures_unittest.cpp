@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::recorded_captures_unittest
 {
 namespace
 {
@@ -197,4 +197,4 @@ TEST(MergedCaptures, agreeWithMergecap)
                              [](const auto& x, const auto& y) { return x.substr(0, 20) < y.substr(0, 20); }));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::recorded_captures_unittest

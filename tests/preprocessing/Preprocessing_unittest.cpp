@@ -5,8 +5,8 @@
 #include "preprocessing/Deskew.h"
 #include "preprocessing/Thin.h"
 
-using namespace scanloom;
-
+namespace scanloom::preprocessing_unittest
+{
 namespace
 {
 /** One point per column, at these places. */
@@ -136,3 +136,4 @@ TEST(Thin, keepsTheFirstPointOfEachCube)
   ASSERT_EQ(points.size(), 3u);
   EXPECT_EQ(points.x, (std::vector<float>{0.01f, -0.01f, 0.11f}));
 }
+}  // namespace scanloom::preprocessing_unittest

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-namespace scanloom
+namespace scanloom::conversions_unittest
 {
 namespace
 {
@@ -18,4 +18,4 @@ TEST(Conversions, takeTheNearestInstantWhereDifferencesEnd)
   EXPECT_GT(of(Limits::max()) - of(Limits::min()), Duration{0}) << "a difference of stamps does not overflow";
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::conversions_unittest

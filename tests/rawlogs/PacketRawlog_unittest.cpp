@@ -10,7 +10,7 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
-namespace scanloom
+namespace scanloom::packet_rawlog_unittest
 {
 namespace
 {
@@ -123,4 +123,4 @@ TEST(PacketRawlog, readsMrptsOwnSample)
   EXPECT_EQ(measurements[0].label, "Velodyne1_SCAN");
   EXPECT_TRUE(isRawlogOfPackets(sample));
 }
-}  // namespace scanloom
+}  // namespace scanloom::packet_rawlog_unittest

@@ -9,7 +9,7 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
-namespace scanloom
+namespace scanloom::bag_rig_unittest
 {
 namespace
 {
@@ -193,4 +193,4 @@ TEST(BagRig, thatNamesAnUnknownTopicIsToldThoseThereAre)
   EXPECT_THAT(problemOf(metadata + "lidar1_topic = /left/points\nimu_topic = /imu\n"), HasSubstr("/imu/data"));
   EXPECT_EQ(problemOf(metadata + "lidar1_topic = /left/points\nimu_topic = /imu/data\n"), "none");
 }
-}  // namespace scanloom
+}  // namespace scanloom::bag_rig_unittest

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-namespace scanloom
+namespace scanloom::clouds_input_unittest
 {
 namespace
 {
@@ -122,4 +122,4 @@ TEST_F(Clouds, mayHaveTimesInNanoseconds)
   EXPECT_EQ(scans().at(0).points.t[1], 50'000'000);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::clouds_input_unittest

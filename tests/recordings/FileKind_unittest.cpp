@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::file_kind_unittest
 {
 namespace
 {
@@ -41,4 +41,4 @@ TEST(FileKind, ofStrangersFiles)
   EXPECT_EQ(kindOf(data / "MRPT+mrpt/modules/mrpt_data/datasets/rot_scan_velodyne.rawlog"), FileKind::Rawlog);
   EXPECT_EQ(kindOf(data / "MRPT+mrpt/modules/mrpt_data/tests/sample_velodyne_hdl32.pcap"), FileKind::Capture);
 }
-}  // namespace scanloom
+}  // namespace scanloom::file_kind_unittest

@@ -14,7 +14,7 @@
 
 #include <functional>
 
-namespace scanloom
+namespace scanloom::recognised_rig_unittest
 {
 namespace
 {
@@ -230,4 +230,4 @@ TEST(RecordingFiles, areRefusedWhereThereIsNoRecording)
   std::ofstream(empty / "notes.txt") << "hello\n";
   EXPECT_THAT(refusalOf({empty / "notes.txt"}), HasSubstr("a text file"));
 }
-}  // namespace scanloom
+}  // namespace scanloom::recognised_rig_unittest

@@ -4,7 +4,7 @@
 
 #include "liveRig.h"
 
-namespace scanloom
+namespace scanloom::capture_clock_unittest
 {
 namespace
 {
@@ -129,4 +129,4 @@ TEST(RigStream, givesTheSameScansWhenTheClockOfTheCapturingComputerIsSet)
   }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::capture_clock_unittest

@@ -7,8 +7,8 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
-using namespace scanloom;
-
+namespace scanloom::extrinsics_unittest
+{
 namespace
 {
 std::map<std::string, Rigid> posesOf(const std::string& text)
@@ -66,3 +66,4 @@ TEST(Extrinsics, aPoseReadsLikeMrpts)
   EXPECT_THROW(parsePose("[1 2 3]"), std::invalid_argument);
   EXPECT_THROW(parsePose("[1 2 3 4 5 6deg]"), std::invalid_argument);
 }
+}  // namespace scanloom::extrinsics_unittest

@@ -16,8 +16,8 @@
 #include "support/TestData.h"
 #include "support/pushPacket.h"
 
-using namespace scanloom;
-
+namespace scanloom::hesai_replay_unittest
+{
 namespace
 {
 const std::string kRecordings =
@@ -168,3 +168,4 @@ TEST(MixedReplay, weavesLidarsOfFourMakersIntoOneScan)
     EXPECT_EQ(batcher.counters(lidar).lost, 0u) << lidars[lidar].name;
   }
 }
+}  // namespace scanloom::hesai_replay_unittest

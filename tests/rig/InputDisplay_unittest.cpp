@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace scanloom
+namespace scanloom::input_display_unittest
 {
 namespace
 {
@@ -47,4 +47,4 @@ TEST(InputDisplay, saysTheWarningsOfARecordingWhileItIsReadAndCountsThoseThatCom
   EXPECT_EQ(countOf("warning: the IMU 'body' is silent", said), 2U) << said;
   EXPECT_THAT(said, testing::HasSubstr("59 times"));
 }
-}  // namespace scanloom
+}  // namespace scanloom::input_display_unittest

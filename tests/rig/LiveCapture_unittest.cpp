@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::live_capture_unittest
 {
 namespace
 {
@@ -71,4 +71,4 @@ TEST(LiveCapture, saysThatTheDiskIsFullAndKeepsNobodyWaiting)
   EXPECT_THAT(capture.takeFailure(), HasSubstr("a.pcap: cannot be written"));
   EXPECT_GE(capture.dropped(), 80u);
 }
-}  // namespace scanloom
+}  // namespace scanloom::live_capture_unittest

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-namespace scanloom
+namespace scanloom::live_status_unittest
 {
 namespace
 {
@@ -101,4 +101,4 @@ TEST(LiveStatus, showsWarningsAtOnce)
   status.update(input);
   EXPECT_EQ(out.str(), "warning: lidar 'left': silent\n");
 }
-}  // namespace scanloom
+}  // namespace scanloom::live_status_unittest

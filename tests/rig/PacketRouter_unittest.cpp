@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::packet_router_unittest
 {
 namespace
 {
@@ -255,4 +255,4 @@ TEST(PacketRouter, tellsTwoRealLegacySensorsOfDifferentSizeApart)
   EXPECT_EQ(routes[kOs0], "0L");
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::packet_router_unittest

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace scanloom
+namespace scanloom::read_ahead_unittest
 {
 namespace
 {
@@ -106,4 +106,4 @@ TEST(ReadAhead, endsAmidTheInput)
   EXPECT_TRUE(input.next(1s));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::read_ahead_unittest

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::repeated_warnings_unittest
 {
 using namespace std::chrono_literals;
 using testing::ElementsAre;
@@ -29,4 +29,4 @@ TEST(RepeatedWarnings, areTheSameIfOnlyNumbersDiffer)
   EXPECT_TRUE(warnings.toSay("silent"));
   EXPECT_THAT(warnings.unsaid(), ElementsAre("back after 12.7 s"));
 }
-}  // namespace scanloom
+}  // namespace scanloom::repeated_warnings_unittest

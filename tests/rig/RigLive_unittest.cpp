@@ -9,7 +9,7 @@
 
 #include <set>
 
-namespace scanloom
+namespace scanloom::rig_live_unittest
 {
 namespace
 {
@@ -385,4 +385,4 @@ TEST(RigStream, givesEachSliceBeforeTheScanThatHoldsItAgain)
   ASSERT_GE(scans.size(), 8u);
   EXPECT_EQ(columnsIn(parts), columnsIn(scans));
 }
-}  // namespace scanloom
+}  // namespace scanloom::rig_live_unittest

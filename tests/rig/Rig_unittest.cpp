@@ -8,8 +8,8 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
-using namespace scanloom;
-
+namespace scanloom::rig_unittest
+{
 namespace
 {
 std::string iniOf(const std::string& folder, const std::string& more = "")
@@ -196,3 +196,4 @@ TEST(Rig, aLidarThatIsNotThereIsNamedWithTheOnesThatAre)
   EXPECT_THROW(makeRig(readRigSettings(configuration, "rig"), {"lef"}), ConfigError);
   EXPECT_EQ(makeRig(readRigSettings(configuration, "rig"), {"right"}).lidars.size(), 1u);
 }
+}  // namespace scanloom::rig_unittest

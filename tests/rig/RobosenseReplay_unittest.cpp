@@ -7,8 +7,8 @@
 #include "support/TestData.h"
 #include "support/pushPacket.h"
 
-using namespace scanloom;
-
+namespace scanloom::robosense_replay_unittest
+{
 /** One of the packets is about the device; the stamps of packets wander by 13 us. */
 TEST(RobosenseReplay, losesNothing)
 {
@@ -33,3 +33,4 @@ TEST(RobosenseReplay, losesNothing)
   for (std::size_t i = 1; i < columns.size(); ++i)
     EXPECT_NEAR(seconds(columns[i].stamp - columns[i - 1].stamp), 55.56e-6, 15e-6);
 }
+}  // namespace scanloom::robosense_replay_unittest

@@ -10,7 +10,7 @@
 #include <ostream>
 #include <random>
 
-namespace scanloom
+namespace scanloom::strangers_unittest
 {
 namespace
 {
@@ -431,4 +431,4 @@ TEST(ImuFlood, aYearAheadBeforeTheLidarIsHeardIsNotGivenOut)
   EXPECT_EQ(std::count(readings.begin(), readings.end(), -1), 0) << summaryOf(run);
   EXPECT_GE(readings.size(), 398u) << "one or two came before the lidar's first packet";
 }
-}  // namespace scanloom
+}  // namespace scanloom::strangers_unittest

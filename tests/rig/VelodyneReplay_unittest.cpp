@@ -9,8 +9,8 @@
 #include "support/TestData.h"
 #include "support/pushPacket.h"
 
-using namespace scanloom;
-
+namespace scanloom::velodyne_replay_unittest
+{
 namespace
 {
 struct Arrived
@@ -154,3 +154,4 @@ TEST_P(VelodyneReplay, losesNothing)
   EXPECT_GE(shortest, metadata.model->sequence - 2us);
   EXPECT_LE(longest, metadata.model->sequence + 2us);
 }
+}  // namespace scanloom::velodyne_replay_unittest

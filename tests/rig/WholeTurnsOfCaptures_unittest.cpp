@@ -7,8 +7,8 @@
 #include "support/pushPacket.h"
 #include "whole_turns/WholeTurns.h"
 
-using namespace scanloom;
-
+namespace scanloom::whole_turns_of_captures_unittest
+{
 namespace
 {
 std::vector<Scan> turnsOf(const std::filesystem::path& capture, std::shared_ptr<const PacketDecoder> decoder,
@@ -60,3 +60,4 @@ TEST(WholeTurnsOfCaptures, velodyneTurnsAreThoseOfVeloView)
     EXPECT_EQ(counters.lost, 0u) << file.name;
   }
 }
+}  // namespace scanloom::whole_turns_of_captures_unittest

@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-namespace scanloom
+namespace scanloom::wire_faults_unittest
 {
 namespace
 {
@@ -127,4 +127,4 @@ INSTANTIATE_TEST_SUITE_P(OnLoopback, WireFaults,
                                          WireFault{"F6_repetition", repetition, &LidarCounters::duplicate},
                                          WireFault{"F7_truncation", truncation, &LidarCounters::malformed_packets}),
                          [](const auto& fault) { return std::string(fault.param.name); });
-}  // namespace scanloom
+}  // namespace scanloom::wire_faults_unittest

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::make_batcher_unittest
+{
 namespace
 {
 std::unique_ptr<Batcher> named(const std::string& name)
@@ -41,3 +41,4 @@ TEST(Batcher, wholeTurnsHaveNoSlices)
   options.batching = "nearest_turns";
   EXPECT_THROW(makeBatcher({{"lidar", std::make_shared<FakeLidar>()}}, options), std::invalid_argument);
 }
+}  // namespace scanloom::make_batcher_unittest

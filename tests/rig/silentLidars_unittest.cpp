@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::silent_lidars_unittest
 {
 namespace
 {
@@ -39,4 +39,4 @@ TEST(SilentLidars, areNamedWithWhatBecameOfTheirPacketsAndWithTheStrangers)
                           HasSubstr("16 datagrams from 192.168.1.200 to port 8308")));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::silent_lidars_unittest

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::calibration_unittest
 {
 namespace
 {
@@ -22,4 +22,4 @@ TEST(Calibration, ofALidarThatSawOnlyTheMachineIsNotThatOfAMachineAtRest)
   EXPECT_EQ(covered.estimate.outcome, MountOutcome::NothingShared);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::calibration_unittest

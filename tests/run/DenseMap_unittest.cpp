@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace scanloom
+namespace scanloom::dense_map_unittest
 {
 namespace
 {
@@ -60,4 +60,4 @@ TEST(DenseMap, leavesOutWhatALostMachineSaw)
 
 TEST(DenseMap, refusesAnotherFormat) { EXPECT_THROW(DenseMap::nameOf({false, "xyz", 0}), ConfigError); }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::dense_map_unittest

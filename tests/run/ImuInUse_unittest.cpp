@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-namespace scanloom
+namespace scanloom::imu_in_use_unittest
 {
 namespace
 {
@@ -205,4 +205,4 @@ TEST(ImuInUse, doesNotReturnToOneThatFallsSilentAgainAndAgain)
   EXPECT_EQ(imu.name(), "left");
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::imu_in_use_unittest

@@ -6,8 +6,8 @@
 
 #include <map>
 
-using namespace scanloom;
-
+namespace scanloom::lidar_check_unittest
+{
 namespace
 {
 /** Where two lidars look from, and where they are believed to. */
@@ -92,3 +92,4 @@ TEST(LidarCheck, tellsSteadinessFromTwoKeyframesOnAndPosesFromThreeOn)
   EXPECT_EQ(findingsOf({}, 2).count("right pose"), 0u);
   EXPECT_EQ(findingsOf({}, 3).count("right pose"), 1u);
 }
+}  // namespace scanloom::lidar_check_unittest

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-using namespace scanloom;
-
+namespace scanloom::mount_details_unittest
+{
 namespace
 {
 /** Rises by 10 % along x; points every 0.2 m. */
@@ -46,3 +46,4 @@ TEST(MountDetails, measureHeightsAboveSlopingGround)
   above.z() = 0.1F * above.x() + 0.05F;
   EXPECT_NEAR(strip->height(above), 0.05, 0.02);
 }
+}  // namespace scanloom::mount_details_unittest

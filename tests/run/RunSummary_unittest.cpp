@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace scanloom
+namespace scanloom::run_summary_unittest
 {
 namespace
 {
@@ -49,4 +49,4 @@ TEST(RunSummary, seesMemoryThatWasTouched)
   EXPECT_GT(peakMemory(), before + 100'000'000) << touched[before % touched.size()];
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::run_summary_unittest

@@ -17,7 +17,7 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace scanloom
+namespace scanloom::slam_run_unittest
 {
 namespace
 {
@@ -182,4 +182,4 @@ TEST(SlamMaps, thatCannotBeDrawnLeaveTheOthersWholeAndAreNamed)
   EXPECT_THAT(summary.error, HasSubstr("without map.bt, map.ot: "));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::slam_run_unittest

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::static_clouds_unittest
+{
 namespace
 {
 std::filesystem::path cloudIn(const TemporaryFolder& folder, const std::string& name)
@@ -46,3 +46,4 @@ TEST(StaticClouds, ofWhichOneHasNoPoseAreRefused)
   EXPECT_THROW(readStaticClouds({cloudIn(folder, "left.ply")}, {extrinsicsIn(folder, "T_body_right 1 2 3 0 0 0\n")}),
                std::runtime_error);
 }
+}  // namespace scanloom::static_clouds_unittest

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace scanloom
+namespace scanloom::assumed_ouster_unittest
 {
 namespace
 {
@@ -77,4 +77,4 @@ TEST(AssumedOuster, saysWhatIsWrongWithAModelAModeAndAProfile)
   EXPECT_THROW(assumedOuster(one), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::assumed_ouster_unittest

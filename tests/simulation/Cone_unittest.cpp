@@ -5,7 +5,7 @@
 
 #include "mantle.h"
 
-namespace scanloom
+namespace scanloom::cone_unittest
 {
 namespace
 {
@@ -66,4 +66,4 @@ TEST(Cone, isEnteredWhereTheFirstPointLiesInside)
   EXPECT_GT(met, 30);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::cone_unittest

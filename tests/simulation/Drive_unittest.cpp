@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::drive_unittest
 {
 namespace
 {
@@ -175,4 +175,4 @@ TEST(Drive, hasAPathThatIsNeverFarFromTheMachineHoweverLongItWorks)
   }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::drive_unittest

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::engine_vibration_unittest
 {
 namespace
 {
@@ -136,4 +136,4 @@ TEST(EngineVibration, ofTheMountIsSeenByTheImuAlone)
   EXPECT_NEAR(strongest, 0.3 * kGravity, 0.05);
   EXPECT_EQ(drive.at(3).acceleration.norm(), 0);
 }
-}  // namespace scanloom
+}  // namespace scanloom::engine_vibration_unittest

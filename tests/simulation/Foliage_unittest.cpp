@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::foliage_unittest
 {
 namespace
 {
@@ -164,4 +164,4 @@ TEST(FoliageVoxels, keepTheDenserOfTwoPlants)
   EXPECT_TRUE(voxels.at(1000, 0, 0).isEmpty()) << "outside of the tiles";
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::foliage_unittest

@@ -7,7 +7,7 @@
 
 #include "config/Configuration.h"
 
-namespace scanloom
+namespace scanloom::golden_unittest
 {
 namespace
 {
@@ -54,4 +54,4 @@ TEST(Golden, recordingsOfTheFirstSecondHaveTheirChecksums)
   EXPECT_EQ(checksumOf("storm.ini"), "3b7a4c7c82550780");
   EXPECT_EQ(checksumOf("short_sight.ini"), "58206197121bdcbf");
 }
-}  // namespace scanloom
+}  // namespace scanloom::golden_unittest

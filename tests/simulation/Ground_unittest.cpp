@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace scanloom
+namespace scanloom::ground_unittest
 {
 namespace
 {
@@ -100,4 +100,4 @@ TEST(Ground, withoutShortWavesHasItsSmoothHeight)
     EXPECT_NEAR(ground.smoothHeight(x, 0.3 * x), ground.height(x, 0.3 * x), 1e-6) << x;
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::ground_unittest

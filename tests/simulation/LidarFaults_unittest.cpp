@@ -10,7 +10,7 @@
 #include <map>
 #include <set>
 
-namespace scanloom
+namespace scanloom::lidar_faults_unittest
 {
 namespace
 {
@@ -261,4 +261,4 @@ TEST(LidarFaults, extrinsicsAreWrongByTheErrorAndThePacketsAreNot)
   }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::lidar_faults_unittest

@@ -19,8 +19,8 @@
 #include "support/TemporaryFolder.h"
 #include "support/UdpSender.h"
 
-using namespace scanloom;
-
+namespace scanloom::live_from_sensors_unittest
+{
 namespace
 {
 using Clock = std::chrono::steady_clock;
@@ -302,3 +302,4 @@ TEST_F(TwoSensors, areToldToSendHereIfTheyMayBeConfigured)
   EXPECT_EQ(writesTo(b_).size(), 1u);
   EXPECT_TRUE(writesTo(a_).empty());
 }
+}  // namespace scanloom::live_from_sensors_unittest

@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-namespace scanloom
+namespace scanloom::machine_unittest
 {
 namespace
 {
@@ -141,4 +141,4 @@ TEST(Boom, refusesReachesThatItsLinksDoNotHave)
   EXPECT_THROW(Boom(options, Route(settings.drive, settings.work, 1), 1), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::machine_unittest

@@ -6,7 +6,7 @@
 
 #include "mantle.h"
 
-namespace scanloom
+namespace scanloom::moving_objects_unittest
 {
 namespace
 {
@@ -119,4 +119,4 @@ TEST(MovingObjects, standWhereTheyAreSaidToBe)
   EXPECT_FALSE(boxes[0].cast({{-7, 4, 2.3}, Eigen::Vector3d::UnitX()})) << "above its roof";
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::moving_objects_unittest

@@ -16,8 +16,8 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
-using namespace scanloom;
-
+namespace scanloom::ouster_http_unittest
+{
 namespace
 {
 using Clock = std::chrono::steady_clock;
@@ -259,3 +259,4 @@ TEST(SensorHttp, cancelEndsARequestThatHangs)
   asked.wait();
   EXPECT_LE(Clock::now() - start, 500ms);
 }
+}  // namespace scanloom::ouster_http_unittest

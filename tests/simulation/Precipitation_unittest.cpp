@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::precipitation_unittest
 {
 namespace
 {
@@ -146,4 +146,4 @@ TEST(Precipitation, weakensTheSignalOfASurface)
                        dry.receive({wallAt(15), luck}).reading.first.signal;
   EXPECT_NEAR(ratio, wet.precipitation().transmission(15), 0.01);
 }
-}  // namespace scanloom
+}  // namespace scanloom::precipitation_unittest

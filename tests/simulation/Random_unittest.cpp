@@ -4,7 +4,7 @@
 
 #include <set>
 
-namespace scanloom
+namespace scanloom::random_unittest
 {
 namespace
 {
@@ -51,4 +51,4 @@ TEST(Random, isNormal)
   EXPECT_NEAR(beyond_two / kDraws, 0.0455, 0.003);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::random_unittest

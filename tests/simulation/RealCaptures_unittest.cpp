@@ -12,7 +12,7 @@
 #include <ostream>
 #include <set>
 
-namespace scanloom
+namespace scanloom::real_captures_unittest
 {
 namespace
 {
@@ -202,4 +202,4 @@ INSTANTIATE_TEST_SUITE_P(
                     CaptureCase{"windowed_frame1.pcap", "windowed_frame1_0.json"},
                     CaptureCase{"shot_limiting_test.pcap", "shot_limiting_test.json"}));
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::real_captures_unittest

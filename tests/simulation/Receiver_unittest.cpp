@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::receiver_unittest
 {
 namespace
 {
@@ -142,4 +142,4 @@ TEST(SimulatedLidar, ofAProfileWithTwoReturnsSeesBehindTheEdgesOfThings)
   EXPECT_EQ(without_first, 0);
   EXPECT_EQ(close, 0) << "half a metre apart, but for the noise";
 }
-}  // namespace scanloom
+}  // namespace scanloom::receiver_unittest

@@ -20,7 +20,7 @@
 
 #include "mantle.h"
 
-namespace scanloom
+namespace scanloom::recording_folder_unittest
 {
 namespace
 {
@@ -302,4 +302,4 @@ TEST(Scene, namesTheOptionThatCannotBe)
   EXPECT_THROW(makeScene(settings, 1), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::recording_folder_unittest

@@ -16,8 +16,8 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 
-using namespace scanloom;
-
+namespace scanloom::rig_from_sensors_unittest
+{
 namespace
 {
 using Clock = std::chrono::steady_clock;
@@ -211,3 +211,4 @@ TEST(SensorInquiries, endAtOnceHoweverSilentTheSensors)
   std::this_thread::sleep_for(100ms);
   EXPECT_LE(secondsOf([&] { inquiries.reset(); }), 0.5);
 }
+}  // namespace scanloom::rig_from_sensors_unittest

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace scanloom
+namespace scanloom::route_unittest
 {
 namespace
 {
@@ -103,4 +103,4 @@ TEST(Route, namesTheOptionsThatCannotBeTogether)
   EXPECT_NE(problemOf(drive, {}).find("'home'"), std::string::npos);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::route_unittest

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::scene_input_unittest
 {
 namespace
 {
@@ -83,4 +83,4 @@ TEST(SceneInput, leavesOutLidarsThatAreNotWanted)
   EXPECT_THROW(rigOf(scene, {}, {"middle"}), std::invalid_argument);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::scene_input_unittest

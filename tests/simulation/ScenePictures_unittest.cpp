@@ -6,7 +6,7 @@
 #include <mrpt/img/CImage.h>
 #include <tbb/global_control.h>
 
-namespace scanloom
+namespace scanloom::scene_pictures_unittest
 {
 namespace
 {
@@ -80,4 +80,4 @@ TEST(ScenePictures, areTheSameForAnyNumberOfThreads)
   EXPECT_EQ(contentOf(folder / "a.png"), contentOf(folder / "c.png"));
   EXPECT_EQ(contentOf(folder / "b.png"), contentOf(folder / "d.png"));
 }
-}  // namespace scanloom
+}  // namespace scanloom::scene_pictures_unittest

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::simulated_imu_unittest
 {
 namespace
 {
@@ -118,4 +118,4 @@ TEST(SimulatedImu, stampsByItsOwnClock)
   EXPECT_EQ(samples[100].stamp, Timestamp{10s + 100ms + 500us + 1s});
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::simulated_imu_unittest

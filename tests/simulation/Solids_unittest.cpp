@@ -6,7 +6,7 @@
 
 #include "mantle.h"
 
-namespace scanloom
+namespace scanloom::solids_unittest
 {
 namespace
 {
@@ -95,4 +95,4 @@ TEST(Solids, aCylinderSeenSquarelyHasItsRadiusAndItsNormal)
   EXPECT_NEAR(distanceToMantle(upright, {1, 0, 1}), 0.75, 1e-12);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::solids_unittest

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::stand_unittest
 {
 namespace
 {
@@ -193,4 +193,4 @@ TEST(Stand, refusesMoreStemsThanTheirSpacingAllows)
   }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::stand_unittest

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace scanloom
+namespace scanloom::total_station_unittest
 {
 namespace
 {
@@ -152,4 +152,4 @@ TEST(TotalStation, losesThePrismWhileAVehiclePasses)
   EXPECT_LT(free, all) << "a scene in which none hides the prism tests nothing";
   EXPECT_EQ(seen, free);
 }
-}  // namespace scanloom
+}  // namespace scanloom::total_station_unittest

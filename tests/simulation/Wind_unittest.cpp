@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-namespace scanloom
+namespace scanloom::wind_unittest
 {
 namespace
 {
@@ -182,4 +182,4 @@ TEST(Wind, movesAScanSmoothly)
   EXPECT_LT(changes(soon, 0.005), 30) << "of " << queries.size() << ", at edges";
   EXPECT_GT(changes(later, 0.005), 500);
 }
-}  // namespace scanloom
+}  // namespace scanloom::wind_unittest

@@ -5,7 +5,7 @@
 
 #include "mantle.h"
 
-namespace scanloom
+namespace scanloom::wood_unittest
 {
 namespace
 {
@@ -156,4 +156,4 @@ TEST(Wood, isTheSameForEveryInstructionSet)
   EXPECT_LE(different, 5);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::wood_unittest

@@ -7,7 +7,7 @@
 
 #include <map>
 
-namespace scanloom
+namespace scanloom::world_unittest
 {
 namespace
 {
@@ -157,4 +157,4 @@ TEST(World, hasTheStemDiametersOfItsTable)
   EXPECT_GT(measured, 500);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::world_unittest

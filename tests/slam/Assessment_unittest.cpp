@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::assessment_unittest
 {
 namespace
 {
@@ -67,4 +67,4 @@ TEST(Separation, makesTheLidarBelievedAfterThreeThatAreFarOffInARow)
   separation.add(Vector6d::Zero(), covariance);
   EXPECT_FALSE(separation.suspected());
 }
-}  // namespace scanloom
+}  // namespace scanloom::assessment_unittest

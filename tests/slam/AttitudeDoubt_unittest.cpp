@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-using namespace scanloom;
-
+namespace scanloom::attitude_doubt_unittest
+{
 namespace
 {
 const Eigen::Vector3d kUp = Eigen::Vector3d::UnitZ();
@@ -57,3 +57,4 @@ TEST(AttitudeDoubt, isTheSameForManyScansAsForFew)
     many.add(seenFrom(0.1 * i, {0, 0.2, 0}), kUp, {std::max(0.0, 0.1 * i - 40.0), 0, 0}, 0.1);
   EXPECT_NEAR(headingDeviation(many), headingDeviation(after({0, 0.2, 0})), 4e-4);
 }
+}  // namespace scanloom::attitude_doubt_unittest

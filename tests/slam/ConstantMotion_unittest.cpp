@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::constant_motion_unittest
 {
 namespace
 {
@@ -50,4 +50,4 @@ TEST(ConstantMotion, samplesIntegrateToAStraightLineAndTheSameTurnAgain)
   EXPECT_LT(end.map_T_imu.rotation.angularDistance(now.rotation * turned(1)), 1e-6);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::constant_motion_unittest

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::contradiction_unittest
 {
 namespace
 {
@@ -35,4 +35,4 @@ TEST(Contradiction, isNotToldByAFewRegistrationsOrAfterAPause)
   EXPECT_EQ(contradiction.median(), 0);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::contradiction_unittest

@@ -4,7 +4,8 @@
 
 #include "imu/AnalyticDrive.h"
 
-using namespace scanloom;
+namespace scanloom::imu_watch_unittest
+{
 using testing::HasSubstr;
 
 namespace
@@ -118,3 +119,4 @@ TEST(RequireGravity, namesTheUnitAndTheAxis)
               HasSubstr("up is along +y of the body: its pose in the body is wrong by +90 deg about x"));
   EXPECT_THAT(refusalOf({0, 0, -9.8}), HasSubstr("signs"));
 }
+}  // namespace scanloom::imu_watch_unittest

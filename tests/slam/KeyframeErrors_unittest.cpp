@@ -7,8 +7,8 @@
 
 #include "graph/PosePriorFactor.h"
 
-using namespace scanloom;
-
+namespace scanloom::keyframe_errors_unittest
+{
 namespace
 {
 Matrix6d deviations(double position, double heading)
@@ -68,3 +68,4 @@ TEST(KeyframeErrors, theMeanOfTwoAlignmentsHasHalfTheVarianceAndOfOneWithItselfA
   EXPECT_NEAR(errors.covariance(meanOf({{5, first}, {5, second}}))(0, 0), 0.005, 1e-12);
   EXPECT_NEAR(errors.covariance(meanOf({{5, second}, {5, second}}))(0, 0), 0.01, 1e-12);
 }
+}  // namespace scanloom::keyframe_errors_unittest

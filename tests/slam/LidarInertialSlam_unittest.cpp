@@ -5,8 +5,8 @@
 #include "GentleMachine.h"
 #include "StandOfStems.h"
 
-using namespace scanloom;
-
+namespace scanloom::lidar_inertial_slam_unittest
+{
 namespace
 {
 struct Driven
@@ -779,3 +779,4 @@ TEST(LidarInertialSlam, aLostBodyIsSearchedOnceAScan)
   EXPECT_GT(lost, 30);
   EXPECT_EQ(run.searches, static_cast<std::uint64_t>(lost));  // what one costs: scanloom_bench_slam
 }
+}  // namespace scanloom::lidar_inertial_slam_unittest

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-using namespace scanloom;
-
+namespace scanloom::local_map_unittest
+{
 namespace
 {
 /** A full cube of points around the origin of the body, one cell of the map. */
@@ -108,3 +108,4 @@ TEST(LocalMap, aKeyframeIsAlignedToWhatItSees)
   EXPECT_GT(map.add(cube(), at(0), alignment)(2, 2), 1.5 * further.add(cube(), at(4), alignment)(2, 2))
       << "it sees the first keyframe, which has no error, instead of the nine; alike if all counted alike";
 }
+}  // namespace scanloom::local_map_unittest

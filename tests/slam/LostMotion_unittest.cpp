@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
+namespace scanloom::lost_motion_unittest
+{
 using namespace std::chrono_literals;
 
 namespace
@@ -37,3 +38,4 @@ TEST(LostMotion, whatAMachineCanGainLeavesTheAttitudeAsItIs)
   EXPECT_EQ(levelled(attitude, motion).map_R_body.coeffs(), attitude.coeffs());
   EXPECT_EQ(levelled(attitude, motion).tilt_sigma, 0);
 }
+}  // namespace scanloom::lost_motion_unittest

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::repeated_errors_unittest
+{
 namespace
 {
 constexpr double kLength = 2;  // m
@@ -52,3 +52,4 @@ TEST(RepeatedErrors, ofScansMoreThanASecondApartCountOncePerScanAtRest)
   for (int i = 0; i < 3; ++i) slow.add(Timestamp(i * 1500ms), Eigen::Vector3d::Zero());
   EXPECT_EQ(slow.registrationsPerTravelOrRest(kLength), 1);
 }
+}  // namespace scanloom::repeated_errors_unittest

@@ -5,8 +5,8 @@
 #include "StandOfStems.h"
 #include "slam/SlamSettings.h"
 
-using namespace scanloom;
-
+namespace scanloom::scan_registration_unittest
+{
 namespace
 {
 const Rigid kMapPose = Rigid::fromXyzYawPitchRoll(0, 0, 1.5, 0.2, 0, 0);
@@ -151,3 +151,4 @@ TEST(ScanRegistration, doesNotRelocaliseInAnotherStand)
 {
   EXPECT_FALSE(relocalise(mapOfOneScan(), viewsAt(kMapPose, 7), SearchArea{}));
 }
+}  // namespace scanloom::scan_registration_unittest

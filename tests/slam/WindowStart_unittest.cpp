@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-using namespace scanloom;
-
+namespace scanloom::window_start_unittest
+{
 namespace
 {
 /** Three seconds at rest on level ground, read with this bias and some vibration. */
@@ -44,3 +44,4 @@ TEST(WindowStart, theBetterAccelerometerTakesOutTheTiltOfTheOneBefore)
   change.imu.noise.accel_bias_sigma = 2;
   EXPECT_NEAR(tiltDegrees(continuedBy(change, tilted, Rigid::identity())), tiltDegrees(tilted), 0.1);
 }
+}  // namespace scanloom::window_start_unittest

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::live_window_unittest
 {
 namespace
 {
@@ -59,4 +59,4 @@ TEST(LiveWindow, isRefusedWithoutADisplay)
   EXPECT_NE(ended.output.find("there is no display for a window: use --web"), std::string::npos) << ended.output;
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::live_window_unittest

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace scanloom
+namespace scanloom::maps_unittest
 {
 namespace
 {
@@ -101,4 +101,4 @@ TEST_F(StockMaps, sceneViewerAndOurOwnWindowShowThePoints)
   }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::maps_unittest

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::rawlog_edit_against_stock_unittest
 {
 namespace
 {
@@ -56,4 +56,4 @@ TEST_F(AgainstStock, partsOfLidarsAreReadWhole)
   EXPECT_EQ(occurrences(info, "imu"), 8) << info;
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::rawlog_edit_against_stock_unittest

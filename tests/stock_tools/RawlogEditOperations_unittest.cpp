@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace scanloom
+namespace scanloom::rawlog_edit_operations_unittest
 {
 namespace
 {
@@ -98,4 +98,4 @@ TEST_F(StockOperations, exportsImuSamplesAsText)
   EXPECT_EQ((std::vector{x, y, z, wx, wy, wz}), (std::vector<double>{4, 5, 6, 1, 2, 3}));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::rawlog_edit_operations_unittest

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace scanloom
+namespace scanloom::rawlog_edit_unittest
 {
 namespace
 {
@@ -66,4 +66,4 @@ TEST(RawlogEdit, writesOurCloudsAsWholeAsItReadThem)
   EXPECT_EQ(info.sensors.back().points, 25'000u);
   EXPECT_EQ(info.sensors.back().cloud_class, "mrpt::maps::CGenericPointsMap");
 }
-}  // namespace scanloom
+}  // namespace scanloom::rawlog_edit_unittest

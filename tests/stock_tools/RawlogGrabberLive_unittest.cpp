@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-namespace scanloom
+namespace scanloom::rawlog_grabber_live_unittest
 {
 namespace
 {
@@ -70,4 +70,4 @@ TEST(RawlogGrabberLive, writesEveryScanUntilItIsInterrupted)
   EXPECT_EQ(scans, expected.size());
   EXPECT_EQ(occurrences(rawlogEdit("--info -i " + rawlog.string()), "lidar"), static_cast<int>(expected.size()));
 }
-}  // namespace scanloom
+}  // namespace scanloom::rawlog_grabber_live_unittest

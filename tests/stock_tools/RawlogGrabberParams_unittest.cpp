@@ -15,7 +15,7 @@
 #include <fstream>
 #include <thread>
 
-namespace scanloom
+namespace scanloom::rawlog_grabber_params_unittest
 {
 namespace
 {
@@ -132,4 +132,4 @@ TEST(GrabberParams, fourLidarsOfACaptureAreOneCloud)
   EXPECT_GE(occurrences(rawlogEdit("--info -i " + rawlog.string()), "lidar"), 28);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::rawlog_grabber_params_unittest

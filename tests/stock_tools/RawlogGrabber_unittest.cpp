@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace scanloom
+namespace scanloom::rawlog_grabber_unittest
 {
 namespace
 {
@@ -151,4 +151,4 @@ TEST(RawlogGrabber, printsWhichKeyIsWrong)
 
   EXPECT_NE(log.find("lidar1_poes is an unknown key: did you mean 'lidar1_pose'?"), std::string::npos) << log;
 }
-}  // namespace scanloom
+}  // namespace scanloom::rawlog_grabber_unittest

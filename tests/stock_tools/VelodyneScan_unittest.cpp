@@ -9,8 +9,8 @@
 #include "../lidar/velodynePackets.h"
 #include "support/shareFound.h"
 
-using namespace scanloom;
-
+namespace scanloom::velodyne_scan_unittest
+{
 namespace
 {
 struct Recording
@@ -70,3 +70,4 @@ TEST_P(VelodyneScan, consistsOfPointsOfOurs)
   EXPECT_GT(theirs.size(), 0.49 * static_cast<double>(ours.size()));
   EXPECT_GT(shareFound(theirs, ours, 0.02), 0.999) << "their angles come in steps of 0.01 degrees";
 }
+}  // namespace scanloom::velodyne_scan_unittest

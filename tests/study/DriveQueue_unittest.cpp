@@ -4,7 +4,7 @@
 
 #include <future>
 
-namespace scanloom
+namespace scanloom::drive_queue_unittest
 {
 namespace
 {
@@ -86,4 +86,4 @@ TEST(DriveQueue, tellsWhenNoRunOfADriveIsLeftEvenInAnotherJob)
   EXPECT_TRUE(queue.finishedRun(0));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::drive_queue_unittest

@@ -8,7 +8,7 @@
 #include "study/RunHash.h"
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::experiment_plan_unittest
 {
 namespace
 {
@@ -173,4 +173,4 @@ TEST_F(ExperimentPlanOf, hashesOfRecordingsDifferWithTheirFilesAndTheReference)
   EXPECT_NE(hash(plan(lines)), before);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::experiment_plan_unittest

@@ -7,7 +7,7 @@
 
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::planned_drive_unittest
 {
 namespace
 {
@@ -77,4 +77,4 @@ TEST_F(Drives, onRecordingsAreNotShared)
   EXPECT_FALSE(drives[0].simulated());
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::planned_drive_unittest

@@ -8,7 +8,7 @@
 
 #include "study/StudyRecords.h"
 
-namespace scanloom
+namespace scanloom::run_record_unittest
 {
 namespace
 {
@@ -79,4 +79,4 @@ TEST(RunRecord, hasEmptyCellsInsteadOfZerosWithoutAReference)
   EXPECT_FALSE(nlohmann::json(record).get<RunRecord>().figures);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::run_record_unittest

@@ -8,7 +8,7 @@
 
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::run_reference_unittest
 {
 namespace
 {
@@ -93,4 +93,4 @@ TEST_F(RunReferenceOf, leavesNothingToChanceBetweenTwoFiles)
   }
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::run_reference_unittest

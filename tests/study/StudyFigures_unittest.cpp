@@ -5,7 +5,7 @@
 
 #include "study/StudyRecords.h"
 
-namespace scanloom
+namespace scanloom::study_figures_unittest
 {
 namespace
 {
@@ -98,4 +98,4 @@ TEST(StudyFigures, errorsOverTheDistanceAreMediansOfTheRunsThatWereNotLost)
   EXPECT_EQ(medians[19].error, 2);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::study_figures_unittest

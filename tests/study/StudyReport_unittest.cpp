@@ -5,7 +5,7 @@
 
 #include "study/StudyRecords.h"
 
-namespace scanloom
+namespace scanloom::study_report_unittest
 {
 namespace
 {
@@ -29,4 +29,4 @@ TEST(StudyReport, namesTheMarkedEventsOfARecordingOnce)
   EXPECT_EQ(html.find(row), html.rfind(row));
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::study_report_unittest

@@ -6,7 +6,7 @@
 #include "study/StudyRecords.h"
 #include "support/TemporaryFolder.h"
 
-namespace scanloom
+namespace scanloom::study_unittest
 {
 namespace
 {
@@ -104,4 +104,4 @@ TEST(Study, isReadAsItWasWritten)
   EXPECT_THROW(readStudy(folder / "elsewhere"), std::runtime_error);
 }
 }  // namespace
-}  // namespace scanloom
+}  // namespace scanloom::study_unittest

@@ -5,7 +5,8 @@
 #include "support/MovingPanels.h"
 #include "whole_turns/WholeTurns.h"
 
-using namespace scanloom;
+namespace scanloom::approaches_unittest
+{
 using namespace scanloom::panels;
 
 namespace
@@ -71,3 +72,4 @@ TEST(Approaches, wholeTurnsWaitForEachOtherWhereBlocksDoNot)
     EXPECT_NEAR(seconds(one_of_each.longest_span), seconds(kTurn + phase) - kColumn, 1e-8);
   }
 }
+}  // namespace scanloom::approaches_unittest

@@ -8,8 +8,8 @@
 #include "support/FakeLidar.h"
 #include "support/pushPacket.h"
 
-using namespace scanloom;
-
+namespace scanloom::whole_turns_unittest
+{
 namespace
 {
 using Packet = std::vector<std::uint8_t>;
@@ -430,3 +430,4 @@ TEST(WholeTurns, noScanBeginsBeforeTheHorizon)
 }
 
 TEST(WholeTurns, needsALidar) { EXPECT_THROW(WholeTurns(std::vector<BatchedLidar>{}), std::invalid_argument); }
+}  // namespace scanloom::whole_turns_unittest

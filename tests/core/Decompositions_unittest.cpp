@@ -1,9 +1,9 @@
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 
 #include <gtest/gtest.h>
 
-using namespace scanloom;
-
+namespace scanloom::decompositions_unittest
+{
 namespace
 {
 Matrix6d diagonal(double a, double b, double c, double d, double e, double f)
@@ -31,3 +31,4 @@ TEST(InformationWithError, leavesOpenWhatWasOpen)
   EXPECT_LT((left - information / 2).norm(), 1e-15);
   EXPECT_LT((left - left.transpose()).norm(), 1e-18);
 }
+}  // namespace scanloom::decompositions_unittest

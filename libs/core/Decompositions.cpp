@@ -1,8 +1,9 @@
-#include "core/Matrix6.h"
+#include "core/Decompositions.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 
 namespace scanloom
 {
@@ -29,6 +30,12 @@ Matrix6d informationWithError(const Matrix6d& information, const Matrix6d& error
   return 0.5 * (left + left.transpose());
 }
 
+Eigensystem3 eigensystem3(const Eigen::Matrix3d& symmetric)
+{
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(symmetric);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
 Eigensystem6 eigensystem(const Matrix6d& symmetric)
 {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(symmetric);
@@ -39,5 +46,12 @@ Eigensystem6 eigensystem(const Matrix6d& a, const Matrix6d& b)
 {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> eigen(a, b);
   return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+LargestTrace rotationOfLargestTrace(const Eigen::Matrix3d& m)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+  return {svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose(), svd.singularValues().cwiseProduct(sign)};
 }
 }  // namespace scanloom

@@ -1,4 +1,4 @@
-/** Decompositions of 6x6 matrices, compiled in one place because each takes the compiler seconds. */
+/** Decompositions of small matrices, compiled in one place because each takes the compiler seconds. */
 #pragma once
 #include "core/Rigid.h"
 
@@ -26,14 +26,26 @@ Matrix6d inverseOfPositive(const Matrix6d&);
 /** Of an estimate with a further error of this covariance: inverse(inverse(information) + error), also if singular. */
 Matrix6d informationWithError(const Matrix6d& information, const Matrix6d& error);
 
-/** Eigenvalues in ascending order, and their vectors as columns. */
-struct Eigensystem6
+/** Eigenvalues of a symmetric matrix in ascending order, and their unit vectors as columns. */
+template <int Size>
+struct Eigensystem
 {
-  Vector6d values;
-  Matrix6d vectors;
+  Eigen::Matrix<double, Size, 1> values;
+  Eigen::Matrix<double, Size, Size> vectors;
 };
+using Eigensystem3 = Eigensystem<3>;
+using Eigensystem6 = Eigensystem<6>;
+Eigensystem3 eigensystem3(const Eigen::Matrix3d& symmetric);
 Eigensystem6 eigensystem(const Matrix6d& symmetric);
 
 /** Of a x = value b x, b positive definite. */
 Eigensystem6 eigensystem(const Matrix6d& a, const Matrix6d& b);
+
+/** The rotation R with the largest trace of R' m (Umeyama 1991, eq. (40) and (43)). */
+struct LargestTrace
+{
+  Eigen::Matrix3d rotation;
+  Eigen::Vector3d singular_values;  // of m, descending; the last is negative if a reflection would fit better
+};
+LargestTrace rotationOfLargestTrace(const Eigen::Matrix3d& m);
 }  // namespace scanloom
