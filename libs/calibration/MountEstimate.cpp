@@ -15,8 +15,8 @@ constexpr std::size_t kFewestStations = 10;
 constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
 constexpr double kFarthestApart = 0.25;  // m, surfaceDistance: twice that of a dense stand; 0.45 m the wrong way round
 constexpr int kRounds = 15;
-constexpr double kFarthest = 1;  // m, from the start: so far off a level finds nothing any more
-constexpr double kNextLevel = 1e-2;   // m, a round's correction: enough for the next level
+constexpr double kFarthest = 1;      // m, from the start: so far off a level finds nothing any more
+constexpr double kNextLevel = 1e-2;  // m, a round's correction: enough for the next level
 constexpr double kSettled = 5e-4;
 constexpr double kNearlySettled = 2e-3;  // m: the last round's, where cells come and go at the limit of thickness
 

@@ -13,7 +13,8 @@ namespace
 {
 constexpr std::size_t kCompared = 8;      // stations
 constexpr std::size_t kScansAtStart = 4;  // of a station
-constexpr MountLevel kWideLevel{4.0, 0.05, kScansAtStart}, kNarrowLevel{2.0, 0.5, kScansAtStart}, kFineLevel{1.0, 0.4, kScansAtStart};
+constexpr MountLevel kWideLevel{4.0, 0.05, kScansAtStart}, kNarrowLevel{2.0, 0.5, kScansAtStart},
+    kFineLevel{1.0, 0.4, kScansAtStart};
 
 /** Without ground and crowns in thick cells, which fit nearly as well the wrong way round. */
 constexpr MountLevel scoredLevel()

@@ -9,7 +9,8 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v);
 /** Rotation by |v| rad about v; also exact for |v| -> 0. */
 Eigen::Quaterniond expSo3(const Eigen::Vector3d& v);
 
-/** The smallest rotation that turns the direction `from` into the direction `to`; neither needs to be of unit length. */
+/** The smallest rotation that turns the direction `from` into the direction `to`; neither needs to be of unit length.
+ */
 Eigen::Quaterniond rotationBetween(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /** The rotation vector of a unit quaternion, inverse of expSo3; |result| <= pi. */

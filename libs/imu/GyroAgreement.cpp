@@ -147,7 +147,8 @@ std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const
   for (int lag = -kMostLagSteps; lag <= kMostLagSteps; ++lag)
   {
     const Eigen::Matrix3Xd rates_b = ratesOf(turns, gyro, lag * kStep);
-    correlations.push_back(rotationOfLargestTrace(rates_a * rates_b.transpose()).singular_values.sum() / rates_b.norm());
+    correlations.push_back(rotationOfLargestTrace(rates_a * rates_b.transpose()).singular_values.sum() /
+                           rates_b.norm());
   }
   const auto best = std::max_element(correlations.begin(), correlations.end()) - correlations.begin();
 

@@ -72,9 +72,9 @@ Eigen::Matrix<double, 6, 1> variancesOf(double rate, double force)
  */
 Eigen::Matrix<double, 6, 1> unseenMotion(double dt, const ImuSample& end)
 {
-  constexpr double kMissingSamples = 0.025, kWholeCycle = 0.2;       // s
-  constexpr double kRate = 0.15, kForce = 1.0;            // rad/s, m/s2
-  constexpr double kShockRate = 0.5, kShockForce = 10.0;  // rad/s, m/s2
+  constexpr double kMissingSamples = 0.025, kWholeCycle = 0.2;  // s
+  constexpr double kRate = 0.15, kForce = 1.0;                  // rad/s, m/s2
+  constexpr double kShockRate = 0.5, kShockForce = 10.0;        // rad/s, m/s2
   if (end.after_refused) return variancesOf(kShockRate, kShockForce);
   const double share = dt > kMissingSamples ? std::min(1.0, dt / kWholeCycle) : 0;
   return share * share * variancesOf(kRate, kForce);

@@ -20,7 +20,8 @@ std::map<std::int64_t, Eigen::Vector3d> meanRates(const PlacedGyro& gyro)
   std::map<std::int64_t, std::pair<Eigen::Vector3d, double>> sums;
   for (const ImuSample& sample : gyro.samples)
   {
-    const auto place = sums.try_emplace(sample.stamp.time_since_epoch() / kTurnWindow, Eigen::Vector3d(0, 0, 0), 0).first;
+    const auto place =
+        sums.try_emplace(sample.stamp.time_since_epoch() / kTurnWindow, Eigen::Vector3d(0, 0, 0), 0).first;
     place->second.first += sample.gyro;
     place->second.second += 1;
   }

@@ -60,8 +60,7 @@ Cone Stem::wood() const
 
 Eigen::Quaterniond Stem::rotation() const
 {
-  return rotationBetween(Eigen::Vector3d::UnitZ(), axis) *
-         Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ());
+  return rotationBetween(Eigen::Vector3d::UnitZ(), axis) * Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ());
 }
 
 Stem growTree(const TreeOptions& options, const Eigen::Vector3d& foot, Random& random)

@@ -10,7 +10,7 @@ namespace scanloom
 namespace
 {
 // Both fitted to drives of 120 to 315 m (doc/study/localisation.md).
-constexpr double kHeadingDeviations = 4;         // displacements (of cells one deviation farther away) by which a heading errs
+constexpr double kHeadingDeviations = 4;  // displacements (of cells one deviation farther away) by which a heading errs
 constexpr double kTilt = 0.03 * kDegree;  // deviation; with more, one lidar's wrong registrations cost more
 constexpr double kSight = 12;             // m: on less way the same is seen from the same side
 }  // namespace

@@ -2,6 +2,8 @@
  * Any bytes as the head of a request: a request within its bounds, or BadRequest; and a request that is not refused as
  * foreign names an address or localhost. The first byte chooses lines to begin with; the rest as a player's command.
  * fuzz options: -max_len=1024
+ * fuzz sources: live_view/HttpRequest.cpp live_view/PlayerCommand.cpp
+ * fuzz libs: scanloom_packets
  */
 #include <array>
 #include <cstdint>

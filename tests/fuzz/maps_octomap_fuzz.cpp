@@ -3,6 +3,8 @@
  * std::runtime_error. The first byte chooses the kind, and between the rest as the whole file, as the nodes behind a
  * sound header, and as nodes that are mended to end where the file ends.
  * fuzz options: -max_len=512
+ * fuzz sources: maps/OctoMapFile.cpp
+ * fuzz libs: scanloom_core octomap octomath
  */
 #include <array>
 #include <cmath>
