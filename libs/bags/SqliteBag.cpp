@@ -26,6 +26,7 @@ class SqliteBag : public BagReader
  public:
   explicit SqliteBag(const std::filesystem::path& path) : path_(path), database_(path)
   {
+    for (const char* table : {"topics", "messages"}) requirePlainTable(table);
     readTopics();
     rows_ = database_.ask(question());
     if (database_.isCut()) warnings_.push_back(fmt::format("{}: the file is cut", path_.string()));
@@ -43,6 +44,14 @@ class SqliteBag : public BagReader
         end(status == SQLITE_DONE ? "" : database_.error());
         return false;
       }
+      // A damaged tree of pages may lead in circles.
+      constexpr std::uint64_t kLeastBytesOfARow = 4;
+      bytes_read_ += static_cast<std::uint64_t>(sqlite3_column_bytes(rows_.get(), 2)) + kLeastBytesOfARow;
+      if (bytes_read_ > 2 * database_.bytes())
+      {
+        end("its pages refer to each other in a circle");
+        return false;
+      }
       if (take(message)) return true;
     }
     return false;
@@ -57,10 +66,26 @@ class SqliteBag : public BagReader
   }
 
  private:
+  /**
+   * Throws std::runtime_error for a view, a virtual table or one with generated columns: what they give is computed by
+   * expressions of the file, without a bound.
+   */
+  void requirePlainTable(const std::string& name) const
+  {
+    const auto found = database_.ask(fmt::format(
+        "SELECT 1 FROM sqlite_master WHERE name = '{0}' AND (type <> 'table' OR sql LIKE 'CREATE VIRTUAL%') "
+        "UNION ALL SELECT 1 FROM pragma_table_xinfo('{0}') WHERE hidden > 0",
+        name));
+    if (sqlite3_step(found.get()) == SQLITE_ROW)
+      throw std::runtime_error(
+          fmt::format("{}: '{}' is no plain table, so this is no bag of ROS 2", path_.string(), name));
+  }
+
   void readTopics()
   {
     const SqliteDatabase::Rows rows = database_.ask("SELECT id, name, type, serialization_format FROM topics");
-    while (sqlite3_step(rows.get()) == SQLITE_ROW)
+    int status = SQLITE_ROW;
+    while ((status = sqlite3_step(rows.get())) == SQLITE_ROW)
     {
       const std::string format = textOf(rows.get(), 3);
       const bool is_cdr = format == "cdr" || format.empty();  // converters leave it out
@@ -68,6 +93,8 @@ class SqliteBag : public BagReader
       if (places_.emplace(sqlite3_column_int64(rows.get(), 0), topics_.size()).second)
         topics_.push_back({textOf(rows.get(), 1), typeNameOf(textOf(rows.get(), 2)), serialisation});
     }
+    if (status != SQLITE_DONE)
+      warnings_.push_back(fmt::format("{}: its list of topics is damaged ({})", path_.string(), database_.error()));
   }
 
   /**
@@ -88,10 +115,6 @@ class SqliteBag : public BagReader
     const auto place = places_.find(sqlite3_column_int64(rows_.get(), 0));
     const Bytes data(static_cast<const std::uint8_t*>(sqlite3_column_blob(rows_.get(), 2)),
                      static_cast<std::size_t>(sqlite3_column_bytes(rows_.get(), 2)));
-    constexpr std::uint64_t kLeastBytesOfARow = 4;
-    bytes_read_ += data.size() + kLeastBytesOfARow;
-    // A damaged tree of pages may lead in circles.
-    if (bytes_read_ > 2 * database_.bytes()) end("its pages refer to each other in a circle");
     if (place == places_.end()) return false;
     message.topic = place->second;
     message.received = bagStamp(std::int64_t{sqlite3_column_int64(rows_.get(), 1)});

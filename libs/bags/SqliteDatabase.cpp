@@ -6,6 +6,7 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>
@@ -16,7 +17,12 @@ namespace scanloom
 {
 namespace
 {
-constexpr int kMostBytesOfARow = 1 << 30;
+/** No row of a table holds more bytes than its file; the queries themselves need some hundred. */
+int mostBytesOfARow(std::uint64_t file)
+{
+  constexpr std::uint64_t kLeast = 1 << 16, kMost = 1 << 30;
+  return static_cast<int>(std::clamp(file, kLeast, kMost));
+}
 
 /** Its file is removed with it. */
 class TemporaryCopy
@@ -105,7 +111,7 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& path) : path_(path)
   const int status = sqlite3_open_v2(uriOf(plain).c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);
   database_.reset(opened);
   if (status != SQLITE_OK) throw std::runtime_error(fmt::format("{}: can't be opened: {}", path.string(), error()));
-  sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, kMostBytesOfARow);
+  sqlite3_limit(opened, SQLITE_LIMIT_LENGTH, mostBytesOfARow(bytes_));
   // Nothing that a schema could bring along is run. With a writable schema, SQLite opens a file that was cut.
   for (const char* sql : {"PRAGMA trusted_schema = OFF", "PRAGMA cell_size_check = ON", "PRAGMA cache_size = -4096"})
     sqlite3_exec(opened, sql, nullptr, nullptr, nullptr);

@@ -1,6 +1,7 @@
 #include "study/Gnuplot.h"
 
 #include "core/AtomicFile.h"
+#include "core/printable.h"
 #include "study/Command.h"
 #include "study/ContentHash.h"
 
@@ -24,6 +25,17 @@ std::string withPrefixedIds(const std::string& svg, const std::string& prefix)
 }
 }  // namespace
 
+std::string gnuplotString(const std::string& text)
+{
+  if (printable(text) != text)
+    throw std::invalid_argument(
+        fmt::format("'{}' has control characters, which a figure cannot show", printable(text)));
+  // gnuplot 5.4 takes two quotes at the beginning for an empty string: a space comes before them.
+  std::string quoted = text.rfind('\'', 0) == 0 ? "' " : "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + '\'';
+}
+
 Gnuplot::Gnuplot(const std::filesystem::path& parent)
 {
   std::string name = (parent / "report_XXXXXX").string();
@@ -40,8 +52,8 @@ Gnuplot::~Gnuplot()
 void Gnuplot::run(const std::string& terminal, const std::filesystem::path& output, const std::string& script) const
 {
   const auto file = folder_ / "figure.gp", log = folder_ / "log.txt";
-  std::ofstream(file) << fmt::format("set terminal {} noenhanced font 'sans-serif,13'\nset output '{}'\n{}", terminal,
-                                     output.string(), script);
+  std::ofstream(file) << fmt::format("set terminal {} noenhanced font 'sans-serif,13'\nset output {}\n{}", terminal,
+                                     gnuplotString(output.string()), script);
   if (runCommand({{"gnuplot", file}, {}}, log) != 0)
     throw std::runtime_error(fmt::format("gnuplot: {}", contentOf(log)));
 }

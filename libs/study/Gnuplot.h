@@ -5,6 +5,13 @@
 
 namespace scanloom
 {
+/**
+ * A string of gnuplot's language for text from data or paths. Single quotes: within them gnuplot substitutes nothing, and
+ * in double quotes a back quote starts a shell command. Throws std::invalid_argument if the text has control characters
+ * or is no UTF-8: nobody can read them in a figure, and a line break would end the string.
+ */
+std::string gnuplotString(const std::string& text);
+
 /** Keeps its files in a temporary folder, which its destructor removes. */
 class Gnuplot
 {

@@ -1,6 +1,7 @@
 #include "study/StudyFigures.h"
 
 #include "core/Statistics.h"
+#include "study/Gnuplot.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -102,15 +103,23 @@ GroupLabel labelOf(const std::string& group)
   return {fmt::format("{}", fmt::join(names, kNext)), fmt::format("{}", fmt::join(values, kNext))};
 }
 
+/** A label of a tick, which gnuplot takes for a format. */
+std::string tickLabel(const std::string& text)
+{
+  std::string format;
+  for (const char c : text) format += c == '%' ? std::string("%%") : std::string(1, c);
+  return gnuplotString(format);
+}
+
 std::string ticks(const std::vector<std::string>& groups, std::size_t bars)
 {
   std::vector<std::string> labels;
   for (std::size_t g = 0; g < groups.size(); ++g)
-    labels.push_back(fmt::format("\"{}\" {:.2f}", labelOf(groups[g]).values,
+    labels.push_back(fmt::format("{} {:.2f}", tickLabel(labelOf(groups[g]).values),
                                  static_cast<double>(g * (bars + 1)) + 0.5 * static_cast<double>(bars - 1)));
   const std::string names = groups.empty() ? "" : labelOf(groups.front()).names;
-  return fmt::format("set xtics ({}) scale 0 rotate by {}\nset xlabel \"{}\"\n", fmt::join(labels, ", "),
-                     groups.size() > kLevelLabels ? -25 : 0, names);
+  return fmt::format("set xtics ({}) scale 0 rotate by {}\nset xlabel {}\n", fmt::join(labels, ", "),
+                     groups.size() > kLevelLabels ? -25 : 0, gnuplotString(names));
 }
 }  // namespace
 
@@ -146,17 +155,17 @@ std::string barsScript(const std::vector<Bar>& bars, const std::string& axis)
     script += block(fmt::format("median{}", s), b.medians) + block(fmt::format("hatched{}", s), b.lost_medians) +
               block(fmt::format("dots{}", s), b.dots) + block(fmt::format("lost{}", s), b.lost_dots);
     plots += fmt::format(
-        "{0}$median{1} using 1:2 with boxes lc rgb \"{2}\" fillstyle solid 0.45 title \"{3}\", "
+        "{0}$median{1} using 1:2 with boxes lc rgb \"{2}\" fillstyle solid 0.45 title {3}, "
         "$hatched{1} using 1:2 with boxes lc rgb \"{2}\" fillstyle pattern 4 notitle, "
         "$dots{1} using 1:2 with points pt 7 ps 0.4 lc rgb \"black\" notitle, "
         "$lost{1} using 1:2 with points pt 2 ps 0.7 lc rgb \"black\" notitle",
-        s > 0 ? ", " : "", s, colour(s), series[s]);
+        s > 0 ? ", " : "", s, colour(s), gnuplotString(series[s]));
   }
   const double width = static_cast<double>(groups.size() * (series.size() + 1));
   script += fmt::format(
-      "set boxwidth {}\nset xrange [-1:{}]\nset yrange [0:{:.6g}]\n{}set ylabel \"{}\"\n"
+      "set boxwidth {}\nset xrange [-1:{}]\nset yrange [0:{:.6g}]\n{}set ylabel {}\n"
       "set key outside top center horizontal\nset grid ytics\n",
-      kBar, width - 1, top * 1.05, ticks(groups, series.size()), axis);
+      kBar, width - 1, top * 1.05, ticks(groups, series.size()), gnuplotString(axis));
   if (any_lost) script += fmt::format("set label \"lost\" at graph 1.005, first {:.6g}\n", top);
   return script + "plot " + plots + "\n";
 }
@@ -217,14 +226,14 @@ std::string driftOverDistanceScript(const std::vector<StudyCell>& cells)
     const std::size_t hue = series.size() > 1 ? indexOf(series, cells[c].lidars) : group;
     const std::size_t dashes = series.size() > 1 ? group : group / kColours.size();
     plots +=
-        fmt::format("{}$cell{} using 1:2 with lines lw 1.5 dt {} lc rgb \"{}\" title \"{}, {}\"", c > 0 ? ", " : "", c,
-                    dashes + 1, colour(hue), cells[c].lidars, labelOf(cells[c].group).values);
+        fmt::format("{}$cell{} using 1:2 with lines lw 1.5 dt {} lc rgb \"{}\" title {}", c > 0 ? ", " : "", c,
+                    dashes + 1, colour(hue), gnuplotString(cells[c].lidars + ", " + labelOf(cells[c].group).values));
   }
   // If all runs were lost, gnuplot has no data to choose a range from.
   script += farthest > 0 ? fmt::format("set xrange [0:{:.6g}]\nset yrange [0:*]\n", farthest)
                          : "set xrange [0:1]\nset yrange [0:1]\n";
   const std::string names = cells.empty() ? "" : labelOf(cells.front().group).names;
-  if (!names.empty()) script += fmt::format("set key title \"lidars, {}\"\n", names);
+  if (!names.empty()) script += fmt::format("set key title {}\n", gnuplotString("lidars, " + names));
   return script +
          "set xlabel \"distance [m]\"\nset ylabel \"error [m], median\"\nset grid\nset key outside right\nplot " +
          plots + "\n";

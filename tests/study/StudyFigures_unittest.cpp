@@ -23,8 +23,8 @@ TEST(StudyFigures, barsStandSideBySideInGroupsOfN)
 
   EXPECT_THAT(script, HasSubstr("$median0 << EOD\n0 1\n3 3\nEOD\n"));
   EXPECT_THAT(script, HasSubstr("$median1 << EOD\n1 2\n4 4\nEOD\n"));
-  EXPECT_THAT(script, HasSubstr("set xtics (\"N = 1\" 0.50, \"N = 5\" 3.50)"));
-  EXPECT_THAT(script, HasSubstr("set ylabel \"drift [m]\""));
+  EXPECT_THAT(script, HasSubstr("set xtics ('N = 1' 0.50, 'N = 5' 3.50)"));
+  EXPECT_THAT(script, HasSubstr("set ylabel 'drift [m]'"));
   EXPECT_THAT(script, Not(HasSubstr("\"lost\"")));
 }
 
@@ -41,8 +41,8 @@ TEST(StudyFigures, namesOfSettingsStandOnceBelowTheirValues)
 
   const std::string script = barsScript(barsOf(cellsOf(records), kDrift), "drift [m]");
 
-  EXPECT_THAT(script, HasSubstr("set xtics (\"1, 0.5\" 0.00, \"1, 1\" 2.00)"));
-  EXPECT_THAT(script, HasSubstr("set xlabel \"N, cell_size\""));
+  EXPECT_THAT(script, HasSubstr("set xtics ('1, 0.5' 0.00, '1, 1' 2.00)"));
+  EXPECT_THAT(script, HasSubstr("set xlabel 'N, cell_size'"));
 }
 
 TEST(StudyFigures, moreLinesThanDashesAreSplitByLidars)
