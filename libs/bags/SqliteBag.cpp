@@ -72,10 +72,10 @@ class SqliteBag : public BagReader
    */
   void requirePlainTable(const std::string& name) const
   {
-    const auto found = database_.ask(fmt::format(
-        "SELECT 1 FROM sqlite_master WHERE name = '{0}' AND (type <> 'table' OR sql LIKE 'CREATE VIRTUAL%') "
-        "UNION ALL SELECT 1 FROM pragma_table_xinfo('{0}') WHERE hidden > 0",
-        name));
+    const auto found =
+        database_.ask(fmt::format("SELECT 1 FROM pragma_table_list('{0}') WHERE type <> 'table' "
+                                  "UNION ALL SELECT 1 FROM pragma_table_xinfo('{0}') WHERE hidden > 0",
+                                  name));
     if (sqlite3_step(found.get()) == SQLITE_ROW)
       throw std::runtime_error(
           fmt::format("{}: '{}' is no plain table, so this is no bag of ROS 2", path_.string(), name));

@@ -28,9 +28,8 @@ std::string withPrefixedIds(const std::string& svg, const std::string& prefix)
 std::string gnuplotString(const std::string& text)
 {
   if (printable(text) != text)
-    throw std::invalid_argument(
-        fmt::format("'{}' has control characters, which a figure cannot show", printable(text)));
-  // gnuplot 5.4 takes two quotes at the beginning for an empty string: a space comes before them.
+    throw std::invalid_argument(fmt::format("'{}' has control characters, which gnuplot cannot take", printable(text)));
+  // gnuplot 5.4 takes two quotes at the beginning for an empty string.
   std::string quoted = text.rfind('\'', 0) == 0 ? "' " : "'";
   for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
   return quoted + '\'';
@@ -53,7 +52,7 @@ void Gnuplot::run(const std::string& terminal, const std::filesystem::path& outp
 {
   const auto file = folder_ / "figure.gp", log = folder_ / "log.txt";
   std::ofstream(file) << fmt::format("set terminal {} noenhanced font 'sans-serif,13'\nset output {}\n{}", terminal,
-                                     gnuplotString(output.string()), script);
+                                     gnuplotString(std::filesystem::absolute(output).string()), script);
   if (runCommand({{"gnuplot", file}, {}}, log) != 0)
     throw std::runtime_error(fmt::format("gnuplot: {}", contentOf(log)));
 }

@@ -6,9 +6,10 @@
 namespace scanloom
 {
 /**
- * A string of gnuplot's language for text from data or paths. Single quotes: within them gnuplot substitutes nothing, and
- * in double quotes a back quote starts a shell command. Throws std::invalid_argument if the text has control characters
- * or is no UTF-8: nobody can read them in a figure, and a line break would end the string.
+ * The text, from data or a path, as a string of gnuplot's language. It is in single quotes, within which gnuplot
+ * substitutes nothing; in double quotes a back quote would start a shell command. A text that begins with a quote comes
+ * after a space. Throws std::invalid_argument if the text has control characters or is no UTF-8: a line break would end
+ * the string.
  */
 std::string gnuplotString(const std::string& text);
 

@@ -88,7 +88,9 @@ TEST(SqliteBag, refusesWhatAFileWouldCompute)
       "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB AS "
       "(zeroblob(100000000)));INSERT INTO messages VALUES(1, 1, 1);",
       "CREATE VIEW messages AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT 1 AS topic_id, i "
-      "AS timestamp, x'00' AS data FROM n;"};
+      "AS timestamp, x'00' AS data FROM n;",
+      "CREATE VIEW Messages AS SELECT 1 AS topic_id, 1 AS timestamp, x'00' AS data;",
+      "CREATE VIRTUAL TABLE messages USING fts5(topic_id, timestamp, data);"};
   for (const std::string& schema : schemas)
   {
     std::filesystem::remove(folder / "bag.db3");

@@ -21,6 +21,7 @@ TEST(GnuplotString, isInSingleQuotesWhichAreDoubledWithinIt)
 {
   EXPECT_EQ(gnuplotString("left, N = 1"), "'left, N = 1'");
   EXPECT_EQ(gnuplotString("it's"), "'it''s'");
+  EXPECT_EQ(gnuplotString("'quoted'"), "' ''quoted'''");
 }
 
 TEST(GnuplotString, refusesTextThatCannotBeShown)
