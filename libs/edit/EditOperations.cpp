@@ -233,7 +233,7 @@ void chooseMaps(const EditOptions& o, Chosen& chosen)
 }
 }  // namespace
 
-std::vector<EditOperation> editOperations(const EditOptions& options, const Path& input, Notify notice)
+std::vector<EditOperation> editOperations(const EditOptions& options, const Path& input, const Notify& notice)
 {
   Chosen chosen;
   chooseObservations(options, chosen);

@@ -56,7 +56,7 @@ struct EditOperation
  * @param notice receives what a person should know, one line each.
  */
 std::vector<EditOperation> editOperations(const EditOptions&, const std::filesystem::path& input,
-                                          std::function<void(const std::string&)> notice);
+                                          const std::function<void(const std::string&)>& notice);
 
 /**
  * At least one operation, each one receiving what the one before returns, for the rawlog `input`.

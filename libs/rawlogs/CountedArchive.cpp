@@ -119,9 +119,9 @@ void CountedArchive::follow(const char* bytes, std::size_t count)
 {
   const Next now = next_;
   if (part_)
-    next_ = std::exchange(part_, nullptr)->least_version <= bytes[0] ? now : Next::Anything;
+    next_ = std::exchange(part_, nullptr)->least_version <= static_cast<unsigned char>(bytes[0]) ? now : Next::Anything;
   else if (now == Next::Version)
-    followVersion(bytes[0]);
+    followVersion(static_cast<unsigned char>(bytes[0]));
   else if (now == Next::Movement)
     followMovement(bytes, count);
   else if (now == Next::Id && count == sizeof(std::uint32_t))
@@ -217,15 +217,15 @@ void CountedArchive::beginVelocity()
   next_ = Next::Count;
 }
 
-void CountedArchive::followVersion(char version)
+void CountedArchive::followVersion(unsigned version)
 {
   // MRPT would take any object there as a 2D pose, without a check.
   if (class_->name == kMap && version == 0) refuse("is of 2D poses (version 0), or damaged");
   version_ = version;
   if (class_->name == kMap) has_velocities_ = version >= 2;
   if (version < class_->least_version)
-    refuse(fmt::format("holds a {} of version {}: {} or later can be read", class_->name, int{version},
-                       int{class_->least_version}));
+    refuse(
+        fmt::format("holds a {} of version {}: {} or later can be read", class_->name, version, class_->least_version));
   numbers_.clear();
   next_ = class_->name == kMovement ? Next::Movement : class_->name == kFrame && version < 2 ? Next::Id : Next::Count;
 }

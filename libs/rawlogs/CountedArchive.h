@@ -24,7 +24,7 @@ struct CountedClass
   const char* name;
   std::uint64_t least_bytes;  // of an item in the file; 0: a part of other classes, without counts
   int arrays = 0, more = 0;
-  char least_version = 0;          // older ones have their counts elsewhere
+  unsigned least_version = 0;      // older ones have their counts elsewhere
   std::uint64_t second_bytes = 0;  // of an item of the second count, if those are larger than a float
 };
 
@@ -69,7 +69,7 @@ class CountedArchive : public mrpt::serialization::CArchive
   void followObjects(const char* bytes, std::size_t count);
   void begin(const CountedClass&);
   void beginVelocity();
-  void followVersion(char version);
+  void followVersion(unsigned version);
   void followCount(std::uint32_t items);
   void followFields(const char* bytes, std::size_t count);
   void followLists(const char* bytes, std::size_t count);
@@ -93,7 +93,7 @@ class CountedArchive : public mrpt::serialization::CArchive
   std::vector<std::string> within_;     // names of the objects that are being read, the outermost first
   std::size_t name_length_ = 0;         // of a name that may come next
   std::vector<std::uint32_t> numbers_;  // of a CActionRobotMovement2D, so far
-  int version_ = 0;                     // of class_
+  unsigned version_ = 0;                // of class_
   std::uint32_t points_ = 0;            // of a CGenericPointsMap
   int field_types_ = 0;                 // of a CGenericPointsMap: lists of fields, one for each type, that have begun
   bool has_velocities_ = false;         // the CSimpleMap's keyframes end with one

@@ -33,6 +33,26 @@ TEST(So3, logTakesTheShortWayForBothSignsOfAQuaternion)
   EXPECT_LT((logSo3(q) - Vector3d(0.3, -0.2, 0.5)).norm(), 1e-13);
 }
 
+TEST(So3, rotationBetweenDirectionsIsEigens)
+{
+  for (const Vector3d& v : kRotations)
+  {
+    const Vector3d from(0.2, -3, 1), to = 2 * (expSo3(v) * from);
+    EXPECT_EQ(rotationBetween(from, to).coeffs(), Eigen::Quaterniond::FromTwoVectors(from, to).coeffs())
+        << v.transpose();
+  }
+}
+
+TEST(So3, rotationBetweenOppositeDirectionsIsHalfATurn)
+{
+  for (const Vector3d& from : {Vector3d(0.2, -3, 1), Vector3d(1, 0, 0), Vector3d(0, 0, -2)})
+  {
+    const Eigen::Quaterniond turn = rotationBetween(from, -2 * from);
+    EXPECT_LT((turn * from + from).norm(), 1e-13 * from.norm());
+    EXPECT_LT(std::abs(turn.norm() - 1), 1e-13);
+  }
+}
+
 TEST(So3, rightJacobianIsTheDerivativeOfExp)
 {
   for (const Vector3d& v : kRotations)
