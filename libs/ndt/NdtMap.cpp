@@ -36,7 +36,8 @@ void check(const NdtOptions& options)
 Coordinates coordinatesOf(const std::vector<Eigen::Vector3f>& points)
 {
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
-  const float* first = points.empty() ? nullptr : points.front().data();
+  if (points.empty()) return {nullptr, nullptr, nullptr, 3, 0};
+  const float* first = points.front().data();
   return {first, first + 1, first + 2, 3, points.size()};
 }
 

@@ -20,7 +20,7 @@ Scan scanOf(const std::vector<Eigen::Vector3f>& positions)
     scan.points.x[i] = positions[i].x();
     scan.points.y[i] = positions[i].y();
     scan.points.z[i] = positions[i].z();
-    scan.points.range[i] = static_cast<std::uint32_t>(1000 * positions[i].norm());
+    scan.points.range[i] = positions[i].allFinite() ? static_cast<std::uint32_t>(1000 * positions[i].norm()) : 0;
     Column column;
     column.stamp = Timestamp{Duration{static_cast<std::int64_t>(i)} * 1000000};
     column.first_point = static_cast<std::uint32_t>(i);
