@@ -8,7 +8,8 @@ namespace
 {
 // Below this angle the closed forms lose digits, and two terms of the series are exact.
 constexpr double kSmallAngle = 1e-4;
-constexpr double kOpposite = 1e-12;  // 1 + cosine: any axis across them turns one into the other
+// Above -1 by less than this, the cosine is that of opposite directions: every axis across them will do.
+constexpr double kOpposite = 1e-12;
 }  // namespace
 
 Eigen::Matrix3d skew(const Eigen::Vector3d& v)

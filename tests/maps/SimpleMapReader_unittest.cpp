@@ -224,7 +224,7 @@ TEST(SimpleMapReader, takesNoGigabytesForABitThatFlipped)
       std::string damaged = sound;
       damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ 1 << bit % 8);
       refusalOfBytes(folder, damaged);
-      ASSERT_LT(peakMegabytes() - before, 200) << "bit " << bit % 8 << " of byte " << bit / 8;
+      ASSERT_LT(peakMegabytes() - before, 100) << "bit " << bit % 8 << " of byte " << bit / 8;
     }
 }
 }  // namespace
