@@ -2,8 +2,6 @@
 
 #include "core/Decompositions.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <cmath>
 
@@ -52,7 +50,7 @@ Matrix7d atSensor(const Eigen::Vector3d& sensor)
 Vector7d changeWithClock(const Matrix7d& hessian)
 {
   Vector7d change;
-  change << -hessian.topLeftCorner<6, 6>().ldlt().solve(hessian.topRightCorner<6, 1>()), 1;
+  change << -solveSymmetric(hessian.topLeftCorner<6, 6>(), hessian.topRightCorner<6, 1>()), 1;
   return change;
 }
 
@@ -68,7 +66,7 @@ void addCommon(Matrix7d& covariance, double offset)
 std::vector<OpenDirection> openDirections(const Matrix7d& covariance, double limit)
 {
   std::vector<OpenDirection> open;
-  const Eigensystem6 of_pose = eigensystem(covariance.topLeftCorner<6, 6>());
+  const Eigensystem6 of_pose = eigensystem(Matrix6d(covariance.topLeftCorner<6, 6>()));
   for (int i = 5; i >= 0; --i)
   {
     const double sigma = std::sqrt(std::max(0.0, of_pose.values[i]));
@@ -98,13 +96,13 @@ Mount keepingOpen(const Mount& start, const Mount& estimate, const std::vector<O
 
 Matrix7d sandwich(const Matrix7d& hessian, const std::vector<Vector7d>& gradients, Clock clock)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix7d> solver(hessian);
+  const auto [curvatures, directions] = eigensystem(hessian);
   Matrix7d inverse = Matrix7d::Zero(), untold = Matrix7d::Zero();
   for (int i = 0; i < 7; ++i)
   {
-    const Vector7d direction = solver.eigenvectors().col(i);
-    if (solver.eigenvalues()[i] > kFlat * solver.eigenvalues()[6])
-      inverse += direction * direction.transpose() / solver.eigenvalues()[i];
+    const Vector7d direction = directions.col(i);
+    if (curvatures[i] > kFlat * curvatures[6])
+      inverse += direction * direction.transpose() / curvatures[i];
     else
       untold += kUntold * kUntold * direction * direction.transpose();
   }

@@ -1,9 +1,8 @@
 #include "calibration/MountEquations.h"
 
+#include "core/Decompositions.h"
 #include "ndt/LidarInformation.h"
 #include "ndt/NormalEquations.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +38,7 @@ Vector7d stepOf(const MountEquations& equations, double damping, Clock clock)
     gradient[6] = 0;
   }
   curvature.diagonal().array() += curvature.trace() * (damping + 1e-9);
-  return -curvature.ldlt().solve(gradient);
+  return -solveSymmetric(curvature, gradient);
 }
 }  // namespace
 

@@ -8,12 +8,12 @@ namespace scanloom
 {
 MountFit mountFit(const std::vector<Station>& stations, const Mount& mount, const Trajectory& trajectory)
 {
-  constexpr MountLevel kLevel{1.0, 1.0};
-  const std::vector<NdtMap> reference = mapsOfReference(stations, kLevel);
-  const StationCells lidar = cellsOfLidar(stations, mount, trajectory, kLevel);
+  constexpr MountLevel kFitLevel{1.0, 1.0};
+  const std::vector<NdtMap> reference = mapsOfReference(stations, kFitLevel);
+  const StationCells lidar = cellsOfLidar(stations, mount, trajectory, kFitLevel);
   std::vector<Neighbourhoods> pairs = stationPairs(reference, lidar);
   const std::vector<Vector6d> at_rest(pairs.size(), Vector6d::Zero());
-  const double met = mountEquations(pairs, at_rest, {}, kLevel.d2).met_points;
+  const double met = mountEquations(pairs, at_rest, {}, kFitLevel.d2).met_points;
   return {met / std::max(1.0, pointsIn(lidar)), surfaceDistance(pairs)};
 }
 }  // namespace scanloom

@@ -7,6 +7,12 @@
 
 namespace scanloom
 {
+namespace
+{
+// The solver of matrices of any size gives the same bits, and is compiled once.
+using EigenSolver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+}  // namespace
+
 Matrix6d congruent(const Matrix6d& m, const Matrix6d& j) { return j.transpose() * m * j; }
 
 Matrix6d inverse(const Matrix6d& m) { return m.inverse(); }
@@ -24,6 +30,8 @@ std::optional<Vector6d> solvePositive(const Matrix6d& a, const Vector6d& b)
 
 Matrix6d inverseOfPositive(const Matrix6d& m) { return m.llt().solve(Matrix6d::Identity()); }
 
+Eigen::VectorXd solveSymmetric(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) { return a.ldlt().solve(b); }
+
 Matrix6d informationWithError(const Matrix6d& information, const Matrix6d& error)
 {
   const Matrix6d left = solve(Matrix6d::Identity() + information * error, information);
@@ -38,13 +46,19 @@ Eigensystem3 eigensystem3(const Eigen::Matrix3d& symmetric)
 
 Eigensystem6 eigensystem(const Matrix6d& symmetric)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(symmetric);
+  const EigenSolver eigen(symmetric);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+Eigensystem7 eigensystem(const Eigen::Matrix<double, 7, 7>& symmetric)
+{
+  const EigenSolver eigen(symmetric);
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
 Eigensystem6 eigensystem(const Matrix6d& a, const Matrix6d& b)
 {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> eigen(a, b);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(a, b);
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 

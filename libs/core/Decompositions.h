@@ -23,6 +23,9 @@ std::optional<Vector6d> solvePositive(const Matrix6d& a, const Vector6d& b);
 /** Of a positive definite matrix. */
 Matrix6d inverseOfPositive(const Matrix6d&);
 
+/** The x with a x = b, a symmetric and of any size. */
+Eigen::VectorXd solveSymmetric(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
 /** Of an estimate with a further error of this covariance: inverse(inverse(information) + error), also if singular. */
 Matrix6d informationWithError(const Matrix6d& information, const Matrix6d& error);
 
@@ -35,8 +38,10 @@ struct Eigensystem
 };
 using Eigensystem3 = Eigensystem<3>;
 using Eigensystem6 = Eigensystem<6>;
+using Eigensystem7 = Eigensystem<7>;
 Eigensystem3 eigensystem3(const Eigen::Matrix3d& symmetric);
 Eigensystem6 eigensystem(const Matrix6d& symmetric);
+Eigensystem7 eigensystem(const Eigen::Matrix<double, 7, 7>& symmetric);
 
 /** Of a x = value b x, b positive definite. */
 Eigensystem6 eigensystem(const Matrix6d& a, const Matrix6d& b);

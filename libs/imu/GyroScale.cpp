@@ -110,8 +110,8 @@ std::optional<GyroScale> gyroScale(const std::vector<ImuSample>& samples)
     information += row.told.transpose() * row.told;
     right += row.told.transpose() * row.seen;
   }
-  const Eigen::LDLT<Eigen::Matrix4d> solver(information);
-  if (solver.info() != Eigen::Success || !solver.isPositive()) return std::nullopt;
+  const Eigen::LLT<Eigen::Matrix4d> solver(information);
+  if (solver.info() != Eigen::Success) return std::nullopt;
   const Unknowns solution = solver.solve(right);
 
   double squares = 0;

@@ -85,7 +85,7 @@ Eigen::Vector3f planeThrough(const Points3& points, const GroundStrip& strip)
     squares += row * row.transpose();
     sum += row * p.z();
   }
-  return squares.ldlt().solve(sum);
+  return squares.llt().solve(sum);
 }
 
 Points3 nearGround(const Points3& points, const Ground& ground)
@@ -124,7 +124,7 @@ std::size_t seenByBoth(const GroundStrip& strip, const Points3& a, const Points3
 
 std::optional<SeenStem> bestStem(const Points3& reference, const Points3& lidar)
 {
-  constexpr std::size_t kFewest = 10;
+  constexpr std::size_t kFewestOnStem = 10;
   const Ground ground(reference);
   const Counts a = sliceOf(reference, ground), b = sliceOf(lidar, ground);
   std::optional<SeenStem> best;
@@ -135,7 +135,7 @@ std::optional<SeenStem> bestStem(const Points3& reference, const Points3& lidar)
     const auto around = static_cast<double>(within(a, cell, 4) + within(b, cell, 4));
     const auto here = static_cast<double>(within(a, cell, 1) + within(b, cell, 1));
     const double score = static_cast<double>(seen) * (here / around) * (here / around);
-    if (seen < kFewest || score <= best_score) continue;
+    if (seen < kFewestOnStem || score <= best_score) continue;
     best_score = score;
     const Eigen::Vector3f centre(kStemCell * (static_cast<float>(cell.first) + 0.5F),
                                  kStemCell * (static_cast<float>(cell.second) + 0.5F), 0);
@@ -157,7 +157,7 @@ float GroundStrip::height(const Eigen::Vector3f& p) const
 
 std::optional<GroundStrip> bestGroundStrip(const Points3& reference, const Points3& lidar)
 {
-  constexpr std::size_t kFewest = 30;
+  constexpr std::size_t kFewestOnGround = 30;
   const Ground ground(reference);
   const Points3 a = nearGround(reference, ground), b = nearGround(lidar, ground);
   std::optional<GroundStrip> best;
@@ -168,7 +168,7 @@ std::optional<GroundStrip> bestGroundStrip(const Points3& reference, const Point
         GroundStrip strip;
         strip.axis = axis, strip.from = static_cast<float>(from), strip.across = static_cast<float>(across);
         strip.seen = seenByBoth(strip, a, b);
-        if (strip.seen >= kFewest && (!best || strip.seen > best->seen)) best = strip;
+        if (strip.seen >= kFewestOnGround && (!best || strip.seen > best->seen)) best = strip;
       }
   if (best) best->plane = planeThrough(a, *best);
   return best;

@@ -67,13 +67,15 @@ Stem growTree(const TreeOptions& options, const Eigen::Vector3d& foot, Random& r
 {
   Stem stem;
   stem.foot = foot;
-  const Eigen::Vector2d lean = kDegree * options.tilt_deg * Eigen::Vector2d(random.normal(), random.normal());
+  // One statement each: in which order a compiler evaluates arguments is its own choice.
+  const double lean_y = random.normal(), lean_x = random.normal();
+  const Eigen::Vector2d lean = kDegree * options.tilt_deg * Eigen::Vector2d(lean_x, lean_y);
   stem.axis = Eigen::Vector3d(lean.x(), lean.y(), 1).normalized();
 
   // Log-normal: positive, and skewed as diameters of young stands are.
-  constexpr double kFarthest = 3.5;  // deviations
+  constexpr double kMostDeviations = 3.5;
   const double variance = std::log1p(std::pow(options.diameter_spread / options.diameter, 2));
-  const double deviation = std::clamp(random.normal(), -kFarthest, kFarthest);
+  const double deviation = std::clamp(random.normal(), -kMostDeviations, kMostDeviations);
   const double share_of_mean = std::exp(std::sqrt(variance) * deviation - 0.5 * variance);
   stem.diameter = options.diameter * share_of_mean;
   const double length = options.height * std::pow(share_of_mean, options.height_exponent);

@@ -191,9 +191,9 @@ double surpriseOf(const RegistrationResult& registration, const PoseGuess& predi
 
 Matrix6d covarianceWithin(const SearchArea& area, const RegistrationResult& found)
 {
-  constexpr double kTilt = 15 * kDegree, kHeading = 25 * kDegree;
+  constexpr double kMostTilt = 15 * kDegree, kMostTurn = 25 * kDegree;
   Vector6d most;
-  most << Eigen::Vector3d::Constant(area.radius + kStep), kTilt, kTilt, area.headings > 1 ? M_PI : kHeading;
+  most << Eigen::Vector3d::Constant(area.radius + kStep), kMostTilt, kMostTilt, area.headings > 1 ? M_PI : kMostTurn;
   const Matrix6d expected = most.cwiseAbs2().cwiseInverse().asDiagonal();
   return inverseOfPositive(found.information + expected);
 }

@@ -83,7 +83,8 @@ inline RayWorld forest(std::uint64_t seed, int stems = 120)
   RayWorld world{{{Eigen::Vector3d(0.03, -0.02, 1).normalized(), -2.0}}, {}};
   while (static_cast<int>(world.stems.size()) < stems)
   {
-    const Eigen::Vector2d centre(place(random), place(random));
+    const double y = place(random), x = place(random);  // as arguments, their order would be the compiler's choice
+    const Eigen::Vector2d centre(x, y);
     if (centre.norm() > 2.5) world.stems.push_back({centre, radius(random)});
   }
   return world;
