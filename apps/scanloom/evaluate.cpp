@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -39,6 +40,7 @@ struct EvaluateArguments
   bool apply_clock_offset = false;
   RelativeDelta delta;
   double drift_limit = std::numeric_limits<double>::infinity();  // m
+  double least_coverage = 90;                                    // %
   std::filesystem::path plot;
   bool json = false, overwrite = false;
 };
@@ -81,11 +83,16 @@ void print(const Result& result, bool json)
     std::cout << toText(result);
 }
 
-int judge(double drift, double limit)
+/** Of the error and of the share of the reference's time that it is of: a few poses do not stand for the whole. */
+int judge(double drift, double covered, const EvaluateArguments& arguments)
 {
-  if (drift <= limit) return kDone;
-  fmt::print(stderr, "drift {:.3f} m is above the limit of {} m\n", drift, limit);
-  return kQualityGate;
+  if (!std::isfinite(arguments.drift_limit)) return kDone;
+  const bool drifted = !(drift <= arguments.drift_limit), is_part = 100 * covered < arguments.least_coverage;
+  if (drifted) fmt::print(stderr, "drift {:.3f} m is above the limit of {} m\n", drift, arguments.drift_limit);
+  if (is_part)
+    fmt::print(stderr, "the trajectory covers {:.1f} % of the reference's time, less than {} % (--least-coverage)\n",
+               100 * covered, arguments.least_coverage);
+  return drifted || is_part ? kQualityGate : kDone;
 }
 
 int compareFromFirstPose(const EvaluateArguments& arguments)
@@ -97,7 +104,7 @@ int compareFromFirstPose(const EvaluateArguments& arguments)
   const PositionError error =
       positionErrorFromFirstPose(readTrajectory(arguments.trajectory), std::get<Trajectory>(reference));
   print(error, arguments.json);
-  return judge(error.largest, arguments.drift_limit);
+  return judge(error.largest, error.covered, arguments);
 }
 
 void plot(const Evaluation& evaluation, const std::filesystem::path& file)
@@ -126,7 +133,7 @@ int run(const EvaluateArguments& arguments)
   const Evaluation evaluation = evaluate(input, options);
   print(evaluation, arguments.json);
   if (!arguments.plot.empty()) plot(evaluation, arguments.plot);
-  return judge(evaluation.drift.largest, arguments.drift_limit);
+  return judge(evaluation.drift.largest, evaluation.covered, arguments);
 }
 
 void addComparison(CLI::App& app, EvaluateArguments& arguments)
@@ -174,9 +181,15 @@ std::function<int()> addEvaluateOptions(CLI::App& app)
       .typeName("FILE");
   addComparison(app, *arguments);
   addOption(app, "--fail-if-drift-above", arguments->drift_limit,
-            "end with status 3 if the drift is larger than this, in m")
+            "end with status 3 if the drift is larger than this, in m, or of less of the reference's time than "
+            "--least-coverage")
       .notNegative()
       .typeName("M");
+  addOption(app, "--least-coverage", arguments->least_coverage,
+            "share of the reference's time that --fail-if-drift-above wants poses at, in %")
+      .notNegative()
+      .showDefault()
+      .typeName("PERCENT");
   addOption(app, "--plot", arguments->plot,
             "picture of both paths from above, their heights, and the error over distance (.svg or .png)")
       .typeName("FILE");

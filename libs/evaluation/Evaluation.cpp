@@ -62,6 +62,7 @@ Evaluation evaluate(const EvaluationInput& input, const EvaluationOptions& optio
   }
 
   const std::size_t samples = reference.size();
+  evaluation.covered = coverage(input.scans, reference);
   const Comparison comparison(options, std::move(reference));
   evaluation.pairs = comparison.pairs(input.scans);
   evaluation.left_out = samples - evaluation.pairs.size();

@@ -37,6 +37,7 @@ struct Evaluation
   PoseErrors absolute, relative;         // of the scans' poses
   std::vector<PositionPair> pairs;       // of the scans' poses, at the stamps of the reference
   std::size_t left_out = 0;              // samples of the reference at whose time there is no estimate
+  double covered = 0;                    // share of the reference's time at which there is an estimate
   std::optional<Duration> clock_offset;  // how much the reference's stamps are late
   bool clock_offset_applied = false;
 };

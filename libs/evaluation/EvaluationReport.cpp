@@ -105,6 +105,7 @@ Json toJson(const Evaluation& e)
                {"final_m", e.drift.final},
                {"path_m", e.drift.path_length},
                {"samples_left_out", e.left_out},
+               {"covered_percent", 100 * e.covered},
                {"ape_rmse_m", e.absolute.metres.rmse},
                {"ape", errorsJson(e.absolute)},
                {"rpe", errorsJson(e.relative)},
@@ -125,8 +126,8 @@ std::string toText(const Evaluation& e)
   if (e.floor) text += driftText("  floor by interpolation", *e.floor);
   text += fmt::format("largest at                {} s, at the end {:.3f} m\n", secondsText(e.drift.largest_at),
                       e.drift.final);
-  text += fmt::format("path                      {:.2f} m, {} samples, {} left out\n", e.drift.path_length,
-                      e.drift.samples, e.left_out);
+  text += fmt::format("path                      {:.2f} m, {} samples, {} left out: {:.1f} % of the reference's time\n",
+                      e.drift.path_length, e.drift.samples, e.left_out, 100 * e.covered);
   text += alignmentText(e.drift);
   text += errorsText("APE", e.absolute) + errorsText("RPE", e.relative) + clockText(e);
   return text + overDistanceText(e.drift);
@@ -139,15 +140,16 @@ Json toJson(const PositionError& error)
           {"largest_at_s", secondsText(error.largest_at)},
           {"rmse_m", error.root_mean_square},
           {"final_m", error.final},
-          {"path_length_m", error.path_length}};
+          {"path_length_m", error.path_length},
+          {"covered_percent", 100 * error.covered}};
 }
 
 std::string toText(const PositionError& error)
 {
   return fmt::format(
       "largest position error  {:.3f} m at {} s\nroot mean square        {:.3f} m\nat the end              {:.3f} m\n"
-      "compared                {} poses over {:.2f} m\n",
-      error.largest, secondsText(error.largest_at), error.root_mean_square, error.final, error.poses,
-      error.path_length);
+      "compared                {} poses over {:.2f} m, {:.1f} % of the reference's time\n",
+      error.largest, secondsText(error.largest_at), error.root_mean_square, error.final, error.poses, error.path_length,
+      100 * error.covered);
 }
 }  // namespace scanloom

@@ -54,6 +54,7 @@ PositionError positionErrorFromFirstPose(const Trajectory& estimate, const Traje
   if (error.poses == 0) throw shareNoTime(positionsOf(estimate), positionsOf(reference));
   error.root_mean_square = std::sqrt(squares / static_cast<double>(error.poses));
   error.path_length = lengthBetween(reference, first, last);
+  error.covered = coverage(estimate, positionsOf(reference));
   return error;
 }
 }  // namespace scanloom

@@ -14,6 +14,7 @@ struct PositionError
   double root_mean_square = 0;  // m, the APE of evo for positions
   double final = 0;             // m, of the last pose compared
   double path_length = 0;       // m, of the reference over the same time
+  double covered = 0;           // share of the reference's time at which there is an estimate
 };
 
 /**

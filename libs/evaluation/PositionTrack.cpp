@@ -42,4 +42,19 @@ std::vector<PositionPair> pairsAtReference(const Trajectory& estimate, const Eig
       pairs.push_back({stamp, *pose * body_p_point, position});
   return pairs;
 }
+
+double coverage(const Trajectory& estimate, const PositionTrack& reference)
+{
+  const auto is_covered = [&](const StampedPosition& p) { return poseAt(estimate, p.stamp, kLongestGap).has_value(); };
+  if (reference.size() < 2) return !reference.empty() && is_covered(reference.front()) ? 1 : 0;
+  Duration covered{0};
+  bool before = is_covered(reference.front());
+  for (std::size_t i = 1; i < reference.size(); ++i)
+  {
+    const bool here = is_covered(reference[i]);
+    if (before && here) covered += reference[i].stamp - reference[i - 1].stamp;
+    before = here;
+  }
+  return seconds(covered) / seconds(reference.back().stamp - reference.front().stamp);
+}
 }  // namespace scanloom

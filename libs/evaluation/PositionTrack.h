@@ -39,4 +39,10 @@ struct PositionPair
  */
 std::vector<PositionPair> pairsAtReference(const Trajectory& estimate, const Eigen::Vector3d& body_p_point,
                                            const PositionTrack& reference);
+
+/**
+ * Share of the reference's time, 0 to 1, at which pairsAtReference() has an estimate: of an interval between samples of
+ * the reference, where it has one at both ends.
+ */
+double coverage(const Trajectory& estimate, const PositionTrack& reference);
 }  // namespace scanloom

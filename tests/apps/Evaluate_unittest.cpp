@@ -101,6 +101,20 @@ TEST_F(EvaluateVerb, endsWithThreeAboveTheLimitAndStillTellsAll)
   EXPECT_THAT(above.output, HasSubstr("drift 0.300 m is above the limit of 0.29 m"));
 }
 
+TEST_F(EvaluateVerb, endsWithThreeIfTheTrajectoryIsOnlyAPartOfTheReference)
+{
+  std::ofstream(folder_ / "estimate.tum") << "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n";
+  for (const std::string align : {"yaw", "first"})
+  {
+    const std::string arguments = "--reference truth.tum --fail-if-drift-above 1 --align " + align;
+    const Ended ended = evaluate(arguments);
+    EXPECT_EQ(ended.status, 3);
+    EXPECT_THAT(ended.output, HasSubstr("covers 20.0 % of the reference's time, less than 90 % (--least-coverage)"));
+    EXPECT_EQ(evaluate(arguments + " --least-coverage 20").status, 0);
+    EXPECT_EQ(evaluate("--reference truth.tum --align " + align).status, 0);
+  }
+}
+
 TEST_F(EvaluateVerb, alignsTheFirstPosesOnRequest)
 {
   const auto json = nlohmann::json::parse(evaluate("--reference truth.tum --align first --json").output);
