@@ -78,6 +78,9 @@ TEST(SlamVerb, aLidarAtAnotherPortIsMissingAndThePortIsNamed)
 
 TEST(SlamVerb, aFailedRunLeavesTheResultsOfAnEarlierOneWhole)
 {
+#ifdef SCANLOOM_SANITIZED
+  GTEST_SKIP() << "the shadow of a sanitizer takes terabytes of addresses";
+#endif
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
   const TemporaryFolder copy, folder;
   for (const char* name : {"trajectory.tum", "summary.json", "map.bt"}) std::ofstream(folder / name) << "earlier";
