@@ -20,7 +20,8 @@ RigEvidence heard(const Rig& rig, const std::vector<Datagram>& datagrams)
   std::thread sender(
       [&]
       {
-        while (!isReceivedOn(rig.addresses.back().lidar_port)) std::this_thread::sleep_for(1ms);
+        for (const auto& address : rig.addresses)  // opened one after the other
+          while (!isReceivedOn(address.lidar_port)) std::this_thread::sleep_for(1ms);
         UdpSender().replay(datagrams);
         sent = true;
       });
