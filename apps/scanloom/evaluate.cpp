@@ -83,11 +83,11 @@ void print(const Result& result, bool json)
     std::cout << toText(result);
 }
 
-/** Of the error and of the share of the reference's time that it is of: a few poses do not stand for the whole. */
+/** `covered`: share of the reference's time with poses; the error of a few poses says nothing about the whole drive. */
 int judge(double drift, double covered, const EvaluateArguments& arguments)
 {
-  if (!std::isfinite(arguments.drift_limit)) return kDone;
-  const bool drifted = !(drift <= arguments.drift_limit), is_part = 100 * covered < arguments.least_coverage;
+  const bool drifted = !(drift <= arguments.drift_limit);
+  const bool is_part = std::isfinite(arguments.drift_limit) && 100 * covered < arguments.least_coverage;
   if (drifted) fmt::print(stderr, "drift {:.3f} m is above the limit of {} m\n", drift, arguments.drift_limit);
   if (is_part)
     fmt::print(stderr, "the trajectory covers {:.1f} % of the reference's time, less than {} % (--least-coverage)\n",
@@ -180,16 +180,18 @@ std::function<int()> addEvaluateOptions(CLI::App& app)
             "poses]")
       .typeName("FILE");
   addComparison(app, *arguments);
-  addOption(app, "--fail-if-drift-above", arguments->drift_limit,
-            "end with status 3 if the drift is larger than this, in m, or of less of the reference's time than "
-            "--least-coverage")
-      .notNegative()
-      .typeName("M");
+  const Option limit =
+      addOption(app, "--fail-if-drift-above", arguments->drift_limit,
+                "end with status 3 if the drift is larger than this, in m, or of less of the reference's time than "
+                "--least-coverage")
+          .notNegative()
+          .typeName("M");
   addOption(app, "--least-coverage", arguments->least_coverage,
             "share of the reference's time that --fail-if-drift-above wants poses at, in %")
-      .notNegative()
+      .between(0, 100)
       .showDefault()
-      .typeName("PERCENT");
+      .typeName("PERCENT")
+      .needs(limit);
   addOption(app, "--plot", arguments->plot,
             "picture of both paths from above, their heights, and the error over distance (.svg or .png)")
       .typeName("FILE");

@@ -22,6 +22,7 @@ class Comparison
     if (found.empty()) throw shareNoTime(positionsOf(estimate), reference_);
     return found;
   }
+  double coverage(const std::vector<PositionPair>& pairs) const { return scanloom::coverage(pairs, reference_); }
   Drift drift(const Trajectory& estimate) const { return driftOf(pairs(estimate), options_.alignment); }
 
  private:
@@ -62,10 +63,10 @@ Evaluation evaluate(const EvaluationInput& input, const EvaluationOptions& optio
   }
 
   const std::size_t samples = reference.size();
-  evaluation.covered = coverage(input.scans, reference);
   const Comparison comparison(options, std::move(reference));
   evaluation.pairs = comparison.pairs(input.scans);
   evaluation.left_out = samples - evaluation.pairs.size();
+  evaluation.covered = comparison.coverage(evaluation.pairs);
   evaluation.drift = driftOf(evaluation.pairs, options.alignment);
   if (input.imu_rate) evaluation.imu_rate_drift = comparison.drift(*input.imu_rate);
   if (const auto& truth = input.truth ? input.truth : true_poses)

@@ -54,7 +54,8 @@ PositionError positionErrorFromFirstPose(const Trajectory& estimate, const Traje
   if (error.poses == 0) throw shareNoTime(positionsOf(estimate), positionsOf(reference));
   error.root_mean_square = std::sqrt(squares / static_cast<double>(error.poses));
   error.path_length = lengthBetween(reference, first, last);
-  error.covered = coverage(estimate, positionsOf(reference));
+  const PositionTrack positions = positionsOf(reference);
+  error.covered = coverage(pairsAtReference(estimate, Eigen::Vector3d::Zero(), positions), positions);
   return error;
 }
 }  // namespace scanloom

@@ -43,16 +43,17 @@ std::vector<PositionPair> pairsAtReference(const Trajectory& estimate, const Eig
   return pairs;
 }
 
-double coverage(const Trajectory& estimate, const PositionTrack& reference)
+double coverage(const std::vector<PositionPair>& pairs, const PositionTrack& reference)
 {
-  const auto is_covered = [&](const StampedPosition& p) { return poseAt(estimate, p.stamp, kLongestGap).has_value(); };
-  if (reference.size() < 2) return !reference.empty() && is_covered(reference.front()) ? 1 : 0;
+  if (reference.size() < 2) return pairs.empty() ? 0 : 1;
   Duration covered{0};
-  bool before = is_covered(reference.front());
-  for (std::size_t i = 1; i < reference.size(); ++i)
+  auto pair = pairs.begin();
+  bool before = false;
+  for (std::size_t i = 0; i < reference.size(); ++i)
   {
-    const bool here = is_covered(reference[i]);
+    const bool here = pair != pairs.end() && pair->stamp == reference[i].stamp;
     if (before && here) covered += reference[i].stamp - reference[i - 1].stamp;
+    if (here) ++pair;
     before = here;
   }
   return seconds(covered) / seconds(reference.back().stamp - reference.front().stamp);

@@ -41,8 +41,8 @@ std::vector<PositionPair> pairsAtReference(const Trajectory& estimate, const Eig
                                            const PositionTrack& reference);
 
 /**
- * Share of the reference's time, 0 to 1, at which pairsAtReference() has an estimate: of an interval between samples of
- * the reference, where it has one at both ends.
+ * Share of the reference's time, 0 to 1, at which there is an estimate: the intervals between samples of the reference
+ * that have a pair of pairsAtReference() at both ends.
  */
-double coverage(const Trajectory& estimate, const PositionTrack& reference);
+double coverage(const std::vector<PositionPair>&, const PositionTrack& reference);
 }  // namespace scanloom

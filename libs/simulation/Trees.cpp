@@ -67,7 +67,7 @@ Stem growTree(const TreeOptions& options, const Eigen::Vector3d& foot, Random& r
 {
   Stem stem;
   stem.foot = foot;
-  // One statement each: in which order a compiler evaluates arguments is its own choice.
+  // Not drawn as arguments of the vector: their order is the compiler's choice.
   const double lean_y = random.normal(), lean_x = random.normal();
   const Eigen::Vector2d lean = kDegree * options.tilt_deg * Eigen::Vector2d(lean_x, lean_y);
   stem.axis = Eigen::Vector3d(lean.x(), lean.y(), 1).normalized();

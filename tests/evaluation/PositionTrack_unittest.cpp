@@ -35,7 +35,7 @@ TEST(PositionTrack, pairsNothingOutsideTheEstimateAndInItsGaps)
   ASSERT_EQ(pairs.size(), 3U);  // 1.5, 2.5 and 5.5 s; from 3 to 5.001 s is wider than 2 s
   EXPECT_EQ(pairs[1].stamp, Timestamp{2500ms});
   EXPECT_EQ(pairs[2].stamp, Timestamp{5500ms});
-  EXPECT_NEAR(coverage(gap, reference), 1 / 7.0, 1e-12);  // 1.5 to 2.5 s, of 0.5 to 7.5 s
+  EXPECT_NEAR(coverage(pairs, reference), 1 / 7.0, 1e-12);  // 1.5 to 2.5 s, of 0.5 to 7.5 s
 }
 }  // namespace
 }  // namespace scanloom::position_track_unittest
