@@ -66,7 +66,7 @@ void addCommon(Matrix7d& covariance, double offset)
 std::vector<OpenDirection> openDirections(const Matrix7d& covariance, double limit)
 {
   std::vector<OpenDirection> open;
-  const Eigensystem6 of_pose = eigensystem(Matrix6d(covariance.topLeftCorner<6, 6>()));
+  const Eigensystem6 of_pose = eigensystem(covariance.topLeftCorner<6, 6>());
   for (int i = 5; i >= 0; --i)
   {
     const double sigma = std::sqrt(std::max(0.0, of_pose.values[i]));
@@ -96,7 +96,7 @@ Mount keepingOpen(const Mount& start, const Mount& estimate, const std::vector<O
 
 Matrix7d sandwich(const Matrix7d& hessian, const std::vector<Vector7d>& gradients, Clock clock)
 {
-  const auto [curvatures, directions] = eigensystem(hessian);
+  const auto [curvatures, directions] = eigensystem7(hessian);
   Matrix7d inverse = Matrix7d::Zero(), untold = Matrix7d::Zero();
   for (int i = 0; i < 7; ++i)
   {

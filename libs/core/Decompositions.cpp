@@ -9,7 +9,7 @@ namespace scanloom
 {
 namespace
 {
-// The solver of matrices of any size gives the same bits, and is compiled once.
+// Eigen's solver for any size gives the same bits as those for fixed sizes, and is compiled once for all.
 using EigenSolver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
 }  // namespace
 
@@ -50,7 +50,7 @@ Eigensystem6 eigensystem(const Matrix6d& symmetric)
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
-Eigensystem7 eigensystem(const Eigen::Matrix<double, 7, 7>& symmetric)
+Eigensystem7 eigensystem7(const Eigen::Matrix<double, 7, 7>& symmetric)
 {
   const EigenSolver eigen(symmetric);
   return {eigen.eigenvalues(), eigen.eigenvectors()};

@@ -41,7 +41,7 @@ using Eigensystem6 = Eigensystem<6>;
 using Eigensystem7 = Eigensystem<7>;
 Eigensystem3 eigensystem3(const Eigen::Matrix3d& symmetric);
 Eigensystem6 eigensystem(const Matrix6d& symmetric);
-Eigensystem7 eigensystem(const Eigen::Matrix<double, 7, 7>& symmetric);
+Eigensystem7 eigensystem7(const Eigen::Matrix<double, 7, 7>& symmetric);
 
 /** Of a x = value b x, b positive definite. */
 Eigensystem6 eigensystem(const Matrix6d& a, const Matrix6d& b);

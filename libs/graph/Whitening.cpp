@@ -18,7 +18,7 @@ Matrix rootOf(const Matrix& covariance)
 
 Matrix6d rootOfInformation(const Matrix6d& information)
 {
-  const Eigensystem6 eigen = eigensystem(Matrix6d(0.5 * (information + information.transpose())));
+  const Eigensystem6 eigen = eigensystem(0.5 * (information + information.transpose()));
   return eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.vectors.transpose();
 }
 
