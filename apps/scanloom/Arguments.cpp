@@ -1,6 +1,6 @@
 #include "Arguments.h"
 
-#include "core/AtomicFile.h"
+#include "base/core/AtomicFile.h"
 
 namespace scanloom
 {
@@ -43,8 +43,7 @@ Option addSeconds(CLI::App& app, double& seconds)
 
 void refuseSeconds(double seconds)
 {
-  if (seconds > 0)
-    throw UsageError("--seconds is for live lidars only: captures and simulated drives end by themselves");
+  if (seconds > 0) throw UsageError("--seconds is for live lidars only: recordings end by themselves");
 }
 
 Option addOverwrite(CLI::App& app, bool& overwrite)
@@ -57,20 +56,6 @@ Option addJson(CLI::App& app, bool& json) { return addFlag(app, "--json", json, 
 Option addSeed(CLI::App& app, std::uint64_t& seed)
 {
   return addOption(app, "--seed", seed, "seed of the random numbers").showDefault();
-}
-
-ConfigurationArguments withScene(ConfigurationArguments arguments, const SceneArguments& scene)
-{
-  if (scene.given()) arguments.files.push_back(scene.file);
-  return arguments;
-}
-
-Option addScene(CLI::App& app, SceneArguments& arguments)
-{
-  addSeed(app, arguments.seed);
-  return addOption(app, "--simulate", arguments.file,
-                   "INI file of a simulated drive, which is used instead of captures or live lidars")
-      .existingFile();
 }
 
 Option addJobs(CLI::App& app, int& jobs)

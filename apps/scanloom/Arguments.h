@@ -1,7 +1,7 @@
 /** The options that several verbs share. */
 #pragma once
 #include "Options.h"
-#include "config/Configuration.h"
+#include "base/config/Configuration.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -32,19 +32,6 @@ Option addOutputFolder(CLI::App&, OutputFolderArguments&);
  * @throws UsageError with the files that exist, unless -w was given.
  */
 void refuseExisting(const OutputFolderArguments&, const std::vector<std::string>& names);
-
-/** A simulated drive instead of a recording. */
-struct SceneArguments
-{
-  std::filesystem::path file;  // empty: none
-  std::uint64_t seed = 1;
-
-  bool given() const { return !file.empty(); }
-};
-/** With the file of the scene, if one is given, as the last configuration file. */
-ConfigurationArguments withScene(ConfigurationArguments, const SceneArguments&);
-/** Adds --simulate, --seed. @return the option --simulate. */
-Option addScene(CLI::App&, SceneArguments&);
 
 /** Adds --seconds, for live lidars. */
 Option addSeconds(CLI::App&, double&);

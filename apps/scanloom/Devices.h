@@ -1,8 +1,8 @@
 /** The windows of a display and the drivers of IMUs, both MRPT's. */
 #pragma once
-#include "config/Configuration.h"
-#include "live_view/LiveExchange.h"
-#include "rig/SensorInput.h"
+#include "base/config/Configuration.h"
+#include "input/rig/SensorInput.h"
+#include "run/page/LiveExchange.h"
 
 #include <mrpt/opengl/COpenGLScene.h>
 

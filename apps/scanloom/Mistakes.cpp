@@ -1,6 +1,6 @@
 #include "Mistakes.h"
 
-#include "core/ConfigError.h"
+#include "base/core/ConfigError.h"
 
 #include <fmt/format.h>
 

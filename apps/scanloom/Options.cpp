@@ -1,6 +1,6 @@
 #include "Options.h"
 
-#include "config/Values.h"
+#include "base/config/Values.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

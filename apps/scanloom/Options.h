@@ -1,6 +1,6 @@
 /** The options of a verb. Only Options.cpp includes CLI11, which takes 10 s to compile in every file that does. */
 #pragma once
-#include "core/Field.h"
+#include "base/core/Field.h"
 
 #include <functional>
 #include <string>

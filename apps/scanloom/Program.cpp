@@ -2,9 +2,9 @@
 
 #include "Verb.h"
 #include "Version.h"
-#include "config/MrptMessage.h"
-#include "config/Names.h"
-#include "core/ConfigError.h"
+#include "base/config/MrptMessage.h"
+#include "base/config/Names.h"
+#include "base/core/ConfigError.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -14,6 +14,7 @@
 #include <exception>
 #include <functional>
 #include <iostream>
+#include <string_view>
 
 namespace scanloom
 {
@@ -36,6 +37,34 @@ std::vector<std::string> namesKnownTo(const CLI::App& app)
   return names;
 }
 
+struct Removed
+{
+  std::string_view verb, option, instead;
+};
+constexpr Removed kRemoved[] = {
+    {"slam", "--simulate", "write the recording by 'scanloom simulate', then give slam its folder"},
+    {"record", "--simulate", "write the recording by 'scanloom simulate', then give record its folder"},
+    {"simulate", "--truth", "--out-dir writes the ground truth, too"},
+    {"edit", "--info", "scanloom info FILE"},
+    {"edit", "--check", "scanloom doctor FILE"},
+    {"edit", "--from-pcap", "scanloom record FILE"},
+    {"edit", "--approach-a", "scanloom record --set SECTION.batching=nearest_turns"},
+    {"edit", "--to-simplemap", "scanloom map -i FILE --trajectory FILE -o MAP.simplemap"},
+    {"edit", "--to-octomap", "scanloom map -i FILE --trajectory FILE -o MAP.bt"},
+    {"edit", "--keyframe-distance", "scanloom map has it"},
+    {"edit", "--octomap-preset", "scanloom map --preset"},
+};
+
+/** What to write instead of an option that was removed, else the names most like it. */
+std::string adviceOn(const std::string& argument, const CLI::App& where)
+{
+  const std::string option = argument.substr(0, argument.find('='));
+  for (const Removed& removed : kRemoved)
+    if (where.get_name() == removed.verb && option == removed.option)
+      return fmt::format("it was removed; instead: {}", removed.instead);
+  return suggestion(argument, namesKnownTo(where));
+}
+
 int complain(const CLI::App& app, const CLI::ParseError& error)
 {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);  // --help, --version
@@ -46,7 +75,7 @@ int complain(const CLI::App& app, const CLI::ParseError& error)
   const auto unexpected = app.remaining(true);
   if (!unexpected.empty())
     std::cerr << fmt::format("{}: unknown argument {}: {}\n", name, unexpected.front(),
-                             suggestion(unexpected.front(), namesKnownTo(where)));
+                             adviceOn(unexpected.front(), where));
   else
     std::cerr << fmt::format("{}: {}\n", name, error.what());
   std::cerr << fmt::format("'{} --help' lists all arguments\n", name);

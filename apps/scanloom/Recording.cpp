@@ -1,8 +1,8 @@
 #include "Recording.h"
 
-#include "core/ConfigError.h"
-#include "recordings/RecognisedRig.h"
-#include "rig/RigOptions.h"
+#include "base/core/ConfigError.h"
+#include "input/rig/RecognisedRig.h"
+#include "input/rig/RigOptions.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,8 +1,8 @@
 /** A recording on the command line: files and folders that are recognised by what they hold. */
 #pragma once
 #include "Options.h"
-#include "config/Configuration.h"
-#include "recordings/RecordingFiles.h"
+#include "base/config/Configuration.h"
+#include "input/rig/RecordingFiles.h"
 
 #include <filesystem>
 #include <string>

@@ -3,7 +3,7 @@
 #include "Arguments.h"
 #include "Recording.h"
 #include "Verb.h"
-#include "rig/RigOptions.h"
+#include "input/rig/RigOptions.h"
 
 namespace scanloom
 {

@@ -1,19 +1,17 @@
 #include "SlamInput.h"
 
 #include "Devices.h"
-#include "core/ConfigError.h"
-#include "core/Progress.h"
-#include "mrpt_bridge/RawlogInput.h"
-#include "recordings/CloudsInput.h"
-#include "rig/ReadAhead.h"
-#include "rig/RigOptions.h"
-#include "rig/openRig.h"
-#include "run/ImuInUse.h"
-#include "simulation/SimulatedRig.h"
+#include "base/core/ConfigError.h"
+#include "base/core/Progress.h"
+#include "input/rig/CloudsInput.h"
+#include "input/rig/ReadAhead.h"
+#include "input/rig/Rig.h"
+#include "input/rig/RigOptions.h"
+#include "input/rig/openRig.h"
+#include "mrpt/observations/RawlogInput.h"
+#include "run/run/ImuInUse.h"
 
 #include <fmt/format.h>
-
-#include <cmath>
 
 namespace scanloom
 {
@@ -39,7 +37,7 @@ SlamInput openLive(const Rig& rig, const Configuration& configuration, const std
   std::unique_ptr<SensorInput> sensors = openRig(rig);
   if (const std::optional<std::string> imu = imuSection(configuration, section))
     sensors = devices().addImu(std::move(sensors), configuration, *imu);
-  return {std::move(sensors), 0, "", true};
+  return {std::move(sensors), 0, true};
 }
 
 std::unique_ptr<SensorInput> readAhead(std::unique_ptr<SensorInput> input)
@@ -48,7 +46,7 @@ std::unique_ptr<SensorInput> readAhead(std::unique_ptr<SensorInput> input)
 }
 }  // namespace
 
-SlamInput openInput(const RecordingFiles& files, const SceneArguments& scene, const std::vector<std::string>& lidars,
+SlamInput openInput(const RecordingFiles& files, const std::vector<std::string>& lidars,
                     const Configuration& configuration, Duration body_imu_ahead)
 {
   if (!files.rawlogs.empty()) return {readAhead(std::make_unique<RawlogInput>(files.rawlogs.front(), lidars))};
@@ -56,12 +54,6 @@ SlamInput openInput(const RecordingFiles& files, const SceneArguments& scene, co
   {
     if (!lidars.empty()) throw UsageError("clouds do not tell lidars apart: all lidars are used");
     return {readAhead(std::make_unique<CloudsInput>(files.clouds))};
-  }
-  if (scene.given())
-  {
-    const SimulatedRig simulated = simulatedRig(configuration, scene.seed, lidars);
-    return {readAhead(makeSceneInput(simulated.scene, simulated.rig)),
-            static_cast<std::uint64_t>(std::ceil(simulated.scene->span.duration)), "s"};
   }
   const std::string section = rigSection(configuration);
   Rig rig = makeRig(readRigSettings(configuration, section), lidars);

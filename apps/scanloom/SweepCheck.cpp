@@ -4,11 +4,12 @@
 #include "Recording.h"
 #include "Settings.h"
 #include "SlamInput.h"
-#include "core/ConfigError.h"
-#include "simulation/RecordingFolder.h"
-#include "simulation/SimulatedRig.h"
-#include "study/PlannedDrive.h"
-#include "study/RunReference.h"
+#include "base/core/ConfigError.h"
+#include "input/rig/Rig.h"
+#include "lab/simulation/RecordingFolder.h"
+#include "lab/simulation/checkedScene.h"
+#include "lab/study/PlannedDrive.h"
+#include "lab/study/RunReference.h"
 
 #include <fmt/format.h>
 
@@ -122,7 +123,7 @@ void openAsRun(const Loaded<SlamVerbSettings>& loaded, const RecordingFiles& fil
     if (makeRig(readRigSettings(loaded.configuration, section), names).captures.empty())
       throw UsageError(fmt::format("[{}] pcap_input is not set: the runs would wait for live lidars", section));
   }
-  refuseUnknownImu(openInput(files, SceneArguments{}, names, loaded.configuration), loaded.settings.slam);
+  refuseUnknownImu(openInput(files, names, loaded.configuration), loaded.settings.slam);
 }
 
 /** The command of a run has it already. */

@@ -1,7 +1,7 @@
 /** Finds before a sweep starts what its runs would end with. */
 #pragma once
-#include "config/Configuration.h"
-#include "study/ExperimentPlan.h"
+#include "base/config/Configuration.h"
+#include "lab/study/ExperimentPlan.h"
 
 namespace scanloom
 {

@@ -28,8 +28,8 @@
  * An exception from run() becomes a message on stderr and the status: 2 for UsageError and ConfigError, otherwise 1.
  */
 #pragma once
-#include "config/Schema.h"
-#include "core/ExitCode.h"
+#include "base/config/Schema.h"
+#include "base/core/ExitCode.h"
 
 #include <functional>
 #include <string>

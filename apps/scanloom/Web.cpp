@@ -1,6 +1,6 @@
 #include "Web.h"
 
-#include "core/ConfigError.h"
+#include "base/core/ConfigError.h"
 
 #include <fmt/format.h>
 

@@ -2,8 +2,8 @@
 #pragma once
 #include "Devices.h"
 #include "Options.h"
-#include "live_view/LiveServer.h"
-#include "live_view/WatchedInput.h"
+#include "run/page/LiveServer.h"
+#include "run/page/WatchedInput.h"
 
 #include <filesystem>
 #include <memory>

@@ -1,9 +1,9 @@
 /** `scanloom config`: prints all parameters, as a configuration file or as a page of the manual. */
 #include "Options.h"
 #include "Verb.h"
-#include "config/Names.h"
-#include "core/ConfigError.h"
-#include "recordings/RecognisedRig.h"
+#include "base/config/Names.h"
+#include "base/core/ConfigError.h"
+#include "input/rig/RecognisedRig.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

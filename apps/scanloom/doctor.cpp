@@ -4,13 +4,14 @@
 #include "Settings.h"
 #include "SlamInput.h"
 #include "Verb.h"
-#include "core/AtomicFile.h"
-#include "core/Interruption.h"
-#include "core/Progress.h"
-#include "doctor/DoctorFindings.h"
-#include "doctor/DoctorJson.h"
-#include "doctor/Listening.h"
-#include "doctor/ScanEvidence.h"
+#include "base/core/AtomicFile.h"
+#include "base/core/Interruption.h"
+#include "base/core/Progress.h"
+#include "diagnosis/DoctorFindings.h"
+#include "diagnosis/DoctorJson.h"
+#include "diagnosis/Listening.h"
+#include "diagnosis/RawlogCheck.h"
+#include "diagnosis/ScanEvidence.h"
 
 #include <fmt/format.h>
 
@@ -78,14 +79,33 @@ RigEvidence listen(const Rig& rig, bool poses_known, const DoctorArguments& argu
   return listener.finish();
 }
 
-/** Of a rawlog or clouds; clouds name no body frame. */
-RigEvidence read(const RecordingFiles& recording, const Configuration& configuration, const DoctorArguments& arguments)
+/** Clouds name no body frame. */
+RigEvidence readClouds(const RecordingFiles& recording, const Configuration& configuration)
 {
-  if (arguments.seconds > 0) throw UsageError("--seconds is for captures and live lidars");
-  const SlamInput input = openInput(recording, {}, {}, configuration);
-  RigEvidence evidence = scanEvidence(*input.sensors, !recording.rawlogs.empty(), [] { return !interrupted(); });
+  const SlamInput input = openInput(recording, {}, configuration);
+  RigEvidence evidence = scanEvidence(*input.sensors, false, [] { return !interrupted(); });
   for (const std::string& warning : input.sensors->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
   return evidence;
+}
+
+/** Prints text or JSON. @return the exit status. */
+int report(const Findings& findings, const std::string& json, const DoctorArguments& arguments)
+{
+  std::cout << (arguments.json ? json : toText(findings) + '\n' + summaryOf(findings)) << '\n';
+  if (interrupted()) return kInterrupted;
+  return worstOf(findings) == Verdict::NotFit ? kQualityGate : kDone;
+}
+
+int examineRawlog(const std::filesystem::path& rawlog, const DoctorLimits& limits, const DoctorArguments& arguments)
+{
+  Progress progress("doctor", megabytesOf({rawlog}), "MB");
+  const CheckedRawlog check = checkRawlog(rawlog, limits,
+                                          [&](std::uint64_t bytes)
+                                          {
+                                            progress.update(bytes / 1000000);
+                                            return !interrupted();
+                                          });
+  return report(check.findings, toJson(check), arguments);
 }
 
 int run(const DoctorArguments& arguments)
@@ -96,6 +116,7 @@ int run(const DoctorArguments& arguments)
       arguments.recording.given() ? filesOf(arguments.recording, Clouds::Taken) : RecordingFiles{};
   const Loaded<DoctorSettings> loaded = load<DoctorSettings>(arguments.configuration, recording, Poses::TakenAsZero);
   const bool scans = !recording.rawlogs.empty() || !recording.clouds.empty();
+  if (scans && arguments.seconds > 0) throw UsageError("--seconds is for captures and live lidars");
   const std::optional<Rig> rig = scans ? std::nullopt : std::optional(rigOf(loaded.configuration));
   if (arguments.configuration.dry_run)
   {
@@ -104,16 +125,11 @@ int run(const DoctorArguments& arguments)
   }
 
   catchInterruption();
-  const RigExamination examination =
-      examine(rig ? listen(*rig, loaded.poses_known, arguments) : read(recording, loaded.configuration, arguments),
-              loaded.settings);
+  if (!recording.rawlogs.empty()) return examineRawlog(recording.rawlogs.front(), loaded.settings, arguments);
+  const RigExamination examination = examine(
+      rig ? listen(*rig, loaded.poses_known, arguments) : readClouds(recording, loaded.configuration), loaded.settings);
   const Findings findings = findingsOf(examination, loaded.settings);
-  if (arguments.json)
-    std::cout << toJson(examination, findings) << '\n';
-  else
-    std::cout << toText(findings) << '\n' << summaryOf(findings) << '\n';
-  if (interrupted()) return kInterrupted;
-  return worstOf(findings) == Verdict::NotFit ? kQualityGate : kDone;
+  return report(findings, toJson(examination, findings), arguments);
 }
 
 std::function<int()> addDoctorOptions(CLI::App& app)

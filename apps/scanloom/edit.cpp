@@ -1,18 +1,13 @@
 /** `scanloom edit`: one operation on a rawlog. */
 #include "Options.h"
 #include "Verb.h"
-#include "core/AtomicFile.h"
-#include "core/ConfigError.h"
-#include "core/Interruption.h"
-#include "core/Progress.h"
-#include "doctor/RawlogCheck.h"
-#include "edit/EditOperations.h"
-#include "edit/StagedOutputs.h"
-#include "info.h"
-#include "mrpt_bridge/jsonText.h"
-#include "record.h"
-#include "recordings/RecognisedRig.h"
-#include "rig/RigOptions.h"
+#include "base/core/AtomicFile.h"
+#include "base/core/ConfigError.h"
+#include "base/core/Interruption.h"
+#include "base/core/Progress.h"
+#include "mrpt/edit/EditOperations.h"
+#include "mrpt/edit/StagedOutputs.h"
+#include "mrpt/observations/jsonText.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,33 +22,22 @@ namespace
 {
 struct EditArguments
 {
-  ConfigurationArguments configuration;
   std::filesystem::path input, output;
-  bool overwrite = false, json = false, quiet = false;
-  bool info = false, check = false, approach_a = false;
-  std::vector<std::filesystem::path> from_pcap;
+  bool overwrite = false, json = false, quiet = false, dry_run = false;
   EditOptions options;
 };
 
 /** Throws UsageError unless there is one operation; a cut may come before one that streams the rawlog. */
-void requireOne(const EditArguments& arguments, const std::vector<EditOperation>& operations)
+void requireOne(const std::vector<EditOperation>& operations)
 {
   std::vector<std::string> names;
-  if (arguments.info) names.emplace_back("--info");
-  if (arguments.check) names.emplace_back("--check");
-  if (!arguments.from_pcap.empty()) names.emplace_back("--from-pcap");
-  const bool may_be_cut = names.empty();
   for (const EditOperation& operation : operations)
-    if (operation.option != "cut" || !may_be_cut) names.push_back(operation.option);
+    if (operation.option != "cut") names.push_back(operation.option);
 
   if (names.empty() && operations.empty()) throw UsageError("no operation is given: see 'scanloom edit --help'");
   if (names.size() > 1)
     throw UsageError(fmt::format("one operation a call, not {}: use the output of one as the input of the next",
                                  fmt::join(names, ", ")));
-  if (arguments.input.empty() == arguments.from_pcap.empty())
-    throw UsageError("-i/--input is required: the rawlog to read; only --from-pcap reads captures instead");
-  if (arguments.approach_a && arguments.from_pcap.empty())
-    throw UsageError("--approach-a merges whole turns, which only captures hold: it needs --from-pcap");
 }
 
 void refuseExistingOutputs(const EditArguments& arguments, const EditOperation& operation)
@@ -135,7 +119,7 @@ int edit(const EditArguments& arguments, const std::vector<EditOperation>& opera
   if (to_rawlog) refuseExisting({arguments.output}, arguments.overwrite);
   for (const EditOperation& operation : operations) refuseExistingOutputs(arguments, operation);
   refuseToReplaceInputs(arguments, operations);
-  if (arguments.configuration.dry_run)
+  if (arguments.dry_run)
   {
     if (to_rawlog) chained(operations, arguments.input, {});  // the others would create their files
     for (const EditOperation& each : operations) fmt::print("{} ", each.option);
@@ -152,39 +136,11 @@ int edit(const EditArguments& arguments, const std::vector<EditOperation>& opera
   return edited.damage.empty() && edited.passed_over == 0 ? kDone : kQualityGate;
 }
 
-int check(const EditArguments& arguments)
-{
-  catchInterruption();
-  const CheckedRawlog check = checkRawlog(arguments.input, showingProgress(arguments));
-  if (interrupted()) return kInterrupted;
-  std::cout << (arguments.json ? toJson(check) : toText(check.findings) + '\n' + summaryOf(check.findings)) << '\n';
-  return worstOf(check.findings) == Verdict::NotFit ? kQualityGate : kDone;
-}
-
-int recordCaptures(const EditArguments& arguments)
-{
-  if (arguments.output.empty()) throw UsageError("-o/--output is required: the rawlog to write");
-  const Configuration configuration = Configuration::fromFiles(arguments.configuration.files);
-  const std::string section = hasRigSection(configuration) ? rigSection(configuration) : kRecognisedSection;
-  RecordArguments record_arguments;
-  record_arguments.configuration = arguments.configuration;
-  record_arguments.output = arguments.output;
-  record_arguments.overwrite = arguments.overwrite;
-  record_arguments.json = arguments.json;
-  record_arguments.quiet = arguments.quiet;
-  record_arguments.recording.paths = arguments.from_pcap;
-  if (arguments.approach_a) record_arguments.configuration.assignments.push_back(section + ".batching=nearest_turns");
-  return record(record_arguments);
-}
-
 int run(const EditArguments& arguments)
 {
   const std::vector<EditOperation> operations =
       editOperations(arguments.options, arguments.input, [](const std::string& line) { std::cerr << line << '\n'; });
-  requireOne(arguments, operations);
-  if (arguments.info) return printRawlogInfo(arguments.input, arguments.json);
-  if (arguments.check) return check(arguments);
-  if (!arguments.from_pcap.empty()) return recordCaptures(arguments);
+  requireOne(operations);
   return edit(arguments, operations);
 }
 
@@ -246,59 +202,40 @@ void addChangesOfPoints(OptionGroup& group, EditOptions& o)
   group.add("--imu", o.imu, "LABEL", "for '--deskew imu': label of the IMU (default: imu), e.g. imu_left");
 }
 
-void addFiles(CLI::App& app, OptionGroup& group, EditOptions& o)
+void addFiles(OptionGroup& group, EditOptions& o)
 {
   group.add("--export-ply", o.export_ply, "DIR", "write a PLY file per cloud, in a folder per label");
   group.add("--export-pcd", o.export_pcd, "DIR", "write a PCD file per cloud");
   group.add("--export-kitti", o.export_kitti, "DIR", "write a KITTI scan (.bin) per cloud");
   group.add("--export-csv", o.export_csv, "DIR", "write IMU samples as EuRoC csv, and stamps and sizes of clouds");
   group.add("--export-tum", o.export_tum, "FILE", "write the poses in the rawlog as TUM");
-  group.add("--to-simplemap", o.to_simplemap, "FILE", "write keyframes along --trajectory, as 'scanloom map' does");
-  group.add("--to-octomap", o.to_octomap, "FILE",
-            "write an occupancy map along --trajectory, as 'scanloom map' does: this .bt, and an .ot beside it");
   group.add("--to-mcap", o.to_mcap, "FILE",
             "write clouds, IMU and poses as an MCAP file, which Foxglove and ROS 2 play; poses of the rawlog, or of "
             "--trajectory");
-  OptionGroup maps(app, "For --to-simplemap, --to-octomap and --to-mcap");
-  maps.add("--trajectory", o.trajectory, "FILE",
-           "poses of the body as TUM, EuRoC (.csv) or KITTI (times.txt beside it)");
-  maps.add("--keyframe-distance", o.keyframe_distance, "M", "travel between keyframes, in m")
-      .notNegative()
-      .showDefault();
-  maps.add("--octomap-preset", o.octomap_preset, "NAME", "preview, inventory or fine")
-      .oneOf({"preview", "inventory", "fine"})
-      .showDefault();
+  group.add("--trajectory", o.trajectory, "FILE",
+            "for --to-mcap: poses of the body as TUM, EuRoC (.csv) or KITTI (times.txt beside it)");
 }
 
 std::function<int()> addEditOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<EditArguments>();
-  addOption(app, "-i,--input", arguments->input, "the rawlog to read").typeName("FILE");
+  addOption(app, "-i,--input", arguments->input, "the rawlog to read").required().typeName("FILE");
   addOption(app, "-o,--output", arguments->output, "the rawlog to write").typeName("FILE");
   addOverwrite(app, arguments->overwrite);
-  addConfiguration(app, arguments->configuration);
+  addFlag(app, "--dry-run", arguments->dry_run, "check everything and stop");
   addFlag(app, "-q,--quiet", arguments->quiet, "show no progress");
   addJson(app, arguments->json);
   OptionGroup group(app, "Operations");
-  group.add("--info", arguments->info, "print what the rawlog holds, as 'scanloom info' does");
-  group.add("--check", arguments->check, "look for faults in the rawlog; status 3 if it is not fit for SLAM");
-  group
-      .add("--from-pcap", arguments->from_pcap, "FILE,...",
-           "make a rawlog of these captures, as 'scanloom record' does")
-      .commaSeparated();
-  group.add("--approach-a", arguments->approach_a,
-            "with --from-pcap: merge whole turns, the paper's approach A, for comparison");
   addCut(app, arguments->options);
   addChoicesOfObservations(group, arguments->options);
   addChangesOfPoints(group, arguments->options);
-  addFiles(app, group, arguments->options);
+  addFiles(group, arguments->options);
   return [arguments] { return run(*arguments); };
 }
 }  // namespace
 
 Verb editVerb()
 {
-  return {"edit", "one operation on a rawlog: cut, split, thin, convert, export, check", rigSchema("lidars"),
-          &addEditOptions};
+  return {"edit", "one operation on a rawlog: cut, split, thin, convert, export", {}, &addEditOptions};
 }
 }  // namespace scanloom

@@ -1,16 +1,16 @@
 /** `scanloom evaluate`: compares a trajectory with a total station or with true poses. */
 #include "Arguments.h"
 #include "Verb.h"
-#include "bags/BagContents.h"
-#include "core/AtomicFile.h"
-#include "evaluation/Evaluation.h"
-#include "evaluation/EvaluationFigure.h"
-#include "evaluation/EvaluationReport.h"
-#include "evaluation/PositionError.h"
-#include "evaluation/TotalStation.h"
-#include "formats/TrajectoryReader.h"
-#include "rig/Extrinsics.h"
-#include "study/Gnuplot.h"
+#include "base/core/AtomicFile.h"
+#include "base/formats/TrajectoryReader.h"
+#include "input/bags/BagContents.h"
+#include "input/rig/Extrinsics.h"
+#include "lab/evaluation/Evaluation.h"
+#include "lab/evaluation/EvaluationFigure.h"
+#include "lab/evaluation/EvaluationReport.h"
+#include "lab/evaluation/PositionError.h"
+#include "lab/evaluation/TotalStation.h"
+#include "lab/study/Gnuplot.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

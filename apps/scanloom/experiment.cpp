@@ -4,11 +4,11 @@
 #include "SweepCheck.h"
 #include "Verb.h"
 #include "Version.h"
-#include "core/AtomicFile.h"
-#include "core/Interruption.h"
-#include "core/Progress.h"
-#include "study/DriveRecording.h"
-#include "study/Sweep.h"
+#include "base/core/AtomicFile.h"
+#include "base/core/Interruption.h"
+#include "base/core/Progress.h"
+#include "lab/study/DriveRecording.h"
+#include "lab/study/Sweep.h"
 
 #include <fmt/format.h>
 

@@ -1,15 +1,14 @@
-#include "info.h"
-
+/** `scanloom info`: what a recording holds. */
 #include "Arguments.h"
 #include "Options.h"
 #include "Recording.h"
 #include "Verb.h"
-#include "bags/BagContents.h"
-#include "core/ConfigError.h"
-#include "edit/RawlogReport.h"
-#include "packets/CaptureReport.h"
-#include "recordings/CloudsInput.h"
-#include "recordings/FoundLidars.h"
+#include "base/core/ConfigError.h"
+#include "input/bags/BagContents.h"
+#include "input/packets/CaptureReport.h"
+#include "input/rig/CloudsInput.h"
+#include "input/rig/FoundLidars.h"
+#include "mrpt/edit/RawlogReport.h"
 
 #include <fmt/format.h>
 
@@ -103,6 +102,13 @@ int printCloudsInfo(const RecordingFiles& files, const InfoArguments& arguments)
   return kDone;
 }
 
+int printRawlogInfo(const std::filesystem::path& rawlog, bool json)
+{
+  const RawlogInfo info = rawlogInfo(rawlog);
+  std::cout << (json ? toJson(info) : toText(info));
+  return info.damage.empty() ? kDone : kQualityGate;
+}
+
 int run(const InfoArguments& arguments)
 {
   const RecordingFiles files = filesOf(arguments.recording, Clouds::Taken);
@@ -121,13 +127,6 @@ std::function<int()> addInfoOptions(CLI::App& app)
   return [arguments] { return run(*arguments); };
 }
 }  // namespace
-
-int printRawlogInfo(const std::filesystem::path& rawlog, bool json)
-{
-  const RawlogInfo info = rawlogInfo(rawlog);
-  std::cout << (json ? toJson(info) : toText(info));
-  return info.damage.empty() ? kDone : kQualityGate;
-}
 
 Verb infoVerb() { return {"info", "what a capture, a bag, a rawlog or clouds hold", {}, &addInfoOptions}; }
 }  // namespace scanloom

@@ -1,6 +1,6 @@
 /** The program `scanloom`: libscanloom_program.so, but for --version: MRPT and what it needs take 0.1 s to load. */
 #include "Version.h"
-#include "core/ExitCode.h"
+#include "base/core/ExitCode.h"
 
 #include <dlfcn.h>
 

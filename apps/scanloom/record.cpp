@@ -1,25 +1,25 @@
-#include "record.h"
-
+/** `scanloom record`: a rawlog of merged scans. */
+#include "Arguments.h"
 #include "Options.h"
+#include "Recording.h"
 #include "Settings.h"
 #include "Verb.h"
-#include "core/AtomicFile.h"
-#include "core/ConfigError.h"
-#include "core/Interruption.h"
-#include "mrpt_bridge/RawlogWriter.h"
-#include "mrpt_bridge/RigObservations.h"
-#include "mrpt_bridge/RigRecording.h"
-#include "recordings/CloudsInput.h"
-#include "rig/InputDisplay.h"
-#include "rig/openRig.h"
-#include "rig/silentLidars.h"
-#include "simulation/SimulatedRig.h"
+#include "Web.h"
+#include "base/core/AtomicFile.h"
+#include "base/core/ConfigError.h"
+#include "base/core/Interruption.h"
+#include "input/rig/CloudsInput.h"
+#include "input/rig/InputDisplay.h"
+#include "input/rig/openRig.h"
+#include "input/rig/silentLidars.h"
+#include "mrpt/observations/RawlogWriter.h"
+#include "mrpt/observations/RigObservations.h"
+#include "mrpt/observations/RigRecording.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <chrono>
-#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -52,25 +52,34 @@ struct RecordSettings
   }
 };
 
+struct RecordArguments
+{
+  ConfigurationArguments configuration;
+  RecordingArguments recording;
+  WebArguments web;
+  std::filesystem::path output;  // empty: beside the recording
+  std::vector<std::string> lidars;
+  double seconds = 0;  // live: 0 until it is interrupted
+  bool overwrite = false;
+  bool json = false;
+};
+
 /** The input that the arguments name. */
 struct Source
 {
   DriverOptions driver;
   Rig rig;
-  std::shared_ptr<const Scene> scene;  // null: captures or sockets
-  std::filesystem::path capture;       // that is written with the rawlog; empty: none
-  RecordingFiles::Paths clouds{};      // if not empty, the rest is
+  std::filesystem::path capture;   // that is written with the rawlog; empty: none
+  RecordingFiles::Paths clouds{};  // if not empty, the rest is
 
-  bool isLive() const { return !scene && rig.captures.empty() && clouds.empty(); }
+  bool isLive() const { return rig.captures.empty() && clouds.empty(); }
 };
 
 std::unique_ptr<InputDisplay> displayOf(const Source& source, SensorInput& input)
 {
   if (source.isLive()) return std::make_unique<InputDisplay>("record", input);
   if (!source.clouds.empty()) return std::make_unique<InputDisplay>("record", input, source.clouds.size(), "clouds");
-  if (!source.scene) return std::make_unique<InputDisplay>("record", input, megabytesOf(source.rig.captures), "MB");
-  const double duration = std::ceil(source.scene->span.duration);
-  return std::make_unique<InputDisplay>("record", input, static_cast<std::uint64_t>(duration), "s");
+  return std::make_unique<InputDisplay>("record", input, megabytesOf(source.rig.captures), "MB");
 }
 
 Recorded record(SensorInput& input, const Source& source, const RecordArguments& arguments, RawlogWriter& writer)
@@ -80,12 +89,12 @@ Recorded record(SensorInput& input, const Source& source, const RecordArguments&
   const std::unique_ptr<Web> web =
       openWeb(arguments.web, {"record", source.isLive(), false}, input, arguments.output.parent_path());
   SensorInput& watched = web ? web->input() : input;
-  const std::unique_ptr<InputDisplay> display = arguments.quiet ? nullptr : displayOf(source, watched);
+  const std::unique_ptr<InputDisplay> display = displayOf(source, watched);
   const Recorded recorded =
       recordRig(watched, source.driver, writer,
                 [&](const Recorded& so_far)
                 {
-                  if (display) display->update(watched.progress(), so_far.scans);
+                  display->update(watched.progress(), so_far.scans);
                   if (web) web->update();
                   const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
                   return !interrupted() && !over;
@@ -169,18 +178,7 @@ Source openSource(const RecordArguments& arguments, const RecordingFiles& record
     if (!arguments.lidars.empty()) throw UsageError("clouds do not tell lidars apart: all lidars are used");
     refuseExisting({arguments.output}, arguments.overwrite);
     refuseInputsAsOutputs(recording.clouds, {arguments.output});
-    return {{}, {}, nullptr, {}, recording.clouds};
-  }
-  if (arguments.scene.given())
-  {
-    refuseExisting({arguments.output}, arguments.overwrite);
-    refuseInputsAsOutputs(withScene(arguments.configuration, arguments.scene).files, {arguments.output});
-    SimulatedRig simulated = simulatedRig(configuration, arguments.scene.seed, arguments.lidars);
-    const bool has_rig = hasRigSection(configuration);
-    return {has_rig ? configuration.read<DriverOptions>(rigSection(configuration)) : DriverOptions{},
-            std::move(simulated.rig),
-            std::move(simulated.scene),
-            {}};
+    return {{}, {}, {}, recording.clouds};
   }
   const RigSettings settings = readRigSettings(configuration, rigSection(configuration));
   const bool live = settings.rig.pcap_input.empty();
@@ -189,13 +187,13 @@ Source openSource(const RecordArguments& arguments, const RecordingFiles& record
   refuseExisting(outputs, arguments.overwrite);
   Rig rig = makeRig(settings, arguments.lidars);
   refuseInputsAsOutputs(filesReadFor(rig, settings, arguments), outputs);
-  return {settings.driver, std::move(rig), nullptr, live ? settings.rig.pcap_output : ""};
+  return {settings.driver, std::move(rig), live ? settings.rig.pcap_output : ""};
 }
 
 std::unique_ptr<SensorInput> inputOf(const Source& source)
 {
   if (!source.clouds.empty()) return std::make_unique<CloudsInput>(source.clouds);
-  return source.scene ? makeSceneInput(source.scene, source.rig) : openRig(source.rig);
+  return openRig(source.rig);
 }
 
 RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& driver, bool live)
@@ -224,29 +222,11 @@ std::filesystem::path defaultRawlog(const RecordingArguments& recording)
   return rawlog == recording.paths.front() ? besideRecording(recording, "_scans.rawlog") : rawlog;  // one of packets
 }
 
-std::function<int()> addRecordOptions(CLI::App& app)
-{
-  auto arguments = std::make_shared<RecordArguments>();
-  addConfiguration(app, arguments->configuration);
-  const Option scene = addScene(app, arguments->scene);
-  addRecording(app, arguments->recording).excludes(scene);
-  addOption(app, "-o,--output", arguments->output, "the rawlog to write; default: beside the recording");
-  addSeconds(app, arguments->seconds);
-  addOverwrite(app, arguments->overwrite);
-  addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas (default: all)")
-      .commaSeparated();
-  addWindow(app, addWeb(app, arguments->web), arguments->web);
-  addJson(app, arguments->json);
-  return [arguments] { return record(*arguments); };
-}
-}  // namespace
-
-int record(RecordArguments arguments)
+int run(RecordArguments arguments)
 {
   const RecordingFiles recording = recordingOf(arguments.recording);
   if (arguments.output.empty()) arguments.output = defaultRawlog(arguments.recording);
-  const Loaded<RecordSettings> loaded =
-      load<RecordSettings>(withScene(arguments.configuration, arguments.scene), recording);
+  const Loaded<RecordSettings> loaded = load<RecordSettings>(arguments.configuration, recording);
   const Source source = openSource(arguments, recording, loaded.configuration);
   const bool live = source.isLive();
   if (!live) refuseSeconds(arguments.seconds);
@@ -283,11 +263,26 @@ int record(RecordArguments arguments)
   return whole && silent.empty() ? kDone : kQualityGate;
 }
 
+std::function<int()> addRecordOptions(CLI::App& app)
+{
+  auto arguments = std::make_shared<RecordArguments>();
+  addConfiguration(app, arguments->configuration);
+  addRecording(app, arguments->recording);
+  addOption(app, "-o,--output", arguments->output, "the rawlog to write; default: beside the recording");
+  addSeconds(app, arguments->seconds);
+  addOverwrite(app, arguments->overwrite);
+  addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas (default: all)")
+      .commaSeparated();
+  addWindow(app, addWeb(app, arguments->web), arguments->web);
+  addJson(app, arguments->json);
+  return [arguments] { return run(*arguments); };
+}
+}  // namespace
+
 Verb recordVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<RecordSettings>());
-  return {"record", "a rawlog of merged scans, from live lidars, captures, clouds or a simulated drive", schema,
-          &addRecordOptions};
+  return {"record", "a rawlog of merged scans, from live lidars, captures or clouds", schema, &addRecordOptions};
 }
 }  // namespace scanloom

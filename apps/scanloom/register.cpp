@@ -2,10 +2,10 @@
 #include "Arguments.h"
 #include "Settings.h"
 #include "Verb.h"
-#include "evaluation/CloudRegistration.h"
-#include "evaluation/RegistrationReport.h"
-#include "formats/CloudFile.h"
-#include "rig/Extrinsics.h"
+#include "base/formats/CloudFile.h"
+#include "input/rig/Extrinsics.h"
+#include "lab/evaluation/CloudRegistration.h"
+#include "lab/evaluation/RegistrationReport.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 /** `scanloom report`: the results of an experiment as one HTML page. */
 #include "Arguments.h"
 #include "Verb.h"
-#include "core/AtomicFile.h"
-#include "study/ContentHash.h"
-#include "study/Gnuplot.h"
-#include "study/StudyReport.h"
+#include "base/core/AtomicFile.h"
+#include "lab/study/ContentHash.h"
+#include "lab/study/Gnuplot.h"
+#include "lab/study/StudyReport.h"
 
 #include <iostream>
 #include <memory>

@@ -2,15 +2,15 @@
 #include "Arguments.h"
 #include "Settings.h"
 #include "Verb.h"
-#include "core/AtomicFile.h"
-#include "core/ConfigError.h"
-#include "core/Interruption.h"
-#include "core/Progress.h"
-#include "core/ResultFolder.h"
-#include "simulation/RecordingFolder.h"
-#include "simulation/ScenePictures.h"
-#include "simulation/SceneSensors.h"
-#include "simulation/SimulatedRig.h"
+#include "base/core/AtomicFile.h"
+#include "base/core/ConfigError.h"
+#include "base/core/Interruption.h"
+#include "base/core/Progress.h"
+#include "base/core/ResultFolder.h"
+#include "lab/simulation/RecordingFolder.h"
+#include "lab/simulation/ScenePictures.h"
+#include "lab/simulation/SceneSensors.h"
+#include "lab/simulation/checkedScene.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -33,7 +33,6 @@ struct SimulateArguments
   double seconds = 0;  // 0: the configured length
   int jobs = 0;
   bool udp = false;
-  bool truth = false;
   double delay = 3;  // s before the first packet over UDP
   std::string pictures;
 };
@@ -65,14 +64,6 @@ int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const st
   }
   writeAtomically(folder.running() / kConfigurationCopy, [&](std::ostream& file) { file << toIni(loaded); });
   std::cout << folder.commit(names, Completeness::Whole).string() << '\n';
-  return kDone;
-}
-
-int writeTruthOnly(const Scene& scene, const std::filesystem::path& folder)
-{
-  std::filesystem::create_directories(folder);
-  writeTruth(scene, folder);
-  std::cout << folder.string() << '\n';
   return kDone;
 }
 
@@ -113,8 +104,8 @@ int run(SimulateArguments arguments)
   if (arguments.jobs > 0)
     jobs.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.jobs));
   const Loaded<SimulationSettings> loaded = load<SimulationSettings>(arguments.configuration);
-  std::vector<std::string> names = arguments.truth ? truthFileNames() : recordingFileNames(loaded.settings);
-  if (!arguments.truth) names.emplace_back(kConfigurationCopy);
+  std::vector<std::string> names = recordingFileNames(loaded.settings);
+  names.emplace_back(kConfigurationCopy);
   if (arguments.udp + !arguments.output.folder.empty() + !arguments.pictures.empty() != 1)
     throw UsageError(
         "give exactly one of --out-dir (write a recording), --udp (send packets in real time) and --pictures");
@@ -129,7 +120,6 @@ int run(SimulateArguments arguments)
   }
 
   if (!arguments.pictures.empty()) return draw(scene, arguments.pictures);
-  if (arguments.truth) return writeTruthOnly(scene, arguments.output.folder);
   catchInterruption();
   return arguments.udp ? play(scene, arguments.delay) : write(scene, loaded, arguments.output.folder, names);
 }
@@ -143,11 +133,7 @@ Verb simulateVerb()
           {
             auto arguments = std::make_shared<SimulateArguments>();
             addConfiguration(app, arguments->configuration);
-            const Option folder = addOutputFolder(app, arguments->output);
-            addFlag(app, "--truth", arguments->truth,
-                    "write only ground truth, total station and extrinsics, which are needed to evaluate "
-                    "'slam --simulate'")
-                .needs(folder);
+            addOutputFolder(app, arguments->output);
             addFlag(app, "--udp", arguments->udp,
                     "send the packets in real time to 127.0.0.1, as lidars with HTTP interfaces would; prints the "
                     "configuration for 'record' first");

@@ -1,18 +1,18 @@
-/** `scanloom slam`: trajectory and maps from a recording, a simulated drive or live lidars. */
+/** `scanloom slam`: trajectory and maps from a recording or live lidars. */
 #include "Arguments.h"
 #include "Settings.h"
 #include "SlamInput.h"
 #include "Verb.h"
 #include "Version.h"
 #include "Web.h"
-#include "core/AtomicFile.h"
-#include "core/ConfigError.h"
-#include "core/Interruption.h"
-#include "core/ResultFolder.h"
-#include "rig/InputDisplay.h"
-#include "rig/RigOptions.h"
-#include "run/SlamFiles.h"
-#include "run/SlamRun.h"
+#include "base/core/AtomicFile.h"
+#include "base/core/ConfigError.h"
+#include "base/core/Interruption.h"
+#include "base/core/ResultFolder.h"
+#include "input/rig/InputDisplay.h"
+#include "input/rig/RigOptions.h"
+#include "run/run/SlamFiles.h"
+#include "run/run/SlamRun.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,7 +28,6 @@ struct SlamArguments
 {
   ConfigurationArguments configuration;
   OutputFolderArguments output;
-  SceneArguments scene;
   RecordingArguments recording;
   WebArguments web;
   std::vector<std::string> lidars;
@@ -47,8 +46,6 @@ std::string commandOf(const SlamArguments& arguments)
     command += fmt::format(" --set {}", assignment);
   for (const auto& path : arguments.recording.paths) command += " " + path.string();
   for (const auto& file : arguments.recording.metadata) command += fmt::format(" --metadata {}", file.string());
-  if (arguments.scene.given())
-    command += fmt::format(" --simulate {} --seed {}", arguments.scene.file.string(), arguments.scene.seed);
   if (!arguments.lidars.empty()) command += fmt::format(" --lidars {}", fmt::join(arguments.lidars, ","));
   if (arguments.seconds > 0) command += fmt::format(" --seconds {}", arguments.seconds);
   return command + fmt::format(" --out-dir {}", arguments.output.folder.string());
@@ -57,7 +54,7 @@ std::string commandOf(const SlamArguments& arguments)
 InputDisplay displayOf(const SlamInput& input, SensorInput& sensors)
 {
   if (input.live) return {"slam", sensors};
-  return {"slam", sensors, input.size, input.unit};
+  return {"slam", sensors, input.megabytes, "MB"};
 }
 
 void warnOfDroppedScans(const RunSummary& summary)
@@ -129,7 +126,7 @@ SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings&
   return result;
 }
 
-/** Who interrupts lidars has all that there was; recordings and simulated drives go on behind. */
+/** Who interrupts lidars has all that there was; a recording goes on behind. */
 Completeness completenessOf(const SlamRunResult& result, const SlamInput& input)
 {
   const bool stopped = interrupted() && !input.live;
@@ -190,14 +187,13 @@ int run(SlamArguments arguments)
   const RecordingFiles recording =
       arguments.recording.given() ? filesOf(arguments.recording, Clouds::Taken) : RecordingFiles{};
   if (arguments.output.folder.empty()) arguments.output.folder = defaultFolder(arguments.recording);
-  const Loaded<SlamVerbSettings> loaded =
-      load<SlamVerbSettings>(withScene(arguments.configuration, arguments.scene), recording);
+  const Loaded<SlamVerbSettings> loaded = load<SlamVerbSettings>(arguments.configuration, recording);
   std::vector<std::string> names{kConfigurationFile};
   for (std::string& name : SlamFiles::names(loaded.settings.output)) names.push_back(std::move(name));
   refuseExisting(arguments.output, names);
   // With the samples that tell the start, scans need not wait for it in memory.
   const Duration to_start = fromSeconds(loaded.settings.start.duration);
-  const SlamInput input = openInput(recording, arguments.scene, arguments.lidars, loaded.configuration, to_start);
+  const SlamInput input = openInput(recording, arguments.lidars, loaded.configuration, to_start);
   if (!input.live) refuseSeconds(arguments.seconds);
   if (arguments.configuration.dry_run)
   {
@@ -215,7 +211,7 @@ std::function<int()> addSlamOptions(CLI::App& app)
   auto arguments = std::make_shared<SlamArguments>();
   addConfiguration(app, arguments->configuration);
   addOutputFolder(app, arguments->output);
-  addScene(app, arguments->scene).excludes(addRecording(app, arguments->recording, "RECORDING,-i,--input"));
+  addRecording(app, arguments->recording, "RECORDING,-i,--input");
   addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas; default: all")
       .commaSeparated();
   addSeconds(app, arguments->seconds);
@@ -229,7 +225,6 @@ Verb slamVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<SlamVerbSettings>());
-  return {"slam", "trajectory, keyframes and maps from a recording, a simulated drive or live lidars", schema,
-          &addSlamOptions};
+  return {"slam", "trajectory, keyframes and maps from a recording or live lidars", schema, &addSlamOptions};
 }
 }  // namespace scanloom

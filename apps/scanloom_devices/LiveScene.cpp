@@ -1,7 +1,7 @@
 #include "LiveScene.h"
 
-#include "core/Rigid.h"
-#include "live_view/LiveExchange.h"
+#include "base/core/Rigid.h"
+#include "run/page/LiveExchange.h"
 
 #include <mrpt/img/color_maps.h>
 #include <mrpt/opengl/CGridPlaneXY.h>

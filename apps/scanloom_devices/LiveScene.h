@@ -1,5 +1,5 @@
 #pragma once
-#include "core/Bytes.h"
+#include "base/core/Bytes.h"
 
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloudColoured.h>

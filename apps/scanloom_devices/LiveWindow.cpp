@@ -1,9 +1,9 @@
 #include "LiveWindow.h"
 
 #include "LiveScene.h"
-#include "live_view/LiveMap.h"
-#include "live_view/yieldToAll.h"
 #include "requireDisplay.h"
+#include "run/page/LiveMap.h"
+#include "run/page/yieldToAll.h"
 
 #include <fmt/format.h>
 #include <mrpt/gui/CDisplayWindow3D.h>

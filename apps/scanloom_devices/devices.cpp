@@ -2,8 +2,8 @@
 #include "Devices.h"
 #include "LiveWindow.h"
 #include "SceneWindow.h"
-#include "mrpt_sensors/ImuDriver.h"
-#include "mrpt_sensors/ImuDriverInput.h"
+#include "mrpt/sensors/ImuDriver.h"
+#include "mrpt/sensors/ImuDriverInput.h"
 
 #include <mrpt/config/CConfigFileMemory.h>
 

@@ -1,6 +1,6 @@
 /** libscanloom_mrpt.so: `rawlog-grabber -p`, `rawlog-edit -p` and `RawLogViewer -l` learn our classes by loading it. */
-#include "mrpt_bridge/registerClasses.h"
-#include "mrpt_sensors/CMultiLidarSensor.h"
+#include "mrpt/observations/registerClasses.h"
+#include "mrpt/sensors/CMultiLidarSensor.h"
 
 #include <mrpt/core/initializer.h>
 

@@ -1,7 +1,7 @@
 /** Merges what two lidars of one machine sent, and registers each scan to the one before. */
-#include <ndt/Registration.h>
-#include <rig/Rig.h>
-#include <rig/openRig.h>
+#include <estimation/ndt/Registration.h>
+#include <input/rig/Rig.h>
+#include <input/rig/openRig.h>
 
 #include <cstdio>
 #include <exception>

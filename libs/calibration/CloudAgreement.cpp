@@ -1,6 +1,6 @@
 #include "calibration/CloudAgreement.h"
 
-#include "ndt/Minimiser.h"
+#include "estimation/ndt/Minimiser.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,7 +47,7 @@ Minimum alignTurns(const Turns& turns, const Rigid& guess, double d2, std::size_
 {
   RegistrationOptions options;
   options.d2 = d2;
-  std::vector<Neighbourhoods> pairs;
+  std::vector<CellCorrespondences> pairs;
   for (std::size_t i = 0; i < turns.a.size(); ++i)
     if (i != left_out) pairs.emplace_back(turns.b[i], turns.a[i], options.neighbours);
   return minimise(pairs, guess, options);
@@ -114,7 +114,7 @@ CloudAgreement::Correction correctionOf(const std::vector<SeenByBoth>& pairs, co
 std::optional<CloudAgreement> cloudAgreement(const std::vector<SeenByBoth>& all, const Rigid& body_T_a,
                                              const Rigid& body_T_b)
 {
-  const std::optional<SharedView> here = sharedView(all, Rigid::identity(), body_T_b);
+  const std::optional<OverlapOverTurns> here = sharedView(all, Rigid::identity(), body_T_b);
   if (!here) return std::nullopt;
   CloudAgreement agreement;
   agreement.turns = here->turns.size();
@@ -124,7 +124,7 @@ std::optional<CloudAgreement> cloudAgreement(const std::vector<SeenByBoth>& all,
 
   const std::optional<Rigid> correction = alignAll(here->turns);
   if (!correction) return agreement;
-  const std::optional<SharedView> there = sharedView(here->turns, *correction, body_T_b);
+  const std::optional<OverlapOverTurns> there = sharedView(here->turns, *correction, body_T_b);
   if (!there || there->near_share < here->near_share - kMostLoss) return agreement;
   agreement.correction = correctionOf(here->turns, body_T_a, *correction);
   agreement.correction->near_share = there->near_share;

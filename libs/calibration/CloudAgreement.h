@@ -1,6 +1,6 @@
 /** Whether two lidars see the same things in the same place, which checks their poses on the body. */
 #pragma once
-#include "calibration/SharedView.h"
+#include "calibration/internal/OverlapOverTurns.h"
 
 #include <optional>
 #include <vector>
@@ -9,7 +9,7 @@ namespace scanloom
 {
 struct CloudAgreement
 {
-  std::size_t turns = 0;  // these three as in SharedView
+  std::size_t turns = 0;  // these three as in OverlapOverTurns
   std::size_t common = 0;
   double near_share = 0;
 

@@ -1,7 +1,7 @@
 #include "calibration/GroundFinding.h"
 
-#include "core/Angle.h"
-#include "imu/MeanForce.h"
+#include "base/core/Angle.h"
+#include "estimation/imu/MeanForce.h"
 
 #include <fmt/format.h>
 

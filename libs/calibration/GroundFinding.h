@@ -1,8 +1,8 @@
 /** Whether the ground that a lidar sees is below the body; `scanloom doctor` and `scanloom slam` say it alike. */
 #pragma once
+#include "base/core/Field.h"
+#include "base/core/Finding.h"
 #include "calibration/GroundPlane.h"
-#include "core/Field.h"
-#include "core/Finding.h"
 
 #include <optional>
 #include <string>

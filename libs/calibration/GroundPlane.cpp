@@ -1,7 +1,7 @@
 #include "calibration/GroundPlane.h"
 
-#include "core/Decompositions.h"
-#include "preprocessing/Thin.h"
+#include "base/core/Decompositions.h"
+#include "estimation/preprocessing/Thin.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

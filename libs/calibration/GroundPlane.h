@@ -1,6 +1,6 @@
 /** The ground plane in the points of a lidar, and so the direction of up without an IMU. */
 #pragma once
-#include "core/PointCloud.h"
+#include "base/core/PointCloud.h"
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 #include "calibration/ImuMountEstimate.h"
 
-#include "core/Angle.h"
-#include "core/Decompositions.h"
-#include "imu/GyroAgreement.h"
+#include "base/core/Angle.h"
+#include "base/core/Decompositions.h"
+#include "estimation/imu/GyroAgreement.h"
 
 #include <Eigen/Geometry>
 

@@ -1,7 +1,7 @@
 /** Pose and clock of the IMU on the body by what a lidar saw of the drive. */
 #pragma once
-#include "calibration/ImuMountProblem.h"
-#include "calibration/MountCovariance.h"
+#include "calibration/internal/ImuMountProblem.h"
+#include "calibration/internal/MountCovariance.h"
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "calibration/ImuMountReport.h"
 
-#include "calibration/MountNumbers.h"
-#include "core/Angle.h"
+#include "base/core/Angle.h"
+#include "calibration/internal/MountNumbers.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

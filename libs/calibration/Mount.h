@@ -1,8 +1,8 @@
 /** Pose and clock of a lidar on the body, and what it sees with them. */
 #pragma once
-#include "calibration/LidarScans.h"
-#include "core/StampedPose.h"
-#include "ndt/View.h"
+#include "base/core/StampedPose.h"
+#include "calibration/internal/LidarScans.h"
+#include "estimation/ndt/View.h"
 
 #include <optional>
 
@@ -14,7 +14,7 @@ struct Mount
   double clock_offset = 0;  // s: its stamps are so much later than the reference's for the same instant
 };
 
-/** How views show stems (ndt/ThinBodies.h). */
+/** How views show stems (ndt/StemAxisCorrection.h). */
 enum class Stems
 {
   AsSeen,  // best where both lidars see the same sides: moved by few points each, they put a lidar 6 mm off, not 3 mm

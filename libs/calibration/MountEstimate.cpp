@@ -1,6 +1,6 @@
 #include "calibration/MountEstimate.h"
 
-#include "calibration/MountFit.h"
+#include "calibration/internal/MountFit.h"
 
 #include <cmath>
 #include <cstddef>
@@ -71,7 +71,7 @@ class LevelOfDrive
     for (int round = 0; round < kRounds; ++round)
     {
       const StationCells lidar = cellsOfLidar(stations_, mount, trajectory_, level_);
-      std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
+      std::vector<CellCorrespondences> pairs = stationPairs(reference_, lidar);
       const MountMinimum minimum = minimiseMount(pairs, twists_, clock_, level_.d2);
       mount = moved(mount, minimum.correction);
       length = lengthOf(minimum.correction);
@@ -107,7 +107,7 @@ class LevelOfDrive
   Curvature curvatureAt(const Mount& mount) const
   {
     const StationCells lidar = cellsOfLidar(stations_, mount, trajectory_, level_);
-    std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
+    std::vector<CellCorrespondences> pairs = stationPairs(reference_, lidar);
     const Matrix7d hessian = hessianOf(pairs, twists_, {}, level_.d2);
     return {hessian, mountEquations(pairs, twists_, {}, level_.d2).gradients};
   }

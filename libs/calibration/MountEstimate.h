@@ -1,7 +1,7 @@
 /** Pose and clock of a lidar on the body by what a reference lidar saw at the same places of a drive. */
 #pragma once
-#include "calibration/MountCovariance.h"
-#include "calibration/StationMaps.h"
+#include "calibration/internal/MountCovariance.h"
+#include "calibration/internal/StationMaps.h"
 
 #include <vector>
 

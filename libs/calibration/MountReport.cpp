@@ -1,6 +1,6 @@
 #include "calibration/MountReport.h"
 
-#include "calibration/MountNumbers.h"
+#include "calibration/internal/MountNumbers.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

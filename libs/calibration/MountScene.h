@@ -1,6 +1,6 @@
 /** What two lidars saw at one place, to look at: before the calibration and after it. */
 #pragma once
-#include "calibration/Stations.h"
+#include "calibration/internal/Stations.h"
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #include "calibration/MountSearch.h"
 
+#include "base/core/Angle.h"
 #include "calibration/GroundPlane.h"
-#include "calibration/MountEquations.h"
-#include "calibration/StationMaps.h"
-#include "core/Angle.h"
+#include "calibration/internal/MountEquations.h"
+#include "calibration/internal/StationMaps.h"
 
 #include <algorithm>
 
@@ -43,7 +43,7 @@ class LevelOfSearch
   Mount refined(Mount mount) const
   {
     const StationCells lidar = cellsOfLidar(stations_, mount, trajectory_, level_);
-    std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
+    std::vector<CellCorrespondences> pairs = stationPairs(reference_, lidar);
     mount.body_T_sensor = minimiseMount(pairs, at_rest_, Clock::Kept, level_.d2).correction.pose * mount.body_T_sensor;
     return mount;
   }
@@ -52,7 +52,7 @@ class LevelOfSearch
   double scoreOf(const Mount& mount) const
   {
     const StationCells lidar = cellsOfLidar(stations_, mount, trajectory_, level_);
-    std::vector<Neighbourhoods> pairs = stationPairs(reference_, lidar);
+    std::vector<CellCorrespondences> pairs = stationPairs(reference_, lidar);
     return mountEquations(pairs, at_rest_, {}, level_.d2).met_points;
   }
 

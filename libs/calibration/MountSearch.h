@@ -1,6 +1,6 @@
 /** A start for estimateMount() from a pose that may be far off. */
 #pragma once
-#include "calibration/Stations.h"
+#include "calibration/internal/Stations.h"
 
 #include <vector>
 

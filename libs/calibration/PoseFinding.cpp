@@ -1,6 +1,6 @@
 #include "calibration/PoseFinding.h"
 
-#include "core/Angle.h"
+#include "base/core/Angle.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kFarthest = 1, kLargestTurn = 15;  // m, deg: what registration with cells of 2 m can correct
+constexpr double kLargestOffset = 1, kLargestTurn = 15;  // m, deg: what registration with cells of 2 m can correct
 constexpr const char* kMeasureAgain =
     "measure both poses again: x y z in m, yaw pitch roll in deg, of the sensor frame in the body; see that each lidar "
     "has its own metadata file, or let 'scanloom calibrate' find the pose from a drive";
@@ -41,7 +41,7 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
                      limits.pose_angle_not_fit_deg));
   if (fit == Verdict::Ok) return finding;
   finding.verdict = std::max(finding.verdict, fit);
-  if (c.offset.norm() > kFarthest || degrees.norm() > kLargestTurn)
+  if (c.offset.norm() > kLargestOffset || degrees.norm() > kLargestTurn)
     finding.mend = fmt::format(
         "{}; registration cannot measure so large an error: compare 'turns' and 'up' of the IMUs", kMeasureAgain);
   else
@@ -52,7 +52,7 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
   return finding;
 }
 
-Finding steadinessFinding(const std::string& lidar, const std::optional<SharedView>& on_the_way,
+Finding steadinessFinding(const std::string& lidar, const std::optional<OverlapOverTurns>& on_the_way,
                           const PoseLimits& limits)
 {
   Finding finding{lidar, "steadiness", Verdict::NotMeasured, "too few points that are seen again on the way"};

@@ -1,9 +1,9 @@
 /** Whether the poses of two lidars on the body fit what both see; `scanloom doctor` and `scanloom slam` say it alike.
  */
 #pragma once
+#include "base/core/Field.h"
+#include "base/core/Finding.h"
 #include "calibration/CloudAgreement.h"
-#include "core/Field.h"
-#include "core/Finding.h"
 
 #include <optional>
 #include <string>
@@ -47,5 +47,6 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
  * About a lidar alone: whether what it sees stays in place while the machine drives. A lidar that is mounted the other
  * way round turns against the body, and one with another's beam angles bends the ground.
  */
-Finding steadinessFinding(const std::string& lidar, const std::optional<SharedView>& on_the_way, const PoseLimits&);
+Finding steadinessFinding(const std::string& lidar, const std::optional<OverlapOverTurns>& on_the_way,
+                          const PoseLimits&);
 }  // namespace scanloom

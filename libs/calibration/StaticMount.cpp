@@ -1,8 +1,8 @@
 #include "calibration/StaticMount.h"
 
-#include "calibration/MountFit.h"
-#include "ndt/LidarInformation.h"
-#include "ndt/Registration.h"
+#include "calibration/internal/MountFit.h"
+#include "estimation/ndt/LidarInformation.h"
+#include "estimation/ndt/Registration.h"
 
 #include <algorithm>
 #include <optional>
@@ -54,7 +54,7 @@ class Instant
       for (int round = 0; round < kRoundsAtRest; ++round)
       {
         const StationCells own = cellsOfLidar(stations_, mount, atRest(), level);
-        std::vector<Neighbourhoods> pairs = stationPairs(known, own);
+        std::vector<CellCorrespondences> pairs = stationPairs(known, own);
         const MountMinimum minimum = minimiseMount(pairs, {Vector6d::Zero()}, Clock::Kept, level.d2);
         mount.body_T_sensor = minimum.correction.pose * mount.body_T_sensor;
         if (boxMinus(minimum.correction.pose, Rigid::identity()).cwiseQuotient(stepOfMetres()).norm() < kSettledAtRest)

@@ -1,4 +1,6 @@
 /** `scanloom doctor` as a person meets it. */
+#include "mrpt/edit/smallRawlog.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -81,6 +83,17 @@ TEST(Doctor, namesTheKeyOfAPortThatIsWrong)
   EXPECT_EQ(ended.status, 3);
   EXPECT_THAT(ended.output, HasSubstr("none at port 9999"));
   EXPECT_THAT(ended.output, HasSubstr("lidar2_port = 7504"));
+}
+TEST(Doctor, examinesARawlogsOrderAndTimesToo)
+{
+  const TemporaryFolder folder;
+  const std::string rawlog = writeSmallRawlog(folder / "in.rawlog").string();
+  const auto json = nlohmann::json::parse(doctor(rawlog + " --json").output);
+  EXPECT_EQ(json["rawlog"]["labels"]["lidar"]["count"], 4);
+  EXPECT_FALSE(json["findings"].empty());
+
+  std::filesystem::resize_file(rawlog, std::filesystem::file_size(rawlog) * 2 / 3);
+  EXPECT_EQ(doctor(rawlog).status, 3) << "damaged";
 }
 }  // namespace
 }  // namespace scanloom::doctor_unittest

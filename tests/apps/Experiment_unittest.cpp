@@ -133,16 +133,22 @@ TEST(ExperimentVerb, keepsPacketsOnlyIfAsked)
   EXPECT_EQ(packetsIn(folder).size(), 1U);
 }
 
-TEST(ExperimentVerb, aRunOnTheSharedPacketsEqualsSlamThatSimulatesOnTheWay)
+TEST(ExperimentVerb, aRunOnTheSharedPacketsEqualsSlamOfTheDriveWrittenAlone)
 {
   const TemporaryFolder folder;
   ASSERT_EQ(experiment(folder, "--set experiment.lidars=left,right").status, 0);
-  ASSERT_EQ(scanloom("slam -c " SCANLOOM_SOURCE_DIR "/params/simulated_rig.ini --simulate " SCANLOOM_SOURCE_DIR
+  ASSERT_EQ(scanloom("simulate -c " SCANLOOM_SOURCE_DIR
                      "/params/simulation/sparse.ini --set simulated_drive.duration=20 --set "
-                     "simulated_work.work_min=0 --set simulated_work.work_max=1 --set output.maps=false --out-dir " +
-                     (folder / "alone").string())
+                     "simulated_work.work_min=0 --set simulated_work.work_max=1 --out-dir " +
+                     (folder / "recording").string())
                 .status,
             0);
+  setenv("SCANLOOM_RECORDING", (folder / "recording").c_str(), 1);
+  ASSERT_EQ(
+      scanloom("slam -c " SCANLOOM_SOURCE_DIR "/params/dual_os0_recording.ini --set output.maps=false --out-dir " +
+               (folder / "alone").string())
+          .status,
+      0);
 
   const std::filesystem::path run = *std::filesystem::directory_iterator(folder / "sweep/runs");
   for (const char* name : {"trajectory.tum", "trajectory_imu.tum", "trajectory.csv"})

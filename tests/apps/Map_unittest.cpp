@@ -1,9 +1,9 @@
 /** `scanloom map` and `scanloom view` as a person meets them. */
-#include "edit/smallRawlog.h"
-#include "formats/CloudFile.h"
-#include "formats/Trajectory.h"
-#include "maps/OctoMapFile.h"
-#include "maps/SimpleMapReader.h"
+#include "base/formats/CloudFile.h"
+#include "base/formats/Trajectory.h"
+#include "mrpt/edit/smallRawlog.h"
+#include "mrpt/maps/OctoMapFile.h"
+#include "mrpt/maps/SimpleMapReader.h"
 #include "support/ChildProcess.h"
 
 #include <gmock/gmock.h>

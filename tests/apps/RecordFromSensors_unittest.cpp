@@ -1,5 +1,5 @@
 /** `scanloom record` that knows of two lidars their addresses only. */
-#include "mrpt_bridge/RawlogReader.h"
+#include "mrpt/observations/RawlogReader.h"
 #include "support/ChildProcess.h"
 #include "support/FakeSensor.h"
 #include "support/TemporaryFolder.h"
@@ -14,7 +14,7 @@
 #include <array>
 #include <fstream>
 
-#include "lidar/OusterMetadata.h"
+#include "input/lidar/OusterMetadata.h"
 
 namespace scanloom::record_from_sensors_unittest
 {

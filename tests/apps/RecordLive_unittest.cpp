@@ -1,7 +1,7 @@
 /** `scanloom record` on lidars of the loopback interface: how it ends, and what is on disk when it does. */
-#include "mrpt_bridge/RawlogReader.h"
-#include "packets/CaptureReader.h"
-#include "rig/RigReplay.h"
+#include "input/packets/CaptureReader.h"
+#include "input/rig/internal/RigReplay.h"
+#include "mrpt/observations/RawlogReader.h"
 #include "support/ChildProcess.h"
 #include "support/RecordedLidars.h"
 #include "support/TemporaryFolder.h"

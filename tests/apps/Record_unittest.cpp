@@ -1,5 +1,5 @@
 /** `scanloom record` of captures, as a person meets it. */
-#include "mrpt_bridge/RawlogInfo.h"
+#include "mrpt/observations/RawlogInfo.h"
 #include "support/ChildProcess.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"

@@ -1,7 +1,7 @@
 /** A recording on the command line, without a configuration. */
-#include "formats/TrajectoryReader.h"
-#include "packets/CaptureReader.h"
-#include "rawlogs/Conversions.h"
+#include "base/formats/TrajectoryReader.h"
+#include "input/packets/CaptureReader.h"
+#include "input/rawlogs/Conversions.h"
 #include "support/PacketRawlogFile.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"

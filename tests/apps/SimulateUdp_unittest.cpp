@@ -1,6 +1,6 @@
 /** `scanloom simulate --udp` and verbs that know of its lidars the addresses only. */
-#include "formats/Trajectory.h"
-#include "mrpt_bridge/RawlogReader.h"
+#include "base/formats/Trajectory.h"
+#include "mrpt/observations/RawlogReader.h"
 #include "support/ChildProcess.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"

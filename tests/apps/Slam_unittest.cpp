@@ -5,7 +5,7 @@
 #include <cstring>
 #include <string>
 
-#include "formats/Trajectory.h"
+#include "base/formats/Trajectory.h"
 #include "support/ChildProcess.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"

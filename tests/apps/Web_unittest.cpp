@@ -1,9 +1,9 @@
-/** --web as a person gives it; what the page does: tests/live_view. */
+/** --web as a person gives it; what the page does: tests/run/page. */
 #include "Web.h"
 
 #include <gmock/gmock.h>
 
-#include "core/ConfigError.h"
+#include "base/core/ConfigError.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 #include "support/runProgram.h"

@@ -15,7 +15,7 @@ struct Target
   Content content;
   std::string arguments;
 
-  /** "edit rawlog.rawlog --check" */
+  /** "doctor drive.rawlog --json" */
   std::string name() const;
 };
 

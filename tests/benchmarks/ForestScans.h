@@ -1,10 +1,10 @@
 /** Scans of a lidar that stands still in a simulated stand: the pose of each is known exactly. */
 #pragma once
-#include "config/Configuration.h"
-#include "core/Rigid.h"
-#include "simulation/Random.h"
-#include "simulation/RecordingOptions.h"
-#include "simulation/World.h"
+#include "base/config/Configuration.h"
+#include "base/core/Rigid.h"
+#include "lab/simulation/RecordingOptions.h"
+#include "lab/simulation/internal/Random.h"
+#include "lab/simulation/internal/World.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 /** Scans the size of two OS0-128, simulated: what registration is measured on. */
 #pragma once
-#include "ndt/RayWorld.h"
+#include "estimation/ndt/RayWorld.h"
 
 namespace scanloom
 {

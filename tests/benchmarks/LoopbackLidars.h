@@ -1,7 +1,7 @@
 /** Simulated OS-128 lidars that send over the loopback interface from a process of their own, as fast as wanted. */
 #pragma once
 #include "RigOfPackets.h"
-#include "rig/Rig.h"
+#include "input/rig/Rig.h"
 #include "support/UdpSender.h"
 
 #include <sys/mman.h>

@@ -3,8 +3,8 @@
  * floods: 2000 requests a second for the page's largest file, none of whose answers it reads.
  */
 #pragma once
-#include "live_view/LiveServer.h"
-#include "packets/SocketAddress.h"
+#include "input/packets/SocketAddress.h"
+#include "run/page/LiveServer.h"
 
 #include <fmt/format.h>
 #include <poll.h>

@@ -1,6 +1,6 @@
 /** Rows of ndt_peers_benchmark: a peer is registered by its own file, which is built only where its packages are. */
 #pragma once
-#include "core/Rigid.h"
+#include "base/core/Rigid.h"
 
 #include <functional>
 #include <string>

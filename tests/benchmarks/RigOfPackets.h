@@ -1,9 +1,9 @@
 /** Packets of rigs of lidars in a forest, for benchmarks: one turn per lidar, made once and cycled for ever. */
 #pragma once
-#include "batching/TimeBatcher.h"
-#include "lidar/Crc64.h"
-#include "lidar/OusterDecoder.h"
-#include "lidar/OusterEncoder.h"
+#include "input/batching/TimeBatcher.h"
+#include "input/lidar/OusterDecoder.h"
+#include "input/lidar/OusterEncoder.h"
+#include "input/lidar/internal/Crc64.h"
 
 #include <memory>
 #include <random>

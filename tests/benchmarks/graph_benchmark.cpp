@@ -1,4 +1,4 @@
-#include "graph/SimulatedDrive.h"
+#include "estimation/graph/SimulatedDrive.h"
 
 #include <benchmark/benchmark.h>
 

@@ -12,10 +12,10 @@
  */
 #include "LoopbackLidars.h"
 #include "PageReaders.h"
-#include "live_view/WatchedInput.h"
-#include "mrpt_bridge/RawlogWriter.h"
-#include "mrpt_bridge/RigObservations.h"
-#include "rig/RigLive.h"
+#include "input/rig/RigLive.h"
+#include "mrpt/observations/RawlogWriter.h"
+#include "mrpt/observations/RigObservations.h"
+#include "run/page/WatchedInput.h"
 
 #include <fmt/format.h>
 #include <signal.h>

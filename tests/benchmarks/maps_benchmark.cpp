@@ -1,7 +1,7 @@
 /** Occupancy of keyframes 4 m apart, two OS0-128 each, against OctoMap's own insertion on one core. */
 #include "ForestScans.h"
-#include "maps/OctoMapExport.h"
-#include "maps/RayInsertion.h"
+#include "mrpt/maps/OctoMapExport.h"
+#include "mrpt/maps/internal/RayInsertion.h"
 
 #include <benchmark/benchmark.h>
 #include <octomap/octomap.h>

@@ -1,6 +1,6 @@
 /** Binning per point, and a whole registration of two scans the size of two OS0-128. */
 #include "benchmarks/FullScan.h"
-#include "ndt/Registration.h"
+#include "estimation/ndt/Registration.h"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>

@@ -2,13 +2,13 @@
  * Registers pairs of scans in simulated stands from guesses that are off, and compares the errors with the covariances
  * that came with them. NEES = e' information e; its mean over many pairs is 6 where the covariances are right.
  */
+#include "base/core/Angle.h"
+#include "base/core/Statistics.h"
 #include "benchmarks/ForestScans.h"
 #include "benchmarks/NeesHistogram.h"
-#include "core/Angle.h"
-#include "core/Statistics.h"
-#include "evaluation/RegistrationTrials.h"
-#include "ndt/Registration.h"
-#include "ndt/briefOf.h"
+#include "estimation/ndt/Registration.h"
+#include "estimation/ndt/briefOf.h"
+#include "lab/evaluation/internal/RegistrationTrials.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

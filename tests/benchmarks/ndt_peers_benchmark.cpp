@@ -3,10 +3,10 @@
  * <pair>/<method>; a turn prepares the source and aligns it from the next guess. Medians over the guesses are in `ms`,
  * `error_mm`, `error_deg`; `success` is the share within 0.1 m and 1 deg.
  */
+#include "base/core/Angle.h"
 #include "benchmarks/FullScan.h"
 #include "benchmarks/PeerTrials.h"
-#include "core/Angle.h"
-#include "ndt/Registration.h"
+#include "estimation/ndt/Registration.h"
 #include "support/PointFile.h"
 
 #include <benchmark/benchmark.h>

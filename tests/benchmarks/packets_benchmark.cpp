@@ -1,5 +1,5 @@
 /** What it costs to get a datagram of 24.8 kB (a packet of an OS-128) out of a socket, with the kernel's stamp. */
-#include "packets/UdpReceiver.h"
+#include "input/packets/UdpReceiver.h"
 #include "support/UdpSender.h"
 
 #include <benchmark/benchmark.h>

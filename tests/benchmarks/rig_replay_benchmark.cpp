@@ -11,9 +11,9 @@
  * `us_per_packet` is processor time with page faults. OS-128, 1024x10, RNG19_RFL8_SIG16_NIR16: packets of 24.8 kB.
  */
 #include "RigOfPackets.h"
-#include "packets/CaptureReader.h"
-#include "packets/CaptureWriter.h"
-#include "rig/RigReplay.h"
+#include "input/packets/CaptureReader.h"
+#include "input/packets/CaptureWriter.h"
+#include "input/rig/internal/RigReplay.h"
 #include "support/pushPacket.h"
 
 #include <benchmark/benchmark.h>

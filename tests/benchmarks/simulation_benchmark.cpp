@@ -1,8 +1,8 @@
 /** Rays per second through the stands of params/simulation/, and what an hour's world takes. */
-#include "config/Configuration.h"
-#include "simulation/Random.h"
-#include "simulation/RecordingOptions.h"
-#include "simulation/World.h"
+#include "base/config/Configuration.h"
+#include "lab/simulation/RecordingOptions.h"
+#include "lab/simulation/internal/Random.h"
+#include "lab/simulation/internal/World.h"
 
 #include <benchmark/benchmark.h>
 #include <unistd.h>

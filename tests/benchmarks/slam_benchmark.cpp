@@ -1,7 +1,7 @@
 // What a scan costs while a machine is followed, and while it is LOST: the second is to be at most five of the first.
-#include "slam/GentleMachine.h"
-#include "slam/LidarInertialSlam.h"
-#include "slam/StandOfStems.h"
+#include "estimation/slam/GentleMachine.h"
+#include "estimation/slam/LidarInertialSlam.h"
+#include "estimation/slam/StandOfStems.h"
 
 #include <benchmark/benchmark.h>
 

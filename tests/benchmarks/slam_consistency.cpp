@@ -2,11 +2,11 @@
  * Localises short simulated drives and compares what is estimated and its covariance with the truth. NEES = e' C^-1 e;
  * its mean is the number of degrees of freedom where the covariances are right.
  */
+#include "base/config/Configuration.h"
+#include "base/core/Statistics.h"
 #include "benchmarks/NeesHistogram.h"
-#include "config/Configuration.h"
-#include "core/Statistics.h"
-#include "simulation/SceneInput.h"
-#include "slam/LidarInertialSlam.h"
+#include "estimation/slam/LidarInertialSlam.h"
+#include "support/SceneInput.h"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -43,8 +43,9 @@ struct Settings
 Settings settingsOf(const Arguments& a)
 {
   const std::string params = std::string(SCANLOOM_SOURCE_DIR) + "/params/";
+  setenv("SCANLOOM_RECORDING", "none", 0);  // which the file names; the drive is simulated
   Configuration all =
-      Configuration::fromFiles({params + "simulated_rig.ini", params + "simulation/" + a.stand + ".ini"});
+      Configuration::fromFiles({params + "dual_os0_recording.ini", params + "simulation/" + a.stand + ".ini"});
   all.set("simulated_drive.route=winding");
   all.set(fmt::format("simulated_drive.duration={}", a.duration));
   all.set(fmt::format("simulated_lidars.lidar1_model=OS0-{}", a.beams));

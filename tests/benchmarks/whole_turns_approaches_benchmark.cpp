@@ -7,8 +7,8 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include "input/whole_turns/WholeTurns.h"
 #include "support/MovingPanels.h"
-#include "whole_turns/WholeTurns.h"
 
 using namespace scanloom;
 using namespace scanloom::panels;

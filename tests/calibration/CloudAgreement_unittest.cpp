@@ -1,23 +1,23 @@
-/** CommonView and CloudAgreement in worlds of stems, with poses that are wrong by a known amount. */
+/** CoVisiblePoints and CloudAgreement in worlds of stems, with poses that are wrong by a known amount. */
 #include "calibration/CloudAgreement.h"
 
-#include "calibration/CommonView.h"
+#include "base/core/So3.h"
+#include "calibration/internal/CoVisiblePoints.h"
 #include "calibration/seenInWorld.h"
-#include "core/So3.h"
 
 #include <gtest/gtest.h>
 
 namespace scanloom::cloud_agreement_unittest
 {
-TEST(CommonView, ofTheSamePlaceAgreesAndOfAnotherDoesNot)
+TEST(CoVisiblePoints, ofTheSamePlaceAgreesAndOfAnotherDoesNot)
 {
   const RayWorld world = forest(1);
   const Rigid left = at(0, 1, 0), right = at(0, -1, 0);
   const PointCloud a = seen(world, {}, left, left, 1), b = seen(world, {}, right, right, 2);
-  const CommonView good = commonView(a, {}, b, right);
+  const CoVisiblePoints good = commonView(a, {}, b, right);
   ASSERT_GT(good.common, 1000u);
   EXPECT_GT(static_cast<double>(good.near) / static_cast<double>(good.common), 0.85);
-  const CommonView lifted = commonView(a, at(0, 0, 0.8), b, right);
+  const CoVisiblePoints lifted = commonView(a, at(0, 0, 0.8), b, right);
   EXPECT_LT(static_cast<double>(lifted.near) / static_cast<double>(lifted.common), 0.3);
 }
 

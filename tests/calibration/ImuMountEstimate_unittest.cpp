@@ -3,7 +3,7 @@
 
 #include "calibration/ImuMountReport.h"
 #include "calibration/seenInWorld.h"
-#include "imu/AnalyticDrive.h"
+#include "estimation/imu/AnalyticDrive.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /** Mounts of lidars from a drive among stems, compared with the poses and clocks by which the drive was made. */
 #include "calibration/MountEstimate.h"
 
-#include "calibration/CommonField.h"
+#include "calibration/FieldOfViewOverlap.h"
 #include "calibration/MountReport.h"
 #include "calibration/MountSearch.h"
 #include "calibration/seenInWorld.h"
@@ -110,7 +110,7 @@ TEST(MountEstimate, ofLidarsThatLookForwardAndBackIsTheirPoseByTheDrive)
   EXPECT_LT(estimate.mount.body_T_sensor.rotation.angularDistance(kRight.rotation) / kDegree, 0.2);
 }
 
-TEST(CommonField, isWhereBothLidarsLook)
+TEST(FieldOfViewOverlap, isWhereBothLidarsLook)
 {
   const Surroundings at_once{0};
   DriveOfTwo drive = driven(1);

@@ -1,8 +1,8 @@
 /** What a lidar sees in a world of planes and stems, with a pose in the body that may not be the believed one. */
 #pragma once
-#include "core/Angle.h"
-#include "core/PointCloud.h"
-#include "ndt/RayWorld.h"
+#include "base/core/Angle.h"
+#include "base/core/PointCloud.h"
+#include "estimation/ndt/RayWorld.h"
 
 #include <cmath>
 #include <vector>

@@ -1,10 +1,10 @@
 // The whole line with a body's IMU that fails: scans go on, every pose is one, and health says what is left of it.
 #include <gtest/gtest.h>
 
-#include "formats/TrajectoryReader.h"
-#include "run/SlamFiles.h"
-#include "run/SlamRun.h"
-#include "simulation/SceneInput.h"
+#include "base/formats/TrajectoryReader.h"
+#include "run/run/SlamFiles.h"
+#include "run/run/SlamRun.h"
+#include "support/SceneInput.h"
 #include "support/TemporaryFolder.h"
 #include "support/harvesterSettings.h"
 

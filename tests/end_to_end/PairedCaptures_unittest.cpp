@@ -2,13 +2,13 @@
 // full turns of two Ousters at once.
 #include <gtest/gtest.h>
 
-#include "lidar/LidarModels.h"
-#include "mrpt_bridge/RawlogReader.h"
-#include "mrpt_bridge/RawlogWriter.h"
-#include "mrpt_bridge/RigObservations.h"
-#include "packets/CaptureReader.h"
-#include "packets/CaptureWriter.h"
-#include "rig/RigReplay.h"
+#include "input/lidar/LidarModels.h"
+#include "input/packets/CaptureReader.h"
+#include "input/packets/CaptureWriter.h"
+#include "input/rig/internal/RigReplay.h"
+#include "mrpt/observations/RawlogReader.h"
+#include "mrpt/observations/RawlogWriter.h"
+#include "mrpt/observations/RigObservations.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 

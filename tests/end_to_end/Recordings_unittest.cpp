@@ -1,14 +1,14 @@
 // The whole line on a stranger's recordings: captures of two lidars and an IMU in, a trajectory out.
 #include <gtest/gtest.h>
 
-#include "evaluation/PositionError.h"
-#include "mrpt_bridge/RawlogInput.h"
-#include "mrpt_bridge/RawlogWriter.h"
-#include "mrpt_bridge/RigObservations.h"
-#include "rig/RigReplay.h"
-#include "rig/openRig.h"
-#include "run/SlamFiles.h"
-#include "run/SlamRun.h"
+#include "input/rig/internal/RigReplay.h"
+#include "input/rig/openRig.h"
+#include "lab/evaluation/PositionError.h"
+#include "mrpt/observations/RawlogInput.h"
+#include "mrpt/observations/RawlogWriter.h"
+#include "mrpt/observations/RigObservations.h"
+#include "run/run/SlamFiles.h"
+#include "run/run/SlamRun.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 #include "support/harvesterSettings.h"

@@ -1,9 +1,9 @@
 // A stranger's recordings with a left lidar that is not where, or not what, the configuration says: slam names it, says
 // by how much, does not blame the IMU, and does not end with success.
-#include "rig/RigReplay.h"
-#include "rig/openRig.h"
-#include "run/SlamFiles.h"
-#include "run/SlamRun.h"
+#include "input/rig/internal/RigReplay.h"
+#include "input/rig/openRig.h"
+#include "run/run/SlamFiles.h"
+#include "run/run/SlamRun.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 #include "support/harvesterSettings.h"

@@ -1,9 +1,9 @@
 /** bits CAPTURE LEFT.json RIGHT.json EXTRINSICS.txt: digests of scans, preintegration and registration, every bit. */
-#include "core/Digest.h"
-#include "imu/Preintegration.h"
-#include "ndt/Registration.h"
-#include "rig/Rig.h"
-#include "rig/openRig.h"
+#include "base/core/Digest.h"
+#include "estimation/imu/Preintegration.h"
+#include "estimation/ndt/Registration.h"
+#include "input/rig/Rig.h"
+#include "input/rig/openRig.h"
 
 #include <cstdio>
 

@@ -3,7 +3,7 @@
 set -eu
 PATH=$(dirname "$1"):$PATH
 compopt() { :; }  # works only while readline completes
-source "$2/completions/scanloom.bash"
+source "$2/apps/scanloom/completions/scanloom.bash"
 
 expect() {  # CHOICE WORD...: completing the last word offers this choice
   COMP_WORDS=("${@:2}")

@@ -26,6 +26,7 @@ unshare --mount --pid --fork --root="$folder/clean" --mount-proc env -i PATH="$P
   apt-get -q -y install --no-install-recommends ./scanloom_*.deb ./scanloom-mrpt-plugin_*.deb mrpt-apps
   scanloom --version
   params=/usr/share/scanloom/params
-  scanloom slam --simulate $params/simulation/demo.ini -c $params/harvester.ini --out-dir slam
-  scanloom record --simulate $params/simulation/demo.ini -o drive.rawlog
+  scanloom simulate -c $params/simulation/demo.ini --out-dir drive
+  scanloom slam drive -c $params/harvester.ini --out-dir slam
+  scanloom record drive -o drive.rawlog
   rawlog-edit -p libscanloom_mrpt.so --info -i drive.rawlog'

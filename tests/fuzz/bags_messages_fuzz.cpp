@@ -4,9 +4,9 @@
  */
 #include <stdexcept>
 
-#include "bags/CloudMessage.h"
-#include "bags/PacketMessages.h"
-#include "bags/SensorMessages.h"
+#include "input/bags/internal/CloudMessage.h"
+#include "input/bags/internal/PacketMessages.h"
+#include "input/bags/internal/SensorMessages.h"
 #include "require.h"
 
 using namespace scanloom;

@@ -12,7 +12,7 @@
 
 #include "../support/FakeLidar.h"
 #include "../support/pushPacket.h"
-#include "batching/TimeBatcher.h"
+#include "input/batching/TimeBatcher.h"
 #include "require.h"
 
 using namespace scanloom;

@@ -2,7 +2,7 @@
  * Any text is either a configuration or a ConfigError.
  * fuzz options: -max_len=512
  */
-#include "config/Configuration.h"
+#include "base/config/Configuration.h"
 
 #include <string_view>
 

@@ -2,8 +2,8 @@
  * Any bytes are either positions or std::invalid_argument. The first byte chooses a beginning that chance would not
  * find, or none. fuzz options: -max_len=512
  */
-#include "formats/PcdReader.h"
-#include "formats/PlyReader.h"
+#include "base/formats/internal/PcdReader.h"
+#include "base/formats/internal/PlyReader.h"
 
 #include <array>
 #include <stdexcept>

@@ -12,8 +12,8 @@
 #include <string>
 
 #include "MemoryFile.h"
-#include "formats/SecondsText.h"
-#include "formats/TrajectoryReader.h"
+#include "base/formats/SecondsText.h"
+#include "base/formats/TrajectoryReader.h"
 
 using namespace scanloom;
 using namespace std::chrono_literals;

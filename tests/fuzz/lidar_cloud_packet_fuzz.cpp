@@ -4,8 +4,8 @@
  */
 #include <algorithm>
 
-#include "lidar/CloudDecoder.h"
-#include "lidar/CloudPacket.h"
+#include "input/lidar/CloudDecoder.h"
+#include "input/lidar/CloudPacket.h"
 #include "require.h"
 
 using namespace scanloom;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "lidar/HesaiDecoder.h"
+#include "input/lidar/internal/HesaiDecoder.h"
 #include "require.h"
 
 using namespace scanloom;

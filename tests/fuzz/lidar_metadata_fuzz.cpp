@@ -9,12 +9,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "../lidar/simpleMetadata.h"
-#include "lidar/HesaiDecoder.h"
-#include "lidar/MetadataKeys.h"
-#include "lidar/OusterDecoder.h"
-#include "lidar/RobosenseDecoder.h"
-#include "lidar/VelodyneDecoder.h"
+#include "../input/lidar/simpleMetadata.h"
+#include "input/lidar/MetadataKeys.h"
+#include "input/lidar/OusterDecoder.h"
+#include "input/lidar/internal/HesaiDecoder.h"
+#include "input/lidar/internal/RobosenseDecoder.h"
+#include "input/lidar/internal/VelodyneDecoder.h"
 #include "require.h"
 
 using namespace scanloom;

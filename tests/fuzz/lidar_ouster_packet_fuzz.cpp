@@ -7,9 +7,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "../lidar/simpleMetadata.h"
-#include "lidar/Crc64.h"
-#include "lidar/FrameFields.h"
+#include "../input/lidar/simpleMetadata.h"
+#include "input/lidar/FrameFields.h"
+#include "input/lidar/internal/Crc64.h"
 #include "require.h"
 
 using namespace scanloom;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "lidar/RobosenseDecoder.h"
+#include "input/lidar/internal/RobosenseDecoder.h"
 #include "require.h"
 
 using namespace scanloom;

@@ -5,7 +5,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "lidar/VelodyneDecoder.h"
+#include "input/lidar/internal/VelodyneDecoder.h"
 #include "require.h"
 
 using namespace scanloom;

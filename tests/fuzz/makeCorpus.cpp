@@ -9,13 +9,13 @@
 #include <iterator>
 #include <map>
 
-#include "../lidar/simpleMetadata.h"
-#include "lidar/HesaiModels.h"
-#include "lidar/MetadataKeys.h"
-#include "lidar/OusterDecoder.h"
-#include "lidar/RobosensePacket.h"
-#include "lidar/VelodynePacket.h"
-#include "packets/CaptureReader.h"
+#include "../input/lidar/simpleMetadata.h"
+#include "input/lidar/MetadataKeys.h"
+#include "input/lidar/OusterDecoder.h"
+#include "input/lidar/internal/HesaiModels.h"
+#include "input/lidar/internal/RobosensePacket.h"
+#include "input/lidar/internal/VelodynePacket.h"
+#include "input/packets/CaptureReader.h"
 
 namespace fs = std::filesystem;
 using namespace scanloom;

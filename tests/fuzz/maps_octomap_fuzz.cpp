@@ -3,7 +3,7 @@
  * std::runtime_error. The first byte chooses the kind, and between the rest as the whole file, as the nodes behind a
  * sound header, and as nodes that are mended to end where the file ends.
  * fuzz options: -max_len=512
- * fuzz sources: maps/OctoMapFile.cpp
+ * fuzz sources: mrpt/maps/OctoMapFile.cpp
  * fuzz libs: scanloom_core octomap octomath
  */
 #include <array>
@@ -13,7 +13,7 @@
 #include <string>
 
 #include "MemoryFile.h"
-#include "maps/OctoMapFile.h"
+#include "mrpt/maps/OctoMapFile.h"
 
 using namespace scanloom;
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "MemoryFile.h"
-#include "bags/BagReader.h"
-#include "core/Bytes.h"
+#include "base/core/Bytes.h"
+#include "input/bags/BagReader.h"
 #include "require.h"
 
 namespace scanloom

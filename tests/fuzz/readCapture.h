@@ -1,7 +1,7 @@
 /** What both kinds of capture files have in common for a fuzz target. */
 #pragma once
 #include "MemoryFile.h"
-#include "packets/CaptureReader.h"
+#include "input/packets/CaptureReader.h"
 
 #include <array>
 #include <stdexcept>

@@ -1,5 +1,5 @@
 /** Our maps in the programs that people open them with. */
-#include "maps/MapFile.h"
+#include "mrpt/maps/MapFile.h"
 #include "screen.h"
 #include "stockTool.h"
 

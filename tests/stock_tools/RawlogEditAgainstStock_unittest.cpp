@@ -1,8 +1,8 @@
 /** Where MRPT's rawlog-edit has the same operation, it gives the same bytes. */
-#include "edit/RawlogCut.h"
-#include "edit/RawlogLabels.h"
-#include "edit/SplitLidars.h"
-#include "edit/smallRawlog.h"
+#include "mrpt/edit/internal/RawlogCut.h"
+#include "mrpt/edit/internal/RawlogLabels.h"
+#include "mrpt/edit/internal/SplitLidars.h"
+#include "mrpt/edit/smallRawlog.h"
 #include "stockTool.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /** What MRPT's rawlog-edit makes of our rawlogs, operation by operation. */
-#include "edit/CloudObservation.h"
-#include "edit/smallRawlog.h"
+#include "mrpt/edit/CloudObservation.h"
+#include "mrpt/edit/smallRawlog.h"
 #include "stockTool.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
-#include "mrpt_bridge/Observations.h"
-#include "mrpt_bridge/RawlogInfo.h"
-#include "mrpt_bridge/RawlogWriter.h"
+#include "mrpt/observations/Observations.h"
+#include "mrpt/observations/RawlogInfo.h"
+#include "mrpt/observations/RawlogWriter.h"
 #include "stockTool.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 /** The plugin in the stock rawlog-grabber with lidars of the loopback interface; its own capture is the reference. */
-#include "mrpt_bridge/RawlogReader.h"
-#include "rig/RigReplay.h"
+#include "input/rig/internal/RigReplay.h"
+#include "mrpt/observations/RawlogReader.h"
 #include "stockTool.h"
 #include "support/ChildProcess.h"
 #include "support/RecordedLidars.h"

@@ -1,6 +1,6 @@
 /** Every INI file of params/rawlog-grabber runs as it is: in our loader and in the stock grabber. */
-#include "mrpt_bridge/RawlogInfo.h"
-#include "rig/RigOptions.h"
+#include "input/rig/RigOptions.h"
+#include "mrpt/observations/RawlogInfo.h"
 #include "stockTool.h"
 #include "support/ChildProcess.h"
 #include "support/TestData.h"

@@ -1,7 +1,7 @@
 /** The plugin in the stock rawlog-grabber, with the INI files of params/; the batcher alone is the reference. */
-#include "mrpt_bridge/RawlogInfo.h"
-#include "mrpt_bridge/RawlogReader.h"
-#include "rig/RigReplay.h"
+#include "input/rig/internal/RigReplay.h"
+#include "mrpt/observations/RawlogInfo.h"
+#include "mrpt/observations/RawlogReader.h"
 #include "stockTool.h"
 #include "support/TestData.h"
 

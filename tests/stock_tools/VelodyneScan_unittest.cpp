@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "../lidar/captures.h"
-#include "../lidar/velodynePackets.h"
+#include "input/lidar/captures.h"
+#include "input/lidar/velodynePackets.h"
 #include "support/shareFound.h"
 
 namespace scanloom::velodyne_scan_unittest

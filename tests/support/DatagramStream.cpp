@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "packets/CaptureReader.h"
+#include "input/packets/CaptureReader.h"
 
 namespace scanloom
 {

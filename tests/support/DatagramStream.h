@@ -1,7 +1,7 @@
 /** Sends recorded datagrams to UDP ports with their recorded timing. */
 #pragma once
-#include "packets/Datagram.h"
-#include "simulation/DatagramSender.h"
+#include "input/packets/Datagram.h"
+#include "lab/simulation/internal/DatagramSender.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,7 +1,7 @@
 /** A lidar of three channels whose packets are easy to read in a test. Not for its own sake: the batcher never asks
  * more. */
 #pragma once
-#include "lidar/PacketDecoder.h"
+#include "input/lidar/PacketDecoder.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "support/FakeSensor.h"
 
-#include "simulation/LocalHttpServer.h"
-#include "simulation/OusterEndpoints.h"
+#include "lab/simulation/internal/LocalHttpServer.h"
+#include "lab/simulation/internal/OusterEndpoints.h"
 #include "support/SensorSections.h"
 
 #include <httplib.h>

@@ -3,9 +3,9 @@
  * becomes of the panels in the scans of a batcher. For the paper's section 1.1: what it costs to put turns together.
  */
 #pragma once
-#include "batching/TimeBatcher.h"
-#include "lidar/OusterDecoder.h"
-#include "lidar/OusterEncoder.h"
+#include "input/batching/TimeBatcher.h"
+#include "input/lidar/OusterDecoder.h"
+#include "input/lidar/OusterEncoder.h"
 #include "support/ScanMeasures.h"
 #include "support/pushPacket.h"
 

@@ -1,6 +1,6 @@
 /** Two recorded lidars as live ones: what they sent, from 127.0.0.2 and 127.0.0.3 to free ports of this computer. */
 #pragma once
-#include "packets/MergedCaptures.h"
+#include "input/packets/MergedCaptures.h"
 #include "support/UdpSender.h"
 
 #include <filesystem>

@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/Bytes.h"
-#include "core/Time.h"
+#include "base/core/Bytes.h"
+#include "base/core/Time.h"
 
 namespace scanloom
 {

@@ -1,6 +1,6 @@
 /** What the points of a scan span in time and space: to compare ways of batching. */
 #pragma once
-#include "batching/Scan.h"
+#include "input/batching/Scan.h"
 
 #include <Eigen/Core>
 

@@ -1,6 +1,6 @@
 /** Sends datagrams to this computer as lidars would, from addresses of their own (127.0.0.2, 127.0.0.3, ...). */
 #pragma once
-#include "packets/Datagram.h"
+#include "input/packets/Datagram.h"
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "packets/FileDescriptor.h"
+#include "input/packets/FileDescriptor.h"
 
 namespace scanloom
 {

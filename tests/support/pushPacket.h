@@ -1,6 +1,6 @@
 /** Packets for a batcher without a router: classified by the decoder of the lidar that the test names. */
 #pragma once
-#include "batching/Batcher.h"
+#include "input/batching/Batcher.h"
 
 namespace scanloom
 {

@@ -1,0 +1,65 @@
+#include "base/core/Angle.h"
+#include "diagnosis/DoctorFindings.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+Finding groundInSensorFrame(const std::string& lidar, const GroundPlane& ground)
+{
+  return {lidar, "ground", Verdict::NotMeasured,
+          fmt::format("{}{:.1f} deg off +z of the sensor frame (its pose on the body is not known)",
+                      groundInWords(ground), degreesBetween(ground.up, Eigen::Vector3d::UnitZ()))};
+}
+
+Finding ownPartsFinding(const LidarExamination& seen)
+{
+  const SelfReturns& parts = seen.own_parts;
+  if (!parts.known) return {seen.name, "own parts", Verdict::NotMeasured, "only seen while the machine drives"};
+  Finding finding{seen.name, "own parts", Verdict::Ok,
+                  fmt::format("{:.1f} % of the points are on the machine itself", 100 * parts.share)};
+  if (parts.box.isEmpty()) return finding;
+  const Eigen::Array3d least = (10 * parts.box.min().array()).floor() / 10;  // outwards, to 0.1 m
+  const Eigen::Array3d most = (10 * parts.box.max().array()).ceil() / 10;
+  finding.says += fmt::format(
+      "; to leave them out: [crop] min_x = {:.1f} max_x = {:.1f} min_y = {:.1f} max_y = {:.1f} min_z = {:.1f} max_z = "
+      "{:.1f}",
+      least.x(), most.x(), least.y(), most.y(), least.z(), most.z());
+  return finding;
+}
+
+Finding groundsFinding(const LidarExamination& seen, const LidarExamination& first, const GeometryLimits& limits)
+{
+  const double angle = degreesBetween(seen.ground->up, first.ground->up);
+  const double height = seen.ground->body_height - first.ground->body_height;
+  Finding finding{seen.name, "common ground", Verdict::Ok,
+                  fmt::format("{:.1f} deg and {:+.3f} m off the ground that '{}' sees", angle, -height, first.name)};
+  if (angle > limits.ground_angle_warning_deg || std::abs(height) > limits.ground_height_warning)
+  {
+    finding.verdict = Verdict::Warning;
+    finding.mend = "roll, pitch or z of one of the two poses is wrong; see pose";
+  }
+  return finding;
+}
+}  // namespace
+
+Findings groundFindings(const RigExamination& rig, std::size_t lidar, const GeometryLimits& limits)
+{
+  const LidarExamination &seen = rig.lidars[lidar], &first = rig.lidars.front();
+  Findings findings;
+  if (const auto& returns = seen.returns)
+    findings.push_back({seen.name, "returns", Verdict::Ok,
+                        fmt::format("{:.1f} % of the shots; 5, 50, 95 % of the returns within {:.1f}, {:.1f}, {:.1f} m",
+                                    100 * returns->share, returns->range_p05, returns->range_p50, returns->range_p95)});
+  findings.push_back(rig.poses_known || !seen.ground ? groundFinding(seen.name, seen.ground, limits)
+                                                     : groundInSensorFrame(seen.name, *seen.ground));
+  findings.push_back(ownPartsFinding(seen));
+  if (lidar > 0 && rig.poses_known && seen.ground && first.ground)
+    findings.push_back(groundsFinding(seen, first, limits));
+  return findings;
+}
+}  // namespace scanloom

@@ -1,0 +1,159 @@
+#include "diagnosis/internal/RigExamination.h"
+
+#include "base/core/Statistics.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+constexpr Duration kLately = 2s;  // long enough to hold a fast packet, too short for drift to matter
+
+Duration leastDelayLately(const std::vector<Arrival>& arrivals)
+{
+  Duration least = arrivals.back().delay();
+  for (const Arrival& arrival : arrivals)
+    if (arrival.received >= arrivals.back().received - kLately) least = std::min(least, arrival.delay());
+  return least;
+}
+
+LidarExamination nameOnly(const LidarEvidence& evidence)
+{
+  LidarExamination seen;
+  seen.name = evidence.name;
+  seen.lidar = evidence.lidar;
+  return seen;
+}
+
+LidarExamination examineLidar(const LidarEvidence& evidence, Duration deadline, const ClockLimits& limits)
+{
+  const Duration least_step = fromSeconds(1e-3 * limits.step_ms);
+  const std::vector<PacketRun> runs = packetRuns(evidence.packets, evidence.lidar);
+  const std::vector<Arrival> arrivals = arrivalsOn(runs, evidence.lidar, least_step);
+
+  LidarExamination seen = nameOnly(evidence);
+  seen.delivery = deliveryOf(runs, evidence.lidar);
+  seen.malformed = evidence.malformed;
+  seen.bad_crc = evidence.bad_crc;
+  seen.flags = sensorFlags(evidence.packets);
+  seen.clock.steps = clockSteps(runs, evidence.lidar, least_step);
+  seen.clock.drift = clockDrift(arrivals, fromSeconds(limits.drift_time));
+  seen.clock.phase = rotorPhase(runs, evidence.lidar, least_step);
+  seen.jitter = arrivalJitter(arrivals, seen.clock.drift, deadline);
+  if (arrivals.empty()) return seen;
+  seen.clock.epoch = epochOf(arrivals.back().stamp, arrivals.back().received);
+  seen.clock.ahead_of_host = -leastDelayLately(arrivals);
+  return seen;
+}
+
+/** From the first stamp of any lidar to the last. */
+struct TimeSpan
+{
+  Timestamp first = Timestamp::max(), last = Timestamp::min();
+};
+
+TimeSpan spanOf(const std::vector<LidarEvidence>& lidars)
+{
+  TimeSpan span;
+  for (const LidarEvidence& lidar : lidars)
+    for (const PacketTrace& packet : lidar.packets)
+    {
+      if (!packet.stamp) continue;
+      span.first = std::min(span.first, *packet.stamp);
+      span.last = std::max(span.last, *packet.stamp);
+    }
+  return span;
+}
+
+/** Samples in the order of their stamps, but for the timing. */
+ImuExamination examineImu(const ImuEvidence& imu, const ImuTiming& timing, const ImuEvidence& first,
+                          const TimeSpan& lidars)
+{
+  ImuExamination seen;
+  seen.name = imu.name;
+  seen.timing = timing;
+  if (const auto force = meanForce(imu.samples)) seen.force_in_body = imu.body_T_imu.rotation * *force;
+  seen.gyro_scale = gyroScale(imu.samples);
+  if (&imu != &first) seen.to_first = gyroAgreement({first.samples, first.body_T_imu}, {imu.samples, imu.body_T_imu});
+  if (lidars.first < lidars.last)
+    seen.lidar_share =
+        std::max(0.0, seconds(std::min(lidars.last, seen.timing.last) - std::max(lidars.first, seen.timing.first)) /
+                          seconds(lidars.last - lidars.first));
+  return seen;
+}
+
+std::optional<ReturnStatistics> returnStatistics(const std::vector<RigSnapshot>& snapshots, std::size_t lidar)
+{
+  std::uint64_t readings = 0, returns = 0;
+  std::vector<double> ranges;
+  for (const RigSnapshot& snapshot : snapshots)
+  {
+    readings += snapshot[lidar].readings;
+    returns += snapshot[lidar].returns;
+    for (const std::uint32_t millimetres : snapshot[lidar].points.range) ranges.push_back(1e-3 * millimetres);
+  }
+  if (readings == 0) return std::nullopt;
+  ReturnStatistics statistics;
+  statistics.share = static_cast<double>(returns) / static_cast<double>(readings);
+  if (ranges.empty()) return statistics;
+  std::sort(ranges.begin(), ranges.end());
+  statistics.range_p05 = quantileOfSorted(ranges, 0.05);
+  statistics.range_p50 = quantileOfSorted(ranges, 0.50);
+  statistics.range_p95 = quantileOfSorted(ranges, 0.95);
+  return statistics;
+}
+
+std::optional<GroundPlane> groundOf(const std::vector<RigSnapshot>& snapshots, std::size_t lidar,
+                                    const LidarDescription& description)
+{
+  std::vector<const PointCloud*> clouds;
+  for (const RigSnapshot& snapshot : snapshots) clouds.push_back(&snapshot[lidar].points);
+  return groundPlane(clouds, description.body_T_sensor.translation);
+}
+
+PairExamination examinePair(const RigEvidence& evidence, std::size_t lidar, std::size_t reference)
+{
+  std::vector<SeenByBoth> pairs;
+  for (const RigSnapshot& snapshot : evidence.snapshots) pairs.push_back({&snapshot[lidar], &snapshot[reference]});
+  return {lidar, reference,
+          cloudAgreement(pairs, evidence.lidars[lidar].lidar.body_T_sensor,
+                         evidence.lidars[reference].lidar.body_T_sensor)};
+}
+}  // namespace
+
+RigExamination examine(RigEvidence evidence, const DoctorLimits& limits)
+{
+  RigExamination rig;
+  static_cast<RigFacts&>(rig) = evidence;
+  for (const LidarEvidence& lidar : evidence.lidars)
+    rig.lidars.push_back(evidence.packets_known ? examineLidar(lidar, evidence.deadline, limits.clocks)
+                                                : nameOnly(lidar));
+  for (std::size_t i = 0; i < rig.lidars.size(); ++i)
+  {
+    rig.lidars[i].returns = returnStatistics(evidence.snapshots, i);
+    rig.lidars[i].ground = groundOf(evidence.snapshots, i, rig.lidars[i].lidar);
+    rig.lidars[i].own_parts = markSelfReturns(evidence.snapshots, i, rig.lidars[i].ground);
+    if (i > 0 && evidence.poses_known) rig.pairs.push_back(examinePair(evidence, i, 0));
+  }
+  const TimeSpan span = spanOf(evidence.lidars);
+  std::vector<ImuTiming> timings;
+  for (ImuEvidence& imu : evidence.imus)
+  {
+    timings.push_back(imuTiming(imu.samples));
+    std::stable_sort(imu.samples.begin(), imu.samples.end(),
+                     [](const ImuSample& a, const ImuSample& b) { return a.stamp < b.stamp; });
+  }
+  for (std::size_t i = 0; i < timings.size(); ++i)
+    rig.imus.push_back(examineImu(evidence.imus[i], timings[i], evidence.imus.front(), span));
+
+  for (std::size_t i = 1; i < rig.lidars.size(); ++i)
+  {
+    const ClockExamination& first = rig.lidars.front().clock;
+    ClockExamination& other = rig.lidars[i].clock;
+    if (first.ahead_of_host && other.ahead_of_host) other.ahead_of_first = *other.ahead_of_host - *first.ahead_of_host;
+    if (first.drift && other.drift) other.drift_to_first = *other.drift - *first.drift;
+  }
+  return rig;
+}
+}  // namespace scanloom

@@ -1,0 +1,127 @@
+#include "estimation/imu/GyroScale.h"
+
+#include "base/core/So3.h"
+#include "estimation/imu/NavState.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kWindow = 0.25;  // s: the engine's vibration averages out, sway of 1 Hz does not
+constexpr std::size_t kWindowsApart = 2;
+constexpr std::ptrdiff_t kEdge = 8;  // the rates at a window's ends are means over this share of it, to reduce noise
+constexpr std::size_t kFewestPairs = 18;
+
+/** Means of one window. */
+struct Window
+{
+  Eigen::Vector3d force = Eigen::Vector3d::Zero(), rate = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();
+};
+
+Window meanOf(const ImuSample* first, const ImuSample* last)
+{
+  Window window;
+  const auto n = static_cast<double>(last - first + 1);
+  for (const ImuSample* sample = first; sample <= last; ++sample)
+  {
+    window.force += sample->accel / n;
+    window.rate += sample->gyro / n;
+  }
+  const auto edge = std::max<std::ptrdiff_t>(1, (last - first + 1) / kEdge);
+  for (std::ptrdiff_t i = 0; i < edge; ++i)
+    window.angular_acceleration += (last[-i].gyro - first[i].gyro) / static_cast<double>(edge);
+  window.angular_acceleration /= seconds(last->stamp - first[edge - 1].stamp);
+  return window;
+}
+
+/** Consecutive; none for an IMU below 8 Hz. */
+std::vector<Window> windowsOf(const std::vector<ImuSample>& samples)
+{
+  std::vector<Window> windows;
+  for (std::size_t first = 0; first < samples.size();)
+  {
+    const Timestamp end = samples[first].stamp + fromSeconds(kWindow);
+    std::size_t next = first;
+    while (next < samples.size() && samples[next].stamp < end) ++next;
+    if (next == samples.size() || next - first < 2) break;
+    windows.push_back(meanOf(&samples[first], &samples[next - 1]));
+    first = next;
+  }
+  return windows;
+}
+
+using Unknowns = Eigen::Matrix<double, 4, 1>;  // scale, scale * r
+struct Row3
+{
+  Eigen::Matrix<double, 3, 4> told;
+  Eigen::Vector3d seen;
+};
+
+std::vector<Row3> rowsOf(const std::vector<Window>& windows)
+{
+  std::vector<Row3> rows;
+  for (std::size_t k = 0; k + kWindowsApart < windows.size(); ++k)
+  {
+    const Window &from = windows[k], &to = windows[k + kWindowsApart];
+    Eigen::Vector3d turned = kWindow / 2 * (from.rate + to.rate);
+    for (std::size_t i = k + 1; i < k + kWindowsApart; ++i) turned += kWindow * windows[i].rate;
+    Row3 row;
+    row.told << -turned.cross(0.5 * (from.force + to.force)), skew(to.angular_acceleration - from.angular_acceleration);
+    row.seen = to.force - from.force;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/** Removes the means, and returns them. */
+Row3 centre(std::vector<Row3>& rows)
+{
+  Row3 mean{Eigen::Matrix<double, 3, 4>::Zero(), Eigen::Vector3d::Zero()};
+  for (const Row3& row : rows)
+  {
+    mean.told += row.told / static_cast<double>(rows.size());
+    mean.seen += row.seen / static_cast<double>(rows.size());
+  }
+  for (Row3& row : rows)
+  {
+    row.told -= mean.told;
+    row.seen -= mean.seen;
+  }
+  return mean;
+}
+}  // namespace
+
+std::optional<GyroScale> gyroScale(const std::vector<ImuSample>& samples)
+{
+  std::vector<Row3> rows = rowsOf(windowsOf(samples));
+  if (rows.size() < kFewestPairs) return std::nullopt;
+  const Row3 mean = centre(rows);
+
+  Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+  Unknowns right = Unknowns::Zero();
+  for (const Row3& row : rows)
+  {
+    information += row.told.transpose() * row.told;
+    right += row.told.transpose() * row.seen;
+  }
+  const Eigen::LLT<Eigen::Matrix4d> solver(information);
+  if (solver.info() != Eigen::Success) return std::nullopt;
+  const Unknowns solution = solver.solve(right);
+
+  double squares = 0;
+  for (const Row3& row : rows) squares += (row.seen - row.told * solution).squaredNorm();
+  // Pairs overlap: only one in kWindowsApart is independent.
+  const double variance = kWindowsApart * squares / (3 * static_cast<double>(rows.size()));
+  GyroScale result;
+  result.scale = solution[0];
+  result.sigma = std::sqrt(variance * solver.solve(Unknowns::Unit(0))[0]);
+  result.tilt_rate = mean.told.col(0).norm() / (kWindowsApart * kWindow * kGravity);
+  return result;
+}
+}  // namespace scanloom

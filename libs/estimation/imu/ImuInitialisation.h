@@ -1,0 +1,62 @@
+/** The first state: attitude by gravity, and the biases at rest. */
+#pragma once
+#include "base/core/Field.h"
+#include "base/core/ImuSample.h"
+#include "estimation/imu/NavState.h"
+
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/** Limits for samples at rest. An engine, however strong, is within them; a slow motion is not. */
+struct StandstillOptions
+{
+  double duration = 2.0;
+  double max_slow_accel = 0.03;
+  double max_slow_gyro_deg = 0.15;
+  double max_mean_gyro_deg = 2.0;
+  double max_gravity_error = 0.5;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.duration, Field{"duration", "s", "length of the standstill", atLeast(1)});
+    visit(o.max_slow_accel,
+          Field{"max_slow_accel", "m/s2",
+                "largest change of the specific force at rest (root mean square of 3 axes, below 3 Hz): the engine's "
+                "vibration is faster, motion is not",
+                above(0)});
+    visit(o.max_slow_gyro_deg, Field{"max_slow_gyro_deg", "deg/s",
+                                     "largest change of the turn rate at rest, as for max_slow_accel", above(0)});
+    visit(o.max_mean_gyro_deg, Field{"max_mean_gyro_deg", "deg/s",
+                                     "largest mean rate that can be a bias; a larger one is a turn", above(0)});
+    visit(o.max_gravity_error,
+          Field{"max_gravity_error", "m/s2", "largest difference of the mean specific force from 9.80665", above(0)});
+  }
+};
+
+/**
+ * The state at the last sample: the body at the map's origin with yaw 0, velocity zero. Tilt and horizontal
+ * accelerometer bias cannot be separated at rest: they are correlated in the covariance, and the smoother separates
+ * them when the machine turns.
+ *
+ * From the last `duration` of the samples; none if they are fewer or not at rest. The gyro bias is the mean rate. Of
+ * the accelerometer's bias only the part along gravity is observable, as |mean| - 9.80665 (which includes the
+ * difference of local from standard gravity, at most 0.03 m/s2). The part across gravity is left at zero with the
+ * deviation `accel_bias_sigma` (m/s2); it tilts the map by bias / gravity. Throws std::invalid_argument if stamps do
+ * not increase.
+ */
+std::optional<NavEstimate> initialiseAtRest(const std::vector<ImuSample>&, const Rigid& body_T_imu,
+                                            const StandstillOptions&, double accel_bias_sigma = 0.05);
+
+/**
+ * For a start in motion or with too few samples: up is the direction of the mean specific force; biases and velocity
+ * are zero with a wide covariance. Throws std::invalid_argument if there is no sample or no specific
+ * force.
+ */
+NavEstimate gravityOnly(const std::vector<ImuSample>&, const Rigid& body_T_imu, double accel_bias_sigma = 0.05);
+
+/** For a start without an IMU: the map is as level as the body is, whose attitude is exact; the velocity is unknown. */
+NavEstimate levelWithBody(Timestamp);
+}  // namespace scanloom

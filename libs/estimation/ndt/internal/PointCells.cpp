@@ -1,0 +1,116 @@
+#include "estimation/ndt/internal/PointCells.h"
+
+#include <cstring>
+#include <limits>
+
+#define INLINE [[gnu::always_inline]] inline
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kLanes = 8;
+// No comparisons: GCC splits those of vectors before it knows the registers of a function's target.
+using Lanes = double __attribute__((vector_size(8 * kLanes)));
+using Bits = std::uint64_t __attribute__((vector_size(8 * kLanes)));
+
+constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
+constexpr std::uint64_t kBitsOfRound = 0x4338000000000000;
+
+struct Axis
+{
+  Bits biased;  // index of the cell, see CellKey
+  Bits fits;    // in its highest bit
+};
+
+struct Cells
+{
+  double edge, inverse_edge, centre;
+  std::uint64_t bits_of_reach;
+  double turn[3][3];  // from points to the grid
+};
+
+INLINE void along(const Lanes& v, const Cells& cells, double* place, Axis& axis)
+{
+  const Lanes quanta = (v * (1 / Moments::kQuantum) + kRound) - kRound;
+
+  // Half a quantum off a boundary, a quotient is farther from a whole number (2^-21) than its rounding error (2^-31).
+  const Lanes shifted = ((quanta + 0.5) * cells.inverse_edge - 0.5) + kRound;
+  const Lanes from_centre = quanta - (shifted - kRound) * cells.edge - cells.centre;
+  std::memcpy(place, &from_centre, sizeof from_centre);
+  std::memcpy(&axis.biased, &shifted, sizeof shifted);
+  axis.biased += static_cast<std::uint64_t>(CellKey::kLimit) - kBitsOfRound;
+
+  // Bits of positive numbers have the order of the numbers; those of infinity and NaN are above them.
+  Bits magnitude;
+  std::memcpy(&magnitude, &v, sizeof v);
+  axis.fits = (magnitude << 1 >> 1) - cells.bits_of_reach;
+}
+
+INLINE void locateAll(std::size_t count, const Cells& cells, PointCells& located)
+{
+  const auto& turn = cells.turn;
+  for (std::size_t i = 0; i < count; i += kLanes)
+  {
+    Lanes px, py, pz;
+    std::memcpy(&px, located.x + i, sizeof px);
+    std::memcpy(&py, located.y + i, sizeof py);
+    std::memcpy(&pz, located.z + i, sizeof pz);
+    Axis x, y, z;
+    along(turn[0][0] * px + turn[0][1] * py + turn[0][2] * pz, cells, located.x + i, x);
+    along(turn[1][0] * px + turn[1][1] * py + turn[1][2] * pz, cells, located.y + i, y);
+    along(turn[2][0] * px + turn[2][1] * py + turn[2][2] * pz, cells, located.z + i, z);
+    Bits key;
+    CellKey::compose(x.biased, y.biased, z.biased, key);
+    key |= ((x.fits & y.fits & z.fits) >> 63) - 1;
+    std::memcpy(located.key + i, &key, sizeof key);
+  }
+}
+
+/** Separate from the arithmetic: a load that spans several recent stores has to wait for them. */
+void widen(const Coordinates& points, PointCells& located)
+{
+  std::size_t i = 0;
+  for (; i < points.count; ++i)
+  {
+    located.x[i] = static_cast<double>(points.x[i * points.stride]);
+    located.y[i] = static_cast<double>(points.y[i * points.stride]);
+    located.z[i] = static_cast<double>(points.z[i * points.stride]);
+  }
+  for (; i % kLanes != 0; ++i) located.x[i] = located.y[i] = located.z[i] = 0;
+}
+
+void locatePortable(std::size_t count, const Cells& cells, PointCells& located) { locateAll(count, cells, located); }
+
+SCANLOOM_AVX2 void locateAvx2(std::size_t count, const Cells& cells, PointCells& located)
+{
+  locateAll(count, cells, located);
+}
+
+SCANLOOM_AVX512 void locateAvx512(std::size_t count, const Cells& cells, PointCells& located)
+{
+  locateAll(count, cells, located);
+}
+}  // namespace
+
+void locate(const Coordinates& points, std::int64_t cell_quanta, const Eigen::Matrix3d& grid_R_points,
+            PointCells& located, Kernel kernel)
+{
+  const auto edge = static_cast<double>(cell_quanta);
+  const double reach = static_cast<double>(CellKey::kLimit - 1) * edge * Moments::kQuantum;
+  Cells cells{edge, 1 / edge, static_cast<double>(PointCells::centreOf(cell_quanta)), 0, {}};
+  std::memcpy(&cells.bits_of_reach, &reach, sizeof reach);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) cells.turn[row][column] = grid_R_points(row, column);
+  widen(points, located);
+  switch (kernel)
+  {
+    case Kernel::Portable:
+      return locatePortable(points.count, cells, located);
+    case Kernel::Avx2:
+      return locateAvx2(points.count, cells, located);
+    case Kernel::Avx512:
+      return locateAvx512(points.count, cells, located);
+  }
+}
+}  // namespace scanloom

@@ -1,0 +1,32 @@
+#include "estimation/slam/ConstantMotion.h"
+
+#include "base/core/So3.h"
+#include "estimation/imu/NavState.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+void ConstantMotion::update(const StateEstimate& estimate)
+{
+  const StampedPose now{estimate.stamp, estimate.map_T_body};
+  if (latest_)
+    turn_rate_ = logSo3(latest_->map_T_body.rotation.conjugate() * now.map_T_body.rotation) /
+                 seconds(now.stamp - latest_->stamp);
+  latest_ = now;
+}
+
+std::vector<ImuSample> ConstantMotion::samplesUntil(Timestamp end)
+{
+  constexpr Duration kPeriod = 10ms;
+  std::vector<ImuSample> samples;
+  while (given_ < end)
+  {
+    given_ = std::min(given_ + kPeriod, end);
+    Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
+    if (latest_) turned = latest_->map_T_body.rotation * expSo3(seconds(given_ - latest_->stamp) * turn_rate_);
+    samples.push_back({given_, turn_rate_, turned.conjugate() * -gravityInMap()});
+  }
+  return samples;
+}
+}  // namespace scanloom

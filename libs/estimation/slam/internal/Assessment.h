@@ -1,0 +1,54 @@
+/** Whether the pose of a scan can be trusted, judged by that scan and the ones before it. */
+#pragma once
+#include "base/core/Field.h"
+#include "estimation/slam/StateEstimate.h"
+#include "estimation/slam/internal/DivergenceDetector.h"
+#include "estimation/slam/internal/InnovationMonitor.h"
+
+#include <optional>
+
+namespace scanloom
+{
+struct TrustOptions
+{
+  double contradiction = 12.0;
+  double restart_after = 10.0;
+  double lost_after = 2.0;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.contradiction,
+          Field{"contradiction", "sigma",
+                "LOST if registrations and IMU predictions are farther apart than this in the median of ten seconds; "
+                "0: never",
+                atLeast(0)});
+    visit(o.restart_after,
+          Field{"restart_after", "s",
+                "after being LOST for this long a new local map begins at the pose that the IMU predicts", atLeast(0)});
+    visit(o.lost_after, Field{"lost_after", "s", "LOST after this long without a trusted registration", above(0)});
+  }
+};
+
+/** What earlier scans tell about the trust in the next one. */
+struct TrustHistory
+{
+  Timestamp last_trusted;
+  std::optional<Timestamp> initialising_until;  // none after a start from standstill
+  InnovationMonitor contradiction;              // between registrations and IMU
+  DivergenceDetector divergence{};              // of estimates from their registrations
+  std::optional<Timestamp> lidar_believed{};    // when the window last began anew at a registration
+  bool imu_silent = false;                      // for kImuSilence or longer up to this scan's end
+  bool lost = false;                            // at the scan before
+};
+
+struct Assessment
+{
+  Health health = Health::Ok;
+  Timestamp last_trusted;     // the estimate's stamp if it is trusted
+  bool contradicted = false;  // registrations and IMU have contradicted each other for seconds
+};
+
+/** `opens_map`: the scan is the first keyframe of a local map, so it needs no registration. */
+Assessment assess(const StateEstimate&, bool opens_map, const TrustHistory&, const TrustOptions&);
+}  // namespace scanloom

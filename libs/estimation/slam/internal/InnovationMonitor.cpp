@@ -1,0 +1,28 @@
+#include "estimation/slam/internal/InnovationMonitor.h"
+
+#include "base/core/Statistics.h"
+
+#include <vector>
+
+namespace scanloom
+{
+namespace
+{
+constexpr Duration kWindow = 10s;
+constexpr std::size_t kFewest = 5;
+}  // namespace
+
+void InnovationMonitor::add(Timestamp stamp, double surprise)
+{
+  last_.emplace_back(stamp, surprise);
+  while (stamp - last_[1 % last_.size()].first >= kWindow) last_.pop_front();
+}
+
+double InnovationMonitor::median() const
+{
+  if (last_.size() < kFewest || last_.back().first - last_.front().first < kWindow) return 0;
+  std::vector<double> surprises;
+  for (const auto& [stamp, surprise] : last_) surprises.push_back(surprise);
+  return upperMedian(std::move(surprises));
+}
+}  // namespace scanloom

@@ -1,0 +1,235 @@
+#include "estimation/slam/internal/ScanRegistration.h"
+
+#include "base/core/Angle.h"
+#include "base/core/Decompositions.h"
+#include "estimation/ndt/AmbiguousPoses.h"
+#include "estimation/ndt/LidarInformation.h"
+#include "estimation/ndt/Minimiser.h"
+#include "estimation/ndt/NormalEquations.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::array kFactors{8, 4, 2, 1};  // cell sizes of the levels over that of the map, coarse first
+
+constexpr double kStep = 3;  // m between starts: alignment finds a pose within 2 m of its start
+
+// Share of the scan's cell size: from farther away its score leads nowhere, or to the wrong stem.
+constexpr double kReachOfCells = 0.3;
+
+struct Scored
+{
+  Rigid pose;
+  double value;
+};
+
+/** Map and scan in cells of several sizes, made once for searches from many places. */
+class Pyramid
+{
+ public:
+  Pyramid(const NdtMap& map, const std::vector<View>& views, NdtOptions cells)
+  {
+    cells.min_points = std::max(cells.min_points, GaussianCell::kMinPointsForCovariance);  // far off, others mislead
+    std::vector<double> sizes;
+    for (const int factor : kFactors)
+    {
+      targets_.push_back(map.coarser(factor));
+      sizes.push_back(factor * map.options().cell_size);
+    }
+    sources_ = ndtLevels(views, sizes, cells);
+  }
+
+  RegistrationResult align(const PoseGuess& guess, const RegistrationOptions& options) const
+  {
+    return alignCoarseToFine(pairLevels(targets_, sources_), guess, options);
+  }
+
+  /**
+   * The `count` starts with the best scores, each moved a few steps towards the minimum; the one with the best score
+   * there comes first. Scores of the starts themselves prefer the middle of the map, where most cells meet. Cells are
+   * large enough for poses between the starts.
+   */
+  std::vector<Rigid> mostPromising(const std::vector<Rigid>& starts, std::size_t count) const
+  {
+    constexpr std::size_t kLevel = 1;
+    RegistrationOptions few;
+    few.d2 = few.first_d2 = 0.05;
+    few.max_iterations = 5;
+    few.neighbours = 7;
+    CellCorrespondences correspondences(targets_[kLevel], sources_[kLevel], few.neighbours);
+    const auto byScore = [](const Scored& a, const Scored& b) { return a.value < b.value; };  // negative
+    std::vector<Scored> best;
+    for (const Rigid& start : starts) best.push_back({start, normalEquations(correspondences, start, few.d2).value});
+    std::stable_sort(best.begin(), best.end(), byScore);
+    best.resize(std::min(count, best.size()));
+    for (Scored& s : best)
+    {
+      const Minimum near = minimise(correspondences, s.pose, {}, few, {});
+      s = {near.target_T_source, near.equations.value};
+    }
+    std::stable_sort(best.begin(), best.end(), byScore);
+    std::vector<Rigid> poses;
+    for (const Scored& s : best) poses.push_back(s.pose);
+    return poses;
+  }
+
+ private:
+  std::vector<NdtMap> targets_, sources_;
+};
+
+/** Of one scan, from several starts. */
+class FineAlignment
+{
+ public:
+  FineAlignment(const NdtMap& map, const std::vector<View>& views, const ScanRegistrationOptions& options,
+                StageTimes& times)
+    : map_(map),
+      options_(options.fine),
+      times_(times),
+      scan_(times.measure("scan_ndt", [&] { return NdtMap(views, options.fine_cells, Grid::Turned); }))
+  {
+  }
+
+  RegistrationResult from(const Rigid& start) const
+  {
+    return times_.measure("fine_alignment", [&] { return align(map_, scan_, start, options_); });
+  }
+
+ private:
+  const NdtMap& map_;
+  const RegistrationOptions& options_;
+  StageTimes& times_;
+  NdtMap scan_;
+};
+
+bool agrees(const RegistrationResult& result, const PoseGuess& guess)
+{
+  constexpr double kUsualSurprise = 5;  // deviations
+  return result.trustworthy() && surpriseOf(result, guess) < kUsualSurprise;
+}
+
+bool fitsAsWell(const RegistrationResult& result, double score)
+{
+  constexpr double kShare = 0.9;
+  return result.score < kShare * score;  // scores are negative
+}
+
+bool isFarFrom(const Rigid& pose, const Rigid& other)
+{
+  constexpr double kMetres = 1, kRadians = 0.1;
+  const Vector6d apart = boxMinus(pose, other);
+  return apart.head<3>().norm() > kMetres || apart.tail<3>().norm() > kRadians;
+}
+
+/** Stricter than trustworthy(), which suffices only where the pose is known roughly. */
+bool isPlace(const RegistrationResult& result)
+{
+  constexpr double kGoodOverlap = 0.5, kMostDeviation = 0.3;  // m
+  return result.outcome == Outcome::Converged && result.overlap >= kGoodOverlap &&
+         result.covariance.topLeftCorner<3, 3>().trace() < kMostDeviation * kMostDeviation;
+}
+}  // namespace
+
+ScanRegistrationOptions withLimitedEffort(ScanRegistrationOptions options)
+{
+  constexpr int kSteps = 15;
+  options.fine.max_iterations = std::min(options.fine.max_iterations, kSteps);
+  return options;
+}
+
+bool isWithinReach(const PoseGuess& guess, const NdtOptions& cells)
+{
+  return guess.covariance && 3 * largestDeviation(*guess.covariance) <= kReachOfCells * cells.cell_size;
+}
+
+RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
+                                   const ScanRegistrationOptions& options, StageTimes& times)
+{
+  if (guess.covariance && !isWithinReach(guess, options.scan_cells))
+    return times.measure("rough_alignment",
+                         [&] { return Pyramid(map, views, options.fine_cells).align(guess, options.rough); });
+  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.scan_cells, Grid::Turned); });
+  return times.measure("rough_alignment", [&] { return align(map, scan, guess.target_T_source, options.rough); });
+}
+
+RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& views, const Rigid& start,
+                                  const ScanRegistrationOptions& options, StageTimes& times)
+{
+  return FineAlignment(map, views, options, times).from(start);
+}
+
+RegistrationResult registerTwice(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
+                                 std::optional<double> usual_score, const ScanRegistrationOptions& options,
+                                 StageTimes& times)
+{
+  const FineAlignment fine(map, views, options, times);
+  std::optional<RegistrationResult> near;
+  if (usual_score && isWithinReach(guess, options.fine_cells))
+  {
+    near = fine.from(guess.target_T_source);
+    if (agrees(*near, guess) && fitsAsWell(*near, *usual_score)) return *near;
+  }
+  const RegistrationResult rough = registerRoughly(map, views, guess, options, times);
+  if (!rough.trustworthy()) return near ? *near : fine.from(guess.target_T_source);
+  const RegistrationResult far = fine.from(rough.target_T_source);
+  if (agrees(far, guess)) return far;
+  if (!near) near = fine.from(guess.target_T_source);
+  return agrees(*near, guess) && fitsAsWell(*near, far.score) ? *near : far;
+}
+
+double surpriseOf(const RegistrationResult& registration, const PoseGuess& predicted)
+{
+  const PoseGuess both(predicted.target_T_source, *predicted.covariance + registration.covariance);
+  return std::sqrt(surprise(both, registration.target_T_source));
+}
+
+Matrix6d covarianceWithin(const SearchArea& area, const RegistrationResult& found)
+{
+  constexpr double kMostTilt = 15 * kDegree, kMostTurn = 25 * kDegree;
+  Vector6d most;
+  most << Eigen::Vector3d::Constant(area.radius + kStep), kMostTilt, kMostTilt, area.headings > 1 ? M_PI : kMostTurn;
+  const Matrix6d expected = most.cwiseAbs2().cwiseInverse().asDiagonal();
+  return inverseOfPositive(found.information + expected);
+}
+
+std::vector<Rigid> startsWithin(const SearchArea& area)
+{
+  const int reach = static_cast<int>(std::ceil(area.radius / kStep));
+  std::vector<Rigid> starts;
+  for (int heading = 0; heading < area.headings; ++heading)
+    for (int x = -reach; x <= reach; ++x)
+      for (int y = -reach; y <= reach; ++y)
+        starts.push_back(area.map_T_body *
+                         Rigid::fromXyzYawPitchRoll(x * kStep, y * kStep, 0, 2 * M_PI * heading / area.headings, 0, 0));
+  return starts;
+}
+
+std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views,
+                                             const std::vector<Rigid>& starts,
+                                             const std::function<bool(const Rigid& map_T_body)>& isPossible,
+                                             const NdtOptions& cells, const RegistrationOptions& options)
+{
+  constexpr double kRivals = 0.8;     // share of the best score with which another place may be the true one
+  constexpr std::size_t kOthers = 2;  // that are tried only where the first is a place
+  const Pyramid pyramid(map, views, cells);
+  std::vector<RegistrationResult> found;
+  for (const Rigid& start : pyramid.mostPromising(starts, 1 + kOthers))
+  {
+    RegistrationResult result = pyramid.align(start, options);
+    if (isPlace(result) && isPossible(result.target_T_source)) found.push_back(std::move(result));
+    if (found.empty()) return std::nullopt;
+  }
+  if (found.empty()) return std::nullopt;
+  const auto best = std::min_element(found.begin(), found.end(), [](auto& a, auto& b) { return a.score < b.score; });
+  const auto isRival = [&](const RegistrationResult& other)
+  { return other.score < kRivals * best->score && isFarFrom(other.target_T_source, best->target_T_source); };
+  if (std::any_of(found.begin(), found.end(), isRival)) return std::nullopt;
+  return *best;
+}
+}  // namespace scanloom

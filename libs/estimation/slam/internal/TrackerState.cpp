@@ -1,0 +1,22 @@
+#include "estimation/slam/internal/TrackerState.h"
+
+namespace scanloom
+{
+Rigid TrackerState::map_T_local() const
+{
+  return smoother.hasAnchor() ? smoother.anchorBody() * local_T_anchor.inverse() : map_T_local_without_anchor;
+}
+
+void TrackerState::anchorAt(const Rigid& local_T_body)
+{
+  smoother.anchorNewest();
+  local_T_anchor = local_T_body;
+}
+
+FixedLagSmoother windowFrom(const NavEstimate& start, const MountedImu& imu, const SmootherOptions& options)
+{
+  return {start.state, start.covariance, imu.body_T_imu, imu.noise, options};
+}
+
+Eigen::Vector3d upInBody(const Rigid& map_T_body) { return map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ(); }
+}  // namespace scanloom

@@ -1,0 +1,148 @@
+#include "input/bags/BagPackets.h"
+
+#include "input/bags/internal/CloudMessage.h"
+#include "input/bags/internal/PacketMessages.h"
+#include "input/packets/CaptureReader.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+using Ports = std::map<std::string, std::uint16_t>;
+using Path = std::filesystem::path;
+
+// Messages are a turn long; the slowest lidars make five turns a second.
+constexpr Duration kHeldBack = 250ms;
+constexpr std::size_t kMostBytesHeld = 64'000'000;
+constexpr std::size_t kMostPorts = 65535;
+
+class BagPackets : public DatagramReader
+{
+ public:
+  BagPackets(const Path& path, const Ports& ports) : bag_(BagReader::open(path)), ports_(ports) {}
+
+  bool next(Datagram& datagram) override
+  {
+    while (!isDue())
+      if (!readMessage())
+      {
+        if (held_.empty()) return false;
+        break;
+      }
+    std::pop_heap(held_.begin(), held_.end(), &isLater);
+    datagram = std::move(held_.back().datagram);
+    held_.pop_back();
+    held_bytes_ -= datagram.payload.size();
+    ++counters_.datagrams;
+    return true;
+  }
+
+  CaptureCounters counters() const override { return counters_; }
+  double progress() const override { return bag_->progress(); }
+
+ private:
+  struct Held
+  {
+    Datagram datagram;
+    std::uint64_t number = 0;  // keeps the order at equal times
+  };
+
+  static bool isLater(const Held& a, const Held& b)
+  {
+    return a.datagram.received != b.datagram.received ? a.datagram.received > b.datagram.received : a.number > b.number;
+  }
+
+  bool isDue() const
+  {
+    return !held_.empty() && (newest_ - held_.front().datagram.received >= kHeldBack || held_bytes_ > kMostBytesHeld);
+  }
+
+  /** False at the end of the bag. */
+  bool readMessage()
+  {
+    BagMessage message;
+    const bool has_message = bag_->next(message);
+    for (std::string& warning : bag_->takeWarnings()) counters_.damages.push_back(std::move(warning));
+    if (!has_message) return false;
+    ++counters_.records;
+    const BagTopic& topic = bag_->topics()[message.topic];
+    const auto port = ports_.find(topic.name);
+    if (port == ports_.end() || !(isPacketType(topic.type) || isCloudType(topic.type)))
+      ++counters_.not_udp;
+    else
+      hold(topic, port->second, message);
+    return true;
+  }
+
+  void hold(const BagTopic& topic, std::uint16_t port, const BagMessage& message)
+  {
+    try
+    {
+      if (isCloudType(topic.type))
+      {
+        const std::vector<std::uint8_t> packet = cloudPacket(timedCloudOf(topic, message.data).points);
+        hold({std::nullopt, packet}, port, message.received);
+        return;
+      }
+      forEachPacket(topic, message.data, [&](const PacketInMessage& packet) { hold(packet, port, message.received); });
+    }
+    catch (const std::logic_error&)  // a message that ends too early, or can't be read
+    {
+      ++counters_.malformed;
+    }
+  }
+
+  void hold(const PacketInMessage& packet, std::uint16_t port, Timestamp message_received)
+  {
+    Held held;
+    held.number = ++number_;
+    held.datagram.received = packet.stamp.value_or(message_received);
+    held.datagram.destination_port = port;
+    held.datagram.payload.assign(packet.bytes.begin(), packet.bytes.end());
+    newest_ = std::max(newest_, held.datagram.received);
+    held_bytes_ += held.datagram.payload.size();
+    held_.push_back(std::move(held));
+    std::push_heap(held_.begin(), held_.end(), &isLater);
+  }
+
+  std::unique_ptr<BagReader> bag_;
+  Ports ports_;
+  std::vector<Held> held_;  // a heap, the earliest first
+  std::size_t held_bytes_ = 0;
+  std::uint64_t number_ = 0;
+  Timestamp newest_ = Timestamp{};
+  CaptureCounters counters_;
+};
+}  // namespace
+
+Ports portsOfTopics(const std::vector<Path>& recordings)
+{
+  std::set<std::string> topics, clouds;
+  for (const BagTopic& topic : topicsOf(recordings))
+  {
+    if (isPacketType(topic.type)) topics.insert(topic.name);
+    if (isCloudType(topic.type)) clouds.insert(topic.name);
+  }
+  if (topics.empty()) topics = clouds;
+  Ports ports;
+  for (const std::string& topic : topics)
+    if (ports.size() < kMostPorts) ports.emplace(topic, static_cast<std::uint16_t>(ports.size() + 1));
+  return ports;
+}
+
+std::vector<std::unique_ptr<DatagramReader>> datagramsOf(const std::vector<Path>& recordings)
+{
+  const Ports ports = portsOfTopics(recordings);
+  std::vector<std::unique_ptr<DatagramReader>> readers;
+  for (const Path& path : recordings)
+    if (isBag(path))
+      readers.push_back(std::make_unique<BagPackets>(path, ports));
+    else
+      readers.push_back(std::make_unique<CaptureReader>(path));
+  return readers;
+}
+}  // namespace scanloom

@@ -1,0 +1,46 @@
+#include "base/core/printable.h"
+#include "input/bags/BagContents.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <nlohmann/json.hpp>
+
+namespace scanloom
+{
+std::string toText(const BagContents& contents)
+{
+  std::string text = fmt::format("{:<44} {:<32} {:>9} {:>9} {:>9}  {}\n", "topic", "type", "messages", "span [s]",
+                                 "rate [Hz]", "frame");
+  for (const TopicContents& topic : contents.topics)
+  {
+    const double span = seconds(topic.last - topic.first);
+    const double rate = span > 0 ? static_cast<double>(topic.messages - 1) / span : 0;
+    text += fmt::format("{:<44} {:<32} {:>9} {:>9.3f} {:>9.2f}  {} {}\n", printable(topic.name), printable(topic.type),
+                        topic.messages, span, rate, printable(topic.frame), printable(topic.note));
+  }
+  for (const auto& [topic, metadata] : contents.metadata)
+    text += fmt::format("metadata of a lidar: {}\n", printable(topic));
+  if (const auto frames = contents.frames.frames(); !frames.empty())
+    text += fmt::format("static frames: {}\n", printable(fmt::format("{}", fmt::join(frames, ", "))));
+  if (contents.unreadable > 0) text += fmt::format("messages that can't be read: {}\n", contents.unreadable);
+  return text;
+}
+
+std::string toJson(const BagContents& contents)
+{
+  nlohmann::json topics = nlohmann::json::array();
+  for (const TopicContents& topic : contents.topics)
+    topics.push_back({{"name", printable(topic.name)},
+                      {"type", printable(topic.type)},
+                      {"messages", topic.messages},
+                      {"first", nanoseconds(topic.first)},
+                      {"last", nanoseconds(topic.last)},
+                      {"frame", printable(topic.frame)}});
+  nlohmann::json metadata = nlohmann::json::array();
+  for (const auto& [topic, text] : contents.metadata) metadata.push_back(printable(topic));
+  const nlohmann::json result = {
+      {"topics", topics}, {"metadata", metadata}, {"unreadable", contents.unreadable}, {"damages", contents.warnings}};
+  return result.dump(2) + "\n";
+}
+}  // namespace scanloom

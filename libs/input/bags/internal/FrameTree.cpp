@@ -1,0 +1,50 @@
+#include "input/bags/internal/FrameTree.h"
+
+#include <algorithm>
+#include <set>
+
+namespace scanloom
+{
+void FrameTree::add(const FrameTransform& t) { links_[t.child] = {t.parent, t.parent_T_child}; }
+
+/** The frame itself, its parent, and so on. A damaged recording may go in circles: then once around. */
+std::vector<FrameTree::Ancestor> FrameTree::ancestorsOf(const std::string& frame) const
+{
+  std::vector<Ancestor> ancestors{{frame, Rigid::identity()}};
+  for (auto link = links_.find(frame); link != links_.end() && ancestors.size() <= links_.size();
+       link = links_.find(link->second.parent))
+    ancestors.push_back({link->second.parent, link->second.parent_T_child * ancestors.back().ancestor_T_frame});
+  return ancestors;
+}
+
+std::optional<Rigid> FrameTree::transform(const std::string& to, const std::string& from) const
+{
+  const std::vector<Ancestor> of_to = ancestorsOf(to);
+  for (const Ancestor& common : ancestorsOf(from))
+  {
+    const auto found =
+        std::find_if(of_to.begin(), of_to.end(), [&](const Ancestor& a) { return a.frame == common.frame; });
+    if (found != of_to.end()) return found->ancestor_T_frame.inverse() * common.ancestor_T_frame;
+  }
+  return std::nullopt;
+}
+
+bool FrameTree::has(const std::string& frame) const
+{
+  const std::vector<std::string> all = frames();
+  return std::binary_search(all.begin(), all.end(), frame);
+}
+
+std::string FrameTree::rootOf(const std::string& frame) const { return ancestorsOf(frame).back().frame; }
+
+std::vector<std::string> FrameTree::frames() const
+{
+  std::set<std::string> names;
+  for (const auto& [child, link] : links_)
+  {
+    names.insert(child);
+    names.insert(link.parent);
+  }
+  return {names.begin(), names.end()};
+}
+}  // namespace scanloom

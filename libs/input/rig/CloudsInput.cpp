@@ -1,0 +1,179 @@
+#include "input/rig/CloudsInput.h"
+
+#include "base/formats/CloudFile.h"
+#include "base/formats/SecondsText.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+namespace scanloom
+{
+namespace
+{
+constexpr Duration kIntervalOfOne = 100ms;
+constexpr Duration kLongestScan = 2s;  // the points' t has 32 bits
+constexpr double kAbsoluteFrom = 1e8;  // s: a time after 1973
+
+Duration medianInterval(const std::vector<Timestamp>& stamps)
+{
+  std::vector<Duration> intervals;
+  for (std::size_t i = 1; i < stamps.size(); ++i) intervals.push_back(stamps[i] - stamps[i - 1]);
+  if (intervals.empty()) return kIntervalOfOne;
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
+
+/** In which the times are of one scan. */
+double unitOf(const std::vector<double>& times)
+{
+  if (times.empty()) return 1;
+  const auto [least, most] = std::minmax_element(times.begin(), times.end());
+  for (const double unit : {1.0, 1e-3, 1e-6})
+    if ((*most - *least) * unit <= seconds(kLongestScan)) return unit;
+  return 1e-9;
+}
+
+/** The places of the points in the order of their times. */
+std::vector<std::uint32_t> inTimeOrder(const std::vector<double>& times)
+{
+  std::vector<std::uint32_t> order(times.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return times[a] < times[b]; });
+  return order;
+}
+
+void setPoint(const Eigen::Vector3f& p, Duration since_start, std::size_t i, PointCloud& points)
+{
+  constexpr float kFarthest = 4e6F;  // m, of what 32 bits of mm can hold
+  points.x[i] = p.x();
+  points.y[i] = p.y();
+  points.z[i] = p.z();
+  points.t[i] = static_cast<std::int32_t>(since_start.count());
+  points.range[i] = static_cast<std::uint32_t>(std::lround(1000 * std::min(p.norm(), kFarthest)));
+}
+
+/** Neighbours with the same t are a column, of at most 65535 points. */
+void addColumns(Scan& scan)
+{
+  const PointCloud& points = scan.points;
+  for (std::size_t first = 0; first < points.size();)
+  {
+    std::size_t end = first;
+    while (end < points.size() && points.t[end] == points.t[first] &&
+           end - first < std::numeric_limits<std::uint16_t>::max())
+      ++end;
+    Column column;
+    column.stamp = scan.start + Duration{points.t[first]};
+    column.first_point = static_cast<std::uint32_t>(first);
+    column.count = static_cast<std::uint16_t>(end - first);
+    column.measurement_id = static_cast<std::uint16_t>(scan.columns.size());
+    std::fill(scan.points.column.begin() + first, scan.points.column.begin() + end, column.measurement_id);
+    scan.columns.push_back(column);
+    first = end;
+  }
+  scan.columns_of = {static_cast<std::uint32_t>(scan.columns.size())};
+}
+
+/** A cloud of one instant, which is the scan's end: so the pose is the cloud's. */
+Scan scanOfInstant(const CloudFile& cloud, Timestamp stamp, Duration interval)
+{
+  Scan scan;
+  scan.start = stamp - interval;
+  scan.period = interval;
+  scan.points.resize(cloud.points.size());
+  for (std::size_t i = 0; i < cloud.points.size(); ++i)
+    setPoint(cloud.points[i], interval - Duration{1}, i, scan.points);
+  addColumns(scan);
+  return scan;
+}
+
+Scan scanOfTimed(const CloudFile& cloud, Timestamp stamp, Duration interval, double unit)
+{
+  const std::vector<std::uint32_t> order = inTimeOrder(cloud.times);
+  const double first = cloud.times[order.front()] * unit;
+  const auto after = [&](double time) { return fromSeconds(time * unit - first); };
+  const Duration span = after(cloud.times[order.back()]);
+  if (span > kLongestScan)
+    throw std::invalid_argument(fmt::format("its points span {:.3g} s: no scan is longer than 2 s", seconds(span)));
+
+  Scan scan;
+  scan.start = first >= kAbsoluteFrom ? Timestamp{fromSeconds(first)} : stamp + fromSeconds(first);
+  scan.period = std::max(interval, span + Duration{1});
+  scan.points.resize(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    setPoint(cloud.points[order[i]], after(cloud.times[order[i]]), i, scan.points);
+  addColumns(scan);
+  return scan;
+}
+}  // namespace
+
+CloudsInput::CloudsInput(std::vector<std::filesystem::path> clouds)
+  : clouds_(std::move(clouds)), times_(cloudTimes(clouds_)), interval_(medianInterval(times_.stamps))
+{
+  const CloudFile first = readCloud(clouds_.front());
+  unit_ = unitOf(first.times);
+  note_ = fmt::format("{} clouds, {}; their stamps: {}", clouds_.size(),
+                      first.times.empty() ? "without times of points: each is taken for one instant"
+                                          : fmt::format("with times of points in units of {:g} s", unit_),
+                      times_.source);
+}
+
+std::optional<SensorEvent> CloudsInput::next(Duration)
+{
+  if (stop_ || next_ == clouds_.size())
+  {
+    ended_ = true;
+    return std::nullopt;
+  }
+  Scan scan = read(next_);
+  if (scan.end() <= last_end_)
+    throw std::runtime_error(
+        fmt::format("{}: its points are not after those of {}", clouds_[next_].string(), clouds_[next_ - 1].string()));
+  last_end_ = scan.end();
+  ++next_;
+  return scan;
+}
+
+Scan CloudsInput::read(std::size_t i) const
+try
+{
+  const CloudFile cloud = readCloud(clouds_[i]);
+  return cloud.times.empty() ? scanOfInstant(cloud, times_.stamps[i], interval_)
+                             : scanOfTimed(cloud, times_.stamps[i], interval_, unit_);
+}
+catch (const std::invalid_argument& error)
+{
+  throw std::runtime_error(fmt::format("{}: {}", clouds_[i].string(), error.what()));
+}
+
+SensorSetup CloudsInput::setup() const
+{
+  SensorSetup setup;
+  setup.header.lidars.resize(1);
+  setup.header.lidars[0].name = "clouds";
+  setup.header.scan_rate = 1 / seconds(interval_);
+  return setup;
+}
+
+double CloudsInput::progress() const { return static_cast<double>(next_) / static_cast<double>(clouds_.size()); }
+
+RigAccount CloudsInput::account() const
+{
+  RigAccount account;
+  account.input = {{"clouds", next_}};
+  return account;
+}
+
+std::vector<std::string> CloudsInput::takeWarnings()
+{
+  if (note_.empty()) return {};
+  return {std::exchange(note_, "")};
+}
+}  // namespace scanloom

@@ -1,0 +1,87 @@
+#include "input/rig/FileKind.h"
+
+#include "base/formats/CompressedFile.h"
+#include "input/bags/BagReader.h"
+#include "input/lidar/LidarModels.h"
+#include "input/lidar/MetadataKeys.h"
+#include "input/packets/describeFile.h"
+#include "input/rawlogs/PacketRawlog.h"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kBytesLookedAt = 4096;
+
+std::string firstBytesOf(const std::filesystem::path& path)
+{
+  std::string bytes(kBytesLookedAt, '\0');
+  CompressedFile file(path);
+  bytes.resize(file.readUpTo(bytes.data(), bytes.size()));
+  return bytes;
+}
+
+bool beginsWith(std::string_view bytes, std::string_view beginning)
+{
+  return bytes.substr(0, beginning.size()) == beginning;
+}
+
+/** KITTI's scans have nothing but points in them: they are told by their ending. */
+bool isCloud(std::filesystem::path path, std::string_view bytes)
+{
+  if (path.extension() == ".gz") path = path.stem();
+  return beginsWith(bytes, "ply\n") || beginsWith(bytes, "ply\r") || beginsWith(bytes, "# .PCD") ||
+         path.extension() == ".pcd" || path.extension() == ".bin";
+}
+
+bool isText(std::string_view bytes)
+{
+  return std::all_of(bytes.begin(), bytes.end(),
+                     [](unsigned char c) { return c >= ' ' || std::isspace(c) || c >= 0x80; });
+}
+
+/** The first line that is neither empty nor a comment. */
+std::string firstLine(const std::string& text)
+{
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+  {
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin != std::string::npos && line[begin] != '#') return line.substr(begin);
+  }
+  return "";
+}
+
+/** An integer stamp in ns and six numbers. */
+bool isImuLine(const std::string& line)
+{
+  const std::size_t stamp = line.find_first_not_of("0123456789");
+  return stamp >= 10 && stamp < line.size() && line[stamp] == ',' && std::count(line.begin(), line.end(), ',') == 6;
+}
+
+FileKind kindOfText(const std::filesystem::path& path, const std::string& text)
+{
+  const std::string first = firstLine(text);
+  if (beginsWith(first, "T_body_")) return FileKind::Extrinsics;
+  if (isImuLine(first)) return FileKind::BodyImu;
+  if (beginsWith(first, "{") && isLidarMetadata(readMetadataText(path.string()))) return FileKind::LidarMetadata;
+  return FileKind::Other;
+}
+}  // namespace
+
+FileKind kindOf(const std::filesystem::path& path)
+{
+  const std::string bytes = firstBytesOf(path);
+  if (beginsLikeCapture(bytes) || isBag(path)) return FileKind::Capture;
+  if (beginsLikeRawlog(bytes)) return FileKind::Rawlog;
+  if (isCloud(path, bytes)) return FileKind::Cloud;
+  if (!bytes.empty() && isText(bytes)) return kindOfText(path, bytes);
+  return FileKind::Other;
+}
+}  // namespace scanloom

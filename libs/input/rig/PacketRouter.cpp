@@ -1,0 +1,252 @@
+#include "input/rig/PacketRouter.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kMostOrigins = 1000;
+constexpr std::size_t kMostStrangersTold = 20;
+constexpr int kPacketsElsewhere = 50;  // at a wrong port, until it is told: a tenth of a second
+constexpr std::size_t kMostPortsWatched = 100;
+
+/** How badly a decoder understands a packet: only the candidates that understand it best are kept. */
+int strangeness(PacketKind kind)
+{
+  switch (kind)
+  {
+    case PacketKind::Lidar:
+    case PacketKind::Imu:
+    case PacketKind::Other:
+      return 0;
+    case PacketKind::BadCrc:
+      return 1;
+    case PacketKind::Malformed:
+      return 2;
+    case PacketKind::Foreign:
+      return 3;
+  }
+  return 3;
+}
+
+bool isUnderstood(PacketKind kind) { return strangeness(kind) == 0; }
+
+bool listensTo(const LidarAddress& address, const DatagramView& datagram)
+{
+  if (address.source && *address.source != datagram.source) return false;
+  const std::uint16_t port = datagram.destination_port;
+  return port != 0 && (port == address.lidar_port || port == address.imu_port);
+}
+
+void refuseWithoutPort(const std::string& label, const LidarAddress& address)
+{
+  if (address.lidar_port == 0)
+    throw std::invalid_argument(
+        fmt::format("lidar '{}' has no UDP port: give its key 'port', or metadata that names one", label));
+}
+}  // namespace
+
+PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars)
+  : lidars_(std::move(lidars)), senders_(lidars_.size()), of_other_senders_(lidars_.size(), 0), heard_(lidars_.size())
+{
+  for (LidarIndex i = 0; i < lidars_.size(); ++i) replace(i, lidars_[i].address, lidars_[i].decoder);
+}
+
+void PacketRouter::replace(LidarIndex lidar, const LidarAddress& address, const PacketDecoder* decoder)
+{
+  refuseWithoutPort(lidars_[lidar].label, address);
+  lidars_[lidar].address = address;
+  lidars_[lidar].decoder = decoder;
+  if (decoder) senders_[lidar].emplace(decoder->description());
+}
+
+std::optional<RoutedPacket> PacketRouter::route(const DatagramView& datagram)
+{
+  const std::optional<Candidate> lidar = decide(datagram);
+  const LidarSender::Verdict sender = lidar ? judgeSender(*lidar, datagram) : LidarSender::Verdict::Refused;
+  if (sender == LidarSender::Verdict::Refused)
+  {
+    ++unmatched_[countedOrigin(datagram)];
+    if (!lidar) noticeWrongPort(datagram);
+    if (!lidar) noticeOtherSensor(datagram);
+    return std::nullopt;
+  }
+  Heard& heard = heard_[lidar->lidar];
+  heard.lidar |= lidar->kind == PacketKind::Lidar;
+  heard.imu |= lidar->kind == PacketKind::Imu;
+  RoutedPacket packet =
+      readPacket(lidar->lidar, *lidars_[lidar->lidar].decoder, lidar->kind, datagram.payload, datagram.received);
+  packet.of_new_sender = sender == LidarSender::Verdict::TakesOver;
+  return packet;
+}
+
+/** Packets that are not understood are counted for the lidar whoever sends them. */
+LidarSender::Verdict PacketRouter::judgeSender(const Candidate& candidate, const DatagramView& datagram)
+{
+  LidarSender& sender = *senders_[candidate.lidar];
+  const std::optional<IpAddress> kept = sender.address();
+  LidarSender::Verdict verdict = LidarSender::Verdict::Kept;
+  if (candidate.kind == PacketKind::Lidar) verdict = sender.judge(datagram.source, datagram.received);
+  if (candidate.kind == PacketKind::Imu && kept && *kept != datagram.source) verdict = LidarSender::Verdict::Refused;
+  if (verdict == LidarSender::Verdict::Kept) return verdict;
+  of_other_senders_[candidate.lidar] += verdict == LidarSender::Verdict::Refused;
+  warnOfSender(candidate.lidar, datagram.source, *kept, verdict);
+  return verdict;
+}
+
+void PacketRouter::warnOfSender(LidarIndex lidar, const IpAddress& source, const IpAddress& kept,
+                                LidarSender::Verdict verdict)
+{
+  const bool is_told = strangers_.size() >= kMostStrangersTold || !strangers_.emplace(lidar, source).second;
+  if (verdict == LidarSender::Verdict::Refused && !is_told)
+    warnings_.push_back(fmt::format(
+        "lidar '{}': {} sends packets like those of {}, at port {}: they are left out and counted; give the lidar its "
+        "key 'address' (the sensor's own IP address)",
+        lidars_[lidar].label, source.text(), kept.text(), lidars_[lidar].address.lidar_port));
+  if (verdict == LidarSender::Verdict::TakesOver)
+    warnings_.push_back(
+        fmt::format("lidar '{}': its packets come from {} now, no longer from {}; if that is not the lidar, give the "
+                    "lidar its key 'address' (the sensor's own IP address)",
+                    lidars_[lidar].label, source.text(), kept.text()));
+}
+
+/** A network can have more senders than memory should be spent on. */
+Origin PacketRouter::countedOrigin(const DatagramView& datagram) const
+{
+  const Origin origin{datagram.destination_port, datagram.source};
+  return unmatched_.size() < kMostOrigins || unmatched_.count(origin) > 0 ? origin : Origin{};
+}
+
+std::optional<PacketRouter::Candidate> PacketRouter::decide(const DatagramView& datagram)
+{
+  Candidates best = bestOf(listenersTo(datagram), datagram.payload);
+  if (best.size() > 1) best = fromKnownSource(best, datagram.source);
+  if (best.size() == 1) return best.front();
+  if (std::any_of(best.begin(), best.end(), [](const Candidate& c) { return c.kind == PacketKind::Lidar; }))
+    warnOfAmbiguity(datagram, best);
+  return std::nullopt;
+}
+
+/** By port and source address, with what the header says. */
+PacketRouter::Candidates PacketRouter::listenersTo(const DatagramView& datagram) const
+{
+  // Lidars that name this very source do not share it with those that take any.
+  const bool named =
+      std::any_of(lidars_.begin(), lidars_.end(),
+                  [&](const RoutedLidar& lidar) { return lidar.address.source && listensTo(lidar.address, datagram); });
+  Candidates candidates;
+  for (LidarIndex i = 0; i < lidars_.size(); ++i)
+  {
+    const RoutedLidar& lidar = lidars_[i];
+    if (lidar.decoder && listensTo(lidar.address, datagram) && lidar.address.source.has_value() == named)
+      candidates.push_back({i, lidar.decoder->kindByHeader(datagram.payload)});
+  }
+  return candidates;
+}
+
+/** Those that understand the packet best; none if it is foreign to all. */
+PacketRouter::Candidates PacketRouter::bestOf(Candidates candidates, Bytes packet) const
+{
+  // The checksum is computed for whom the header names. If it names nobody, the serial number itself may be damaged.
+  const bool any_understands =
+      std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return isUnderstood(c.kind); });
+  int best = strangeness(PacketKind::Malformed);
+  for (Candidate& c : candidates)
+  {
+    const bool in_question = any_understands ? isUnderstood(c.kind) : c.kind == PacketKind::Foreign;
+    if (in_question && !lidars_[c.lidar].decoder->isIntact(packet)) c.kind = PacketKind::BadCrc;
+    best = std::min(best, strangeness(c.kind));
+  }
+  const auto worse = [best](const Candidate& c) { return strangeness(c.kind) > best; };
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), worse), candidates.end());
+  return candidates;
+}
+
+/** Those that have sent from this address before; all if none has. */
+PacketRouter::Candidates PacketRouter::fromKnownSource(const Candidates& candidates, const IpAddress& source) const
+{
+  Candidates from_there;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(from_there),
+               [&](const Candidate& c) { return senders_[c.lidar]->address() == source; });
+  return from_there.empty() ? candidates : from_there;
+}
+
+/** Of a lidar that is not heard where it should be, if it can be no other one's. */
+void PacketRouter::noticeWrongPort(const DatagramView& datagram)
+{
+  Candidates unheard;
+  for (LidarIndex i = 0; i < lidars_.size(); ++i)
+  {
+    const LidarAddress& address = lidars_[i].address;
+    if (!lidars_[i].decoder || address.key.empty() || (address.source && *address.source != datagram.source)) continue;
+    const PacketKind kind = lidars_[i].decoder->kindByHeader(datagram.payload);
+    // IMU packets tell no serial number: those of a sensor that is not there are another one's.
+    const bool is_there = heard_[i].lidar || isElsewhere(i);
+    const bool is_sought =
+        (kind == PacketKind::Lidar && !heard_[i].lidar) || (kind == PacketKind::Imu && !heard_[i].imu && is_there);
+    if (is_sought && lidars_[i].decoder->isIntact(datagram.payload)) unheard.push_back({i, kind});
+  }
+  if (unheard.size() != 1) return;
+  const auto [lidar, kind] = unheard.front();
+  const std::uint16_t port = datagram.destination_port;
+  if (!isToldNow(lidar, kind, port)) return;
+  const LidarAddress& address = lidars_[lidar].address;
+  const bool is_imu = kind == PacketKind::Imu;
+  warnings_.push_back(fmt::format("lidar '{}': its {}packets come to port {}, not to {}: set {}_{} = {}",
+                                  lidars_[lidar].label, is_imu ? "IMU " : "", port,
+                                  is_imu ? address.imu_port : address.lidar_port, address.key,
+                                  is_imu ? "imu_port" : "port", port));
+}
+
+/** At the port of a lidar that is not heard, by the serial number: the metadata are another sensor's. */
+void PacketRouter::noticeOtherSensor(const DatagramView& datagram)
+{
+  for (const Candidate& candidate : listenersTo(datagram))
+  {
+    const PacketDecoder& decoder = *lidars_[candidate.lidar].decoder;
+    if (candidate.kind != PacketKind::Foreign || heard_[candidate.lidar].lidar) continue;
+    const auto serial = decoder.header(datagram.payload).serial;
+    const std::uint16_t port = datagram.destination_port;
+    if (!serial || !decoder.isIntact(datagram.payload) || !isToldNow(candidate.lidar, candidate.kind, port)) continue;
+    warnings_.push_back(
+        fmt::format("lidar '{}': packets to port {} are of serial number {}, its metadata are of {}: give those of {}",
+                    lidars_[candidate.lidar].label, port, *serial, decoder.description().serial, *serial));
+  }
+}
+
+/** Once, after so many of these packets. */
+bool PacketRouter::isToldNow(LidarIndex lidar, PacketKind kind, std::uint16_t port)
+{
+  return elsewhere_.size() < kMostPortsWatched && ++elsewhere_[{lidar, kind, port}] == kPacketsElsewhere;
+}
+
+bool PacketRouter::isElsewhere(LidarIndex lidar) const
+{
+  return std::any_of(elsewhere_.begin(), elsewhere_.end(),
+                     [&](const auto& found)
+                     {
+                       const auto& [of, kind, port] = found.first;
+                       return of == lidar && kind == PacketKind::Lidar;
+                     });
+}
+
+/** One damaged packet must not end a run, and where all are ambiguous the lidars are silent: that is told at the end.
+ */
+void PacketRouter::warnOfAmbiguity(const DatagramView& datagram, const Candidates& candidates)
+{
+  if (!ambiguous_ports_.insert(datagram.destination_port).second) return;
+  std::vector<std::string> labels;
+  for (const Candidate& candidate : candidates) labels.push_back(lidars_[candidate.lidar].label);
+  warnings_.push_back(fmt::format(
+      "a lidar packet from {} at port {} may be of '{}': it holds no serial number, and is left out and counted, as "
+      "all "
+      "like it; give each of these lidars its key 'address' (the sensor's own IP address) or a 'port' of its own",
+      datagram.source.text(), datagram.destination_port, fmt::join(labels, "' or '")));
+}
+}  // namespace scanloom

@@ -1,0 +1,113 @@
+#pragma once
+#include "input/batching/RoutedPacket.h"
+#include "input/packets/Datagram.h"
+#include "input/rig/internal/LidarSender.h"
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace scanloom
+{
+/** Where a lidar's packets arrive. */
+struct LidarAddress
+{
+  std::uint16_t lidar_port = 0;     // never 0
+  std::uint16_t imu_port = 0;       // may be the same; 0 if there is none
+  std::optional<IpAddress> source;  // of the sensor; needed where sensors send to the same port
+  std::string key{};                // of its keys in the configuration: "lidar2" of lidar2_port; empty if there is none
+};
+
+struct RoutedLidar
+{
+  std::string label;  // what the configuration calls the lidar
+  LidarAddress address;
+  const PacketDecoder* decoder = nullptr;  // must outlive the router; null: not known yet, it gets no datagram
+};
+
+/** Sender and port of datagrams. */
+struct Origin
+{
+  std::uint16_t destination_port = 0;
+  IpAddress source;
+
+  bool operator==(const Origin& other) const
+  {
+    return destination_port == other.destination_port && source == other.source;
+  }
+  bool operator<(const Origin& other) const
+  {
+    return std::tie(destination_port, source) < std::tie(other.destination_port, other.source);
+  }
+};
+
+/**
+ * Decides which lidar has sent a datagram, and classifies and reads it once. Tests go from cheap to dear: port and
+ * configured source address; size, type and serial number; the checksum, for the lidars that are left; and last the
+ * source address: where several could have sent it, and against strangers that copy a lidar's serial number (see
+ * LidarSender).
+ */
+class PacketRouter
+{
+ public:
+  /** Throws std::invalid_argument if a lidar has no lidar_port. */
+  explicit PacketRouter(std::vector<RoutedLidar> lidars);
+
+  /** None for a datagram that no lidar has sent, that several could have sent, or that comes from a second sender. */
+  std::optional<RoutedPacket> route(const DatagramView&);
+
+  /** From here on the lidar sends to this address, in this decoder's format. Throws as the constructor does. */
+  void replace(LidarIndex, const LidarAddress&, const PacketDecoder*);
+
+  /** Datagrams that were given to no lidar. Origins beyond the first 1000 are counted under port 0 of no address. */
+  const std::map<Origin, std::uint64_t>& unmatched() const { return unmatched_; }
+
+  /** Those of them that were like this lidar's, but came from another address than its own. */
+  std::uint64_t ofOtherSenders(LidarIndex lidar) const { return of_other_senders_[lidar]; }
+
+  /** What a person should know and mend in the configuration, since the last call. */
+  std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
+
+ private:
+  struct Candidate
+  {
+    LidarIndex lidar = 0;
+    PacketKind kind = PacketKind::Foreign;
+  };
+  using Candidates = std::vector<Candidate>;
+
+  /** Whether packets came to the port where they should. */
+  struct Heard
+  {
+    bool lidar = false, imu = false;
+  };
+
+  Candidates listenersTo(const DatagramView&) const;
+  Candidates bestOf(Candidates, Bytes packet) const;
+  Candidates fromKnownSource(const Candidates&, const IpAddress& source) const;
+  std::optional<Candidate> decide(const DatagramView&);
+  void noticeWrongPort(const DatagramView&);
+  void noticeOtherSensor(const DatagramView&);
+  bool isElsewhere(LidarIndex) const;
+  bool isToldNow(LidarIndex, PacketKind, std::uint16_t port);
+  LidarSender::Verdict judgeSender(const Candidate&, const DatagramView&);
+  Origin countedOrigin(const DatagramView&) const;
+  void warnOfAmbiguity(const DatagramView&, const Candidates&);
+  void warnOfSender(LidarIndex, const IpAddress& source, const IpAddress& kept, LidarSender::Verdict);
+
+  std::vector<RoutedLidar> lidars_;
+  std::vector<std::optional<LidarSender>> senders_;  // of each lidar; none while it is not known
+  std::map<Origin, std::uint64_t> unmatched_;
+  std::vector<std::uint64_t> of_other_senders_;  // of each lidar
+  std::vector<Heard> heard_;                     // of each lidar
+  std::map<std::tuple<LidarIndex, PacketKind, std::uint16_t>, int>
+      elsewhere_;  // packets at another port, and those of another sensor (Foreign) at its port, up to a limit
+  std::set<std::uint16_t> ambiguous_ports_;               // that were told
+  std::set<std::pair<LidarIndex, IpAddress>> strangers_;  // that were told, up to a limit
+  std::vector<std::string> warnings_;
+};
+}  // namespace scanloom

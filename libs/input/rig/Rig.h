@@ -1,0 +1,50 @@
+/** The sensors of a machine, with metadata and poses, ready to be read. */
+#pragma once
+#include "base/formats/EurocImu.h"
+#include "input/batching/TimeBatcher.h"
+#include "input/rig/PacketRouter.h"
+#include "input/rig/RigOptions.h"
+#include "input/rig/internal/RigSensor.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** How a rig without captures receives. */
+struct LiveOptions
+{
+  std::optional<IpAddress> bind_address;    // none: every address of this computer
+  std::size_t receive_buffer = 16'000'000;  // bytes per port, asked of the kernel
+  std::size_t scans_waiting = 10;           // at most, if the consumer is slow; then the oldest is dropped
+  std::filesystem::path capture;            // file for every datagram received; empty: none
+};
+
+struct Rig
+{
+  std::vector<BatchedLidar> lidars;  // a lidar's place here is its sensor_id; without decoder while it is not known
+  std::vector<LidarAddress> addresses;
+  std::vector<RigSensor> sensors;
+  std::vector<std::filesystem::path> captures;
+  std::vector<ImuSample> body_imu;  // as recorded; empty if there is none
+  Duration body_imu_ahead{0};       // these samples come so much earlier than scans of the same time
+  std::optional<Rigid> body_T_imu;  // none if the body has no IMU of its own
+  BatcherOptions batcher;
+  LiveOptions live;
+};
+
+/** For a PacketRouter; the rig must outlive it, or its decoders. */
+std::vector<RoutedLidar> routesOf(const Rig&);
+
+/** Throws ConfigError if two lidars have metadata of one sensor: every packet would be of both or of neither. */
+void refuseOneSensorTwice(const Rig&);
+
+/**
+ * Reads metadata or asks sensors for them, and reads extrinsics and the body's IMU. `only` names the lidars to use, in
+ * any order; empty: all. Throws ConfigError for a name that no lidar has and for a missing pose, and what the readers
+ * throw.
+ */
+Rig makeRig(const RigSettings&, const std::vector<std::string>& only = {});
+}  // namespace scanloom

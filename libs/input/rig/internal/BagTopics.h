@@ -1,0 +1,20 @@
+#pragma once
+#include "base/core/ImuSample.h"
+#include "input/rig/internal/RigSensor.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/**
+ * Of lidars in bags: the keys 'topic' and 'imu_topic' become the ports that stand for the topics (BagPackets.h), and a
+ * topic named by 'metadata' is read. A lidar without port and topic gets the only topic with packets. Throws
+ * ConfigError, naming the topics there are, for a topic that no bag has and for a missing one.
+ */
+void resolveTopics(const std::vector<std::filesystem::path>& recordings, std::vector<RigSensor>&);
+
+/** Throws ConfigError, naming the topics there are, if no bag has it. */
+std::vector<ImuSample> imuOfTopic(const std::vector<std::filesystem::path>& recordings, const std::string& topic);
+}  // namespace scanloom

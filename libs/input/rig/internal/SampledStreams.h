@@ -1,0 +1,25 @@
+#pragma once
+#include "input/packets/IpAddress.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** The datagrams of one sender to one port, or of a topic of a bag, by some of them. */
+struct SampledStream
+{
+  using Packet = std::vector<std::uint8_t>;
+
+  IpAddress source;
+  std::uint16_t port = 0;  // destination
+  std::string topic;       // of a bag, which the port stands for; empty in a capture
+  std::uint64_t datagrams = 0;
+  std::vector<Packet> samples;  // the first ones, and then ever fewer
+};
+
+/** What the first ten seconds of captures hold; by source, then port. Throws what MergedCaptures throws. */
+std::vector<SampledStream> streamsOf(const std::vector<std::filesystem::path>& captures);
+}  // namespace scanloom

@@ -1,0 +1,13 @@
+#include "input/rig/openRig.h"
+
+#include "input/rig/RigLive.h"
+#include "input/rig/internal/RigReplay.h"
+
+namespace scanloom
+{
+std::unique_ptr<SensorInput> openRig(const Rig& rig)
+{
+  if (rig.captures.empty()) return std::make_unique<RigLive>(rig);
+  return std::make_unique<RigReplay>(rig);
+}
+}  // namespace scanloom

@@ -1,0 +1,122 @@
+#include "lab/evaluation/TotalStation.h"
+
+#include "base/config/Names.h"
+#include "base/config/Values.h"
+#include "base/formats/SecondsText.h"
+#include "base/formats/TrajectoryReader.h"
+#include "lab/evaluation/internal/StationColumns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::string_view kBlanks = " \t\r";
+
+char separatorOf(const std::string& line)
+{
+  for (const char separator : {';', '\t', ','})
+    if (line.find(separator) != std::string::npos) return separator;
+  return ' ';
+}
+
+std::vector<std::string> fieldsOf(std::string_view line, char separator)
+{
+  std::vector<std::string> fields;
+  for (std::size_t at = 0; at <= line.size();)
+  {
+    const std::size_t end = std::min(line.find(separator, at), line.size());
+    const std::string_view field = trimmed(line.substr(at, end - at));
+    if (separator != ' ' || !field.empty()) fields.emplace_back(field);
+    at = end + 1;
+  }
+  return fields;
+}
+
+/** The lines of one file, of which the first tells how to read the others. */
+class StationLines
+{
+ public:
+  /** Nothing for a header, a comment or an empty line. */
+  std::optional<StampedPosition> measurement(const std::string& line)
+  {
+    if (line.rfind('#', 0) == 0 || line.find_first_not_of(kBlanks) == std::string::npos) return std::nullopt;
+    if (!begun_ && begin(line)) return std::nullopt;
+    std::vector<std::string> fields = fieldsOf(line, separator_);
+    if (separator_ != ',')
+      for (std::string& field : fields) std::replace(field.begin(), field.end(), ',', '.');
+    const auto field = [&](std::size_t i) { return i < fields.size() ? fields[i] : std::string(); };
+
+    const auto stamp = stationTime(field(columns_.stamp), columns_.stamp_unit);
+    StampedPosition measured{stamp.value_or(Timestamp{}), {}};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const auto a = static_cast<std::size_t>(axis);
+      const auto value = parseNumber(field(columns_.position[a]));
+      if (!stamp || !value)
+        throw std::invalid_argument(
+            fmt::format("expected time, x, y and z in the order of the header (without one: "
+                        "t,x,y,z in s and m), found '{}'",
+                        line));
+      measured.position[axis] = *value * columns_.position_unit[a];
+    }
+    return measured;
+  }
+
+ private:
+  /** @return whether the line is a header. */
+  bool begin(const std::string& line)
+  {
+    begun_ = true;
+    separator_ = separatorOf(line);
+    const std::vector<std::string> fields = fieldsOf(line, separator_);
+    std::string first = fields.front();
+    std::replace(first.begin(), first.end(), ',', '.');
+    if (stationTime(first, 1s)) return false;
+    columns_ = StationColumns::ofHeader(fields);
+    return true;
+  }
+
+  bool begun_ = false;
+  char separator_ = ',';
+  StationColumns columns_;
+};
+}  // namespace
+
+PositionTrack readTotalStation(const std::filesystem::path& path)
+{
+  std::ifstream file(path);
+  if (!file) throw std::invalid_argument(fmt::format("cannot read the total station's '{}'", path.string()));
+
+  PositionTrack track;
+  StationLines lines;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) try
+    {
+      const auto measurement = lines.measurement(line);
+      if (!measurement) continue;
+      if (!track.empty() && measurement->stamp <= track.back().stamp)
+        throw std::invalid_argument(fmt::format("stamp {} is not after {}: sort the file by time",
+                                                secondsText(measurement->stamp), secondsText(track.back().stamp)));
+      track.push_back(*measurement);
+    }
+    catch (const std::invalid_argument& problem)
+    {
+      throw std::invalid_argument(fmt::format("{}:{}: {}", path.string(), number, problem.what()));
+    }
+  return track;
+}
+
+bool isTotalStation(const std::filesystem::path& reference)
+{
+  const std::string ending = reference.extension().string();
+  return (ending == ".csv" && !isEuroc(reference)) || ending == ".tsv";
+}
+}  // namespace scanloom

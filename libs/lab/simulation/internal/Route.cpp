@@ -1,0 +1,135 @@
+#include "lab/simulation/internal/Route.h"
+
+#include "lab/simulation/internal/Random.h"
+#include "lab/simulation/internal/SmoothStep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace scanloom
+{
+namespace
+{
+constexpr double kWorkFade = 1.0;  // s
+
+/** 0 before `begin`, 1 after it by `fade` and until `end`, 0 again after `end` by `fade`. */
+Taylor pulse(double t, double begin, double end, double fade)
+{
+  const SmoothStep up = smoothStep((t - begin) / fade), down = smoothStep((t - end) / fade);
+  return {up.value - down.value, (up.first - down.first) / fade, (up.second - down.second) / (fade * fade)};
+}
+
+void require(bool met, const std::string& problem)
+{
+  if (!met) throw std::invalid_argument(problem);
+}
+}  // namespace
+
+Route::Route(const DriveOptions& drive, const WorkCycleOptions& work, std::uint64_t seed)
+  : duration_(drive.duration), speed_up_(drive.speed_up)
+{
+  if (drive.route == "winding")
+    addWinding(drive);
+  else if (drive.route == "work")
+    addWorkCycles(drive, work, seed);
+  else
+    throw std::invalid_argument(fmt::format("[simulated_drive] route = '{}': must be winding or work", drive.route));
+}
+
+void Route::addWinding(const DriveOptions& drive)
+{
+  const double moving = drive.duration - 2 * drive.standstill - drive.speed_up;
+  require(moving >= drive.speed_up,
+          fmt::format("[simulated_drive] duration = {} s: must be at least 2 (standstill + speed_up) = {} s",
+                      drive.duration, 2 * (drive.standstill + drive.speed_up)));
+  legs_.push_back({drive.standstill, moving, 0, drive.speed, false});
+  farthest_ = drive.speed * moving;
+}
+
+void Route::addWorkCycles(const DriveOptions& drive, const WorkCycleOptions& work, std::uint64_t seed)
+{
+  const auto ordered = [](const char* name, double least, double most)
+  {
+    require(least <= most,
+            fmt::format("[simulated_work] {0}_min = {1}: must be at most {0}_max = {2}", name, least, most));
+  };
+  ordered("step", work.step_min, work.step_max);
+  ordered("speed", work.speed_min, work.speed_max);
+  ordered("work", work.work_min, work.work_max);
+  require(work.step_min / work.speed_max >= drive.speed_up,
+          fmt::format("[simulated_drive] speed_up = {} s: must be at most step_min / speed_max = {} s of "
+                      "[simulated_work], or the shortest drive brakes before it has sped up",
+                      drive.speed_up, work.step_min / work.speed_max));
+  require(work.turn_after == 0 || work.turn_after / work.return_speed >= drive.speed_up,
+          "[simulated_work] turn_after: must be 0, or long enough to speed up on the way back");
+
+  double x = 0;
+  for (double t = drive.standstill; t < drive.duration;)
+  {
+    const bool returns = work.turn_after > 0 && x >= work.turn_after;
+    Random random(seed, RandomStream::Work, legs_.size());
+    const double step = random.uniform(work.step_min, work.step_max);
+    const double speed = returns ? work.return_speed : random.uniform(work.speed_min, work.speed_max);
+    const double stop = returns ? drive.standstill : random.uniform(work.work_min, work.work_max);
+    const double distance = returns ? -x : step;
+    legs_.push_back({t, std::abs(distance) / speed, x, std::copysign(speed, distance), !returns});
+    x = returns ? 0 : x + distance;
+    t = endOf(legs_.back()) + stop;
+    farthest_ = std::max(farthest_, x);
+  }
+}
+
+const Route::Leg* Route::legAt(double t) const
+{
+  const auto next =
+      std::upper_bound(legs_.begin(), legs_.end(), t, [](double at, const Leg& leg) { return at < leg.begin; });
+  return next == legs_.begin() ? nullptr : &*(next - 1);
+}
+
+Taylor Route::progress(double t) const
+{
+  const Leg* leg = legAt(t);
+  if (!leg) return 0.0;
+  const SmoothStep start = smoothStep((t - leg->begin) / speed_up_);
+  const SmoothStep stop = smoothStep((t - leg->begin - leg->moving) / speed_up_);
+  const Taylor moving = driving(t);
+  return {leg->from + leg->speed * speed_up_ * (start.integral - stop.integral), leg->speed * moving.value,
+          leg->speed * moving.rate};
+}
+
+Taylor Route::driving(double t) const
+{
+  const Leg* leg = legAt(t);
+  return leg ? pulse(t, leg->begin, leg->begin + leg->moving, speed_up_) : 0.0;
+}
+
+Taylor Route::working(double t) const
+{
+  const auto stop = workStopAt(t);
+  if (!stop || stop->end - stop->begin < 2 * kWorkFade) return 0.0;
+  return pulse(t, stop->begin, stop->end - kWorkFade, kWorkFade);
+}
+
+std::optional<WorkStop> Route::workStopAt(double t) const
+{
+  const Leg* leg = legAt(t);
+  if (!leg || t < endOf(*leg)) return std::nullopt;
+  return workStop(static_cast<std::uint64_t>(leg - legs_.data()));
+}
+
+std::uint64_t Route::legNumberAt(double t) const
+{
+  const Leg* leg = legAt(t);
+  return leg ? static_cast<std::uint64_t>(leg - legs_.data()) : 0;
+}
+
+std::optional<WorkStop> Route::workStop(std::uint64_t number) const
+{
+  if (number >= legs_.size() || !legs_[number].works) return std::nullopt;
+  const double end = number + 1 < legs_.size() ? legs_[number + 1].begin : std::max(duration_, endOf(legs_[number]));
+  return WorkStop{number, endOf(legs_[number]), end};
+}
+}  // namespace scanloom

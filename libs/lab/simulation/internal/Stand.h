@@ -1,0 +1,58 @@
+/** Stems and stumps of a stand. */
+#pragma once
+#include "base/core/Field.h"
+#include "lab/simulation/internal/Cone.h"
+#include "lab/simulation/internal/Ground.h"
+#include "lab/simulation/internal/Lane.h"
+#include "lab/simulation/internal/Trees.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace scanloom
+{
+struct StandOptions
+{
+  double stems_per_hectare = 650;
+  double spacing = 1.2;
+  double clustering = 0;
+  double cluster_size = 6;
+  double free_lane = 2.6;
+  double reach = 55;
+  double stumps_per_hectare = 150;
+  double stump_height = 0.25;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.stems_per_hectare, Field{"stems_per_hectare", "1/ha", "number of stems per hectare", between(0, 10000)});
+    visit(o.spacing, Field{"spacing", "m", "smallest distance of two stems (assumed)", between(0.1, 2)});
+    visit(o.clustering, Field{"clustering", "",
+                              "how much denser and thinner the stand is in places, as a share of the mean (assumed)",
+                              between(0, 0.95)});
+    visit(o.cluster_size,
+          Field{"cluster_size", "m", "distance from one dense place to the next (assumed)", between(2, 100)});
+    visit(o.free_lane,
+          Field{"free_lane", "m", "within this distance of the machine's path stems are felled to stumps (assumed)",
+                atLeast(0)});
+    visit(o.reach,
+          Field{"reach", "m", "the stand is grown within this distance of the path (assumed: beyond an OS0's range)",
+                between(1, 500)});
+    visit(o.stumps_per_hectare, Field{"stumps_per_hectare", "1/ha",
+                                      "number of stumps of earlier thinnings per hectare (assumed)", between(0, 5000)});
+    visit(o.stump_height, Field{"stump_height", "m", "height of stumps above the ground (assumed)", between(0.02, 1)});
+  }
+};
+
+struct Stand
+{
+  std::vector<Stem> stems;
+  std::vector<Cone> stumps;
+};
+
+/**
+ * The stand around a lane. A stem depends on the seed and its place alone, so that other paths find the same stems
+ * except for those that they fell. Throws std::invalid_argument if there is no room for so many stems at that spacing.
+ */
+Stand growStand(const StandOptions&, const TreeOptions&, const Ground&, const Lane&, std::uint64_t seed);
+}  // namespace scanloom

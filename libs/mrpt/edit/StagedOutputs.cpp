@@ -1,0 +1,70 @@
+#include "mrpt/edit/StagedOutputs.h"
+
+#include <algorithm>
+#include <set>
+
+namespace scanloom
+{
+namespace
+{
+using Path = std::filesystem::path;
+
+/** `000012.ply`, `000012.bin`: a cloud in a row of clouds. */
+bool isNumbered(const Path& file)
+{
+  const std::string stem = file.stem().string();
+  return stem.size() >= 6 &&
+         std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+std::set<Path> filesWithin(const Path& folder)
+{
+  std::set<Path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (!entry.is_directory()) files.insert(entry.path().lexically_relative(folder));
+  return files;
+}
+
+/** The numbered files beside which the new ones will be. */
+std::set<Path> earlierClouds(const Path& folder, const std::set<Path>& written)
+{
+  std::set<Path> rows;
+  for (const Path& file : written)
+    if (isNumbered(file)) rows.insert(file.parent_path());
+  std::set<Path> earlier;
+  for (const Path& row : rows)
+    if (std::filesystem::is_directory(folder / row))
+      for (const auto& entry : std::filesystem::directory_iterator(folder / row))
+        if (isNumbered(entry.path())) earlier.insert(row / entry.path().filename());
+  return earlier;
+}
+
+/** Clouds first, then the tables of their stamps. */
+std::vector<std::string> namesOf(const Path& folder, const Path& running)
+{
+  std::set<Path> files = filesWithin(running);
+  files.merge(earlierClouds(folder, files));
+  std::vector<std::string> names;
+  for (const Path& file : files) names.push_back(file.string());
+  std::stable_partition(names.begin(), names.end(), [](const std::string& name) { return isNumbered(name); });
+  return names;
+}
+}  // namespace
+
+StagedOutputs::StagedOutputs(const EditOutputs& outputs) : outputs_(outputs), files_(outputs.files)
+{
+  if (!outputs.folder.empty()) folder_.emplace(outputs.folder);
+}
+
+EditOutputs StagedOutputs::running() const
+{
+  return {files_.running(), folder_ ? folder_->running() : std::filesystem::path()};
+}
+
+EditOutputs StagedOutputs::commit(Completeness completeness)
+{
+  EditOutputs committed{files_.commit(completeness), {}};
+  if (folder_) committed.folder = folder_->commit(namesOf(outputs_.folder, folder_->running()), completeness);
+  return committed;
+}
+}  // namespace scanloom

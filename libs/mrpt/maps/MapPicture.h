@@ -1,0 +1,47 @@
+/** A picture of the map from above: what stands at breast height, and the trajectory. */
+#pragma once
+#include "base/core/Field.h"
+#include "base/core/Keyframe.h"
+#include "base/formats/Trajectory.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+namespace scanloom
+{
+struct MapPictureOptions
+{
+  double margin = 20.0;
+  int longest_side = 1600;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.margin, Field{"margin", "m", "margin around the trajectory", above(0)});
+    visit(o.longest_side, Field{"longest_side", "px", "width or height of the picture", between(400, 10000)});
+  }
+};
+
+/**
+ * Collects the points of the keyframes as voxels of 0.1 m (memory grows with the map, not with time) and draws a PNG
+ * with the map's y axis up: ground coloured by elevation, vegetation pale, points 1.0 to 1.6 m above the ground dark,
+ * the trajectory on top, a scale bar and a legend.
+ */
+class MapPicture
+{
+ public:
+  explicit MapPicture(const MapPictureOptions& options) : options_(options) {}
+
+  void add(const Keyframe&);
+
+  /** Throws std::invalid_argument for an empty trajectory, std::runtime_error if the file cannot be written. */
+  void write(const std::filesystem::path&, const Trajectory&, const std::string& title) const;
+
+ private:
+  MapPictureOptions options_;
+  std::unordered_set<std::uint64_t> voxels_;
+};
+}  // namespace scanloom

@@ -1,0 +1,73 @@
+/**
+ * The occupancy map: A. Hornung et al.: OctoMap, Autonomous Robots 34 (2013). Every point marks its voxel as occupied
+ * and the line from the lidar that measured it as free. Lines from one common origin would mark parts of stems as free.
+ */
+#pragma once
+#include "base/core/Field.h"
+#include "base/core/Keyframe.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace octomap
+{
+class OcTree;
+}
+
+namespace scanloom
+{
+struct OctoMapOptions
+{
+  double resolution = 0.1;
+  double max_range = 20.0;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.resolution, Field{"resolution", "m", "edge of a voxel", between(0.005, 10)});
+    visit(o.max_range,
+          Field{"max_range", "m", "a farther point marks only the first part of its line, up to this range, as free",
+                between(0.1, 500)});
+  }
+
+  template <typename Self, typename Visitor>
+  static void order(const Self& o, Visitor&& visit)
+  {
+    visit("resolution", o.resolution, "max_range", o.max_range);
+  }
+};
+
+/** preview 0.2 m / 30 m, inventory 0.1 m / 20 m, fine 0.05 m / 15 m; throws std::invalid_argument on another name. */
+OctoMapOptions octoMapPreset(const std::string& name);
+
+class OctoMapBuilder
+{
+ public:
+  /** `body_T_sensor` by sensor id: where each lidar's rays start. */
+  OctoMapBuilder(const OctoMapOptions&, std::vector<Rigid> body_T_sensor);
+  ~OctoMapBuilder();
+
+  /**
+   * Points farther from the map's origin than 32768 voxels, the size of the tree, are left out. A keyframe of full
+   * scans takes seconds and hundreds of MB (OctoMapEstimate.h). Throws std::invalid_argument for a sensor_id without a
+   * pose.
+   */
+  void add(const Keyframe&);
+
+  /** Its leaves are up to date; its inner nodes only after write(). */
+  const octomap::OcTree& tree() const { return *tree_; }
+
+  /**
+   * Writes .bt (occupied or free) and .ot (log odds), each if its path is not empty. The builder cannot be used any
+   * more: writing changes the tree, and memory may not suffice for a copy. Throws std::runtime_error on failure.
+   */
+  void write(const std::filesystem::path& binary, const std::filesystem::path& full) &&;
+
+ private:
+  OctoMapOptions options_;
+  std::vector<Rigid> body_T_sensor_;
+  std::unique_ptr<octomap::OcTree> tree_;
+};
+}  // namespace scanloom

@@ -1,0 +1,122 @@
+#include "run/run/SlamFiles.h"
+
+#include <fmt/ostream.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace scanloom
+{
+namespace
+{
+const std::filesystem::path& created(const std::filesystem::path& folder)
+{
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+double distance(const StampedPose& a, const StampedPose& b)
+{
+  return (a.map_T_body.translation - b.map_T_body.translation).norm();
+}
+
+/** Without what would end the column or the line. */
+std::string csvText(std::string text)
+{
+  for (char& c : text)
+    if (c == ',' || c == '"' || c == '\n' || c == '\r') c = ' ';
+  return text;
+}
+}  // namespace
+
+std::vector<std::string> SlamFiles::names(const OutputOptions& output)
+{
+  std::vector<std::string> names{"trajectory.tum", "trajectory_imu.tum", "trajectory.csv"};
+  for (std::string& name : SlamMaps::names()) names.push_back(std::move(name));
+  if (!output.dense_map.empty()) names.push_back(DenseMap::nameOf(output));
+  names.emplace_back("summary.json");
+  return names;
+}
+
+SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>& lidars,
+                     const OutputOptions& output, const OctoMapOptions& octomap)
+  : folder_(created(folder)),
+    trajectory_(folder / "trajectory.tum"),
+    trajectory_imu_(folder / "trajectory_imu.tum"),
+    csv_(folder / "trajectory.csv")
+{
+  csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
+                   "surprise,trusted,recovered,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,sigma_rz,correction_m,"
+                   "correction_deg,mark\n";
+  if (output.maps) maps_.emplace(folder, lidars, octomap);
+  if (!output.dense_map.empty()) dense_map_.emplace(folder, output);
+}
+
+void SlamFiles::add(const StateEstimate& e)
+{
+  extendPath({e.stamp, e.map_T_body});
+  trajectory_.add({e.stamp, e.map_T_body});
+  for (const StampedPose& pose : e.since_last) trajectory_imu_.add(pose);
+
+  const RegistrationResult none;
+  const RegistrationResult& r = e.registration ? *e.registration : none;
+  const Vector6d sigma = e.since_start.diagonal().cwiseSqrt();
+  fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d},{:.3e},{:.4f},{:.4f},{}\n",
+             nanoseconds(e.stamp), toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap,
+             r.score, r.iterations, e.cloud.size(), e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise,
+             e.trusted, e.recovered, fmt::join(sigma.begin(), sigma.end(), ","), e.correction.head<3>().norm(),
+             180 / M_PI * e.correction.tail<3>().norm(), marksUntil(e.stamp));
+  for (TumWriter* writer : {&trajectory_, &trajectory_imu_}) writer->flush();
+  csv_.flush();
+  if (maps_ && e.keyframe) maps_->add(*e.keyframe);
+  if (dense_map_) dense_map_->add(e);
+}
+
+std::string SlamFiles::marksUntil(Timestamp stamp)
+{
+  std::vector<std::string> texts;
+  for (; !marks_.empty() && marks_.front().stamp <= stamp; marks_.pop_front())
+    texts.push_back(csvText(marks_.front().text));
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+void SlamFiles::extendPath(const StampedPose& pose)
+{
+  constexpr double kApart = 0.05;  // m
+  if (!path_.empty()) path_length_ += distance(path_.back(), pose);
+  const bool near = path_.size() > 1 && distance(path_[path_.size() - 2], path_.back()) < kApart;
+  if (near)
+    path_.back() = pose;
+  else
+    path_.push_back(pose);
+}
+
+void SlamFiles::closePoses()
+{
+  trajectory_.close();
+  trajectory_imu_.close();
+  csv_.commit();
+}
+
+/** The failure may have been that a disk is full. */
+void SlamFiles::closePosesAfterFailure()
+{
+  trajectory_.closeAfterFailure();
+  trajectory_imu_.closeAfterFailure();
+  csv_.commitLines();
+}
+
+RunSummary SlamFiles::close(RunSummary summary)
+{
+  if (summary.error.empty())
+    closePoses();
+  else
+    closePosesAfterFailure();
+  if (maps_) maps_->close(path_, summary);
+  if (dense_map_) dense_map_->close(summary);
+  summary.path_length = path_length_;
+  summary.peak_memory = peakMemory();
+  writeSummary(folder_ / "summary.json", summary);
+  return summary;
+}
+}  // namespace scanloom

@@ -1,0 +1,261 @@
+#include "run/run/SlamRun.h"
+
+#include "estimation/slam/ConstantMotion.h"
+#include "input/rig/silentLidars.h"
+#include "run/run/ImuInUse.h"
+#include "run/run/internal/CropReport.h"
+#include "run/run/internal/RigCheck.h"
+#include "run/run/internal/RunCounts.h"
+#include "run/run/internal/reasonOf.h"
+
+#include <fmt/format.h>
+
+#include <deque>
+
+namespace scanloom
+{
+namespace
+{
+using SteadyClock = std::chrono::steady_clock;
+
+double secondsSince(SteadyClock::time_point start)
+{
+  return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
+
+/** One run, event by event. */
+class SlamRun
+{
+ public:
+  SlamRun(SensorInput& input, const SlamSettings& settings, const SeeEstimate& see, const Warn& warn,
+          const SeeMark& see_mark)
+    : input_(input),
+      see_(see),
+      warn_(warn),
+      see_mark_(see_mark),
+      settings_(settings),
+      imu_(chosenImu(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms))),
+      slam_(settingsInUse(), imuPose(), mountedLidars(lidars())),
+      check_(mountedLidars(lidars()), imuPose(), warn)
+  {
+  }
+
+  /** Waits for an event no longer than a person who wants to stop it would. */
+  void step()
+  {
+    constexpr Duration kPatience = 100ms;
+    std::optional<SensorEvent> event = times_.measure("input", [&] { return input_.next(kPatience); });
+    if (!event) return;
+    if (const auto* sample = std::get_if<SensorImu>(&*event)) take(*sample);
+    if (auto* scan = std::get_if<Scan>(&*event)) take(std::move(*scan));
+    if (const auto* mark = std::get_if<EventMark>(&*event)) take(*mark);
+  }
+
+  void finish()
+  {
+    if (mayGoWithoutImu()) goOnWithoutImu();
+    keep(slam_.finish());
+    times_.measure("rig_check", [&] { check_.check(); });
+    for (const auto& [name, refused] : refusedReadings())
+      warn_(fmt::format("the IMU '{}': samples were refused: {}", name, refused.toString()));
+    for (const std::string& warning : cropWarnings(slam_.cropped(), lidars())) warn_(warning);
+    for (const std::string& line : silentLidars(input_.account())) warn_(line);
+  }
+
+  RunProgress progress() const
+  {
+    const double waited = 1e-3 * times_.stages().at("input").total_ms;
+    return {input_.progress(), counts_.scans, counts_.recorded(), secondsSince(start_) - waited};
+  }
+
+  bool hasPoses() const { return counts_.poses > 0; }
+
+  SlamRunResult failed(const std::exception& error) const
+  {
+    SlamRunResult result = this->result(false);
+    result.passed = false;
+    result.summary.outcome = "FAILED";
+    result.summary.error = reasonOf(error);
+    return result;
+  }
+
+  SlamRunResult result(bool interrupted) const
+  {
+    SlamRunResult result;
+    RunSummary& summary = result.summary;
+    const bool whole = slam_.mapRestarts() == 0;
+    const RigAccount account = input_.account();
+    const bool silent = !silentLidars(account).empty();
+    result.passed = counts_.passed() && whole && !silent && !check_.warned();
+    result.with_imu = imu_.has_value();
+    summary.imu = check_.imu();
+    summary.lidars = check_.lidars();
+    summary.outcome = interrupted ? "INTERRUPTED" : whole ? counts_.outcome() : "LOST";
+    if (silent && summary.outcome == "OK") summary.outcome = "LIDAR MISSING";
+    summary.counts = countsOf(account);
+    summary.counts["scans_skipped"] = slam_.skippedScans();
+    summary.counts["recoveries"] = slam_.recoveries();
+    summary.counts["map_restarts"] = slam_.mapRestarts();
+    summary.counts["imu_samples_refused"] = 0;
+    for (const auto& [name, refused] : refusedReadings()) summary.counts["imu_samples_refused"] += refused.sum();
+    counts_.addTo(summary.counts);
+    addCounts(slam_.cropped(), lidars(), summary.counts);
+    summary.stages = slam_.times().stages();
+    for (const auto& [stage, time] : times_.stages()) summary.stages[stage] = time;
+    for (const auto& [stage, time] : input_.stages()) summary.stages[stage] = time;
+    summary.marks = marks_;
+    summary.recorded = counts_.recorded();
+    summary.elapsed = secondsSince(start_);
+    return result;
+  }
+
+ private:
+  std::vector<RecordedLidar> lidars() const { return input_.setup().header.lidars; }
+
+  Rigid imuPose() const { return imu_ ? imu_->body_T_imu() : Rigid::identity(); }
+
+  const ImuNoise& noise() const
+  {
+    if (!imu_) return settings_.no_imu;
+    return imu_->insideLidar() ? settings_.lidar_imu : settings_.imu;
+  }
+
+  std::map<std::string, RefusedReadings> refusedReadings() const
+  {
+    return imu_ ? imu_->refused() : std::map<std::string, RefusedReadings>{};
+  }
+
+  SlamSettings settingsInUse() const
+  {
+    SlamSettings in_use = settings_;
+    in_use.imu = noise();
+    if (imu_) in_use.slam.imu_wait_ms = 1e3 * seconds(imu_->patience(fromSeconds(1e-3 * settings_.slam.imu_wait_ms)));
+    return in_use;
+  }
+
+  void take(const SensorImu& read)
+  {
+    if (motion_ || !imu_) return;
+    imu_heard_ = true;
+    uncovered_.clear();
+    for (const ImuSample& sample : imu_->take(read))
+    {
+      check_.add(sample);
+      slam_.addImu(sample);
+      keep(slam_.process());
+    }
+  }
+
+  void take(Scan scan)
+  {
+    constexpr Duration kImuIsHeard = 1s;  // every IMU sends far more often
+    ++counts_.scans;
+    if (!first_scan_) first_scan_ = scan.start;
+    if (motion_ || mayGoWithoutImu()) uncovered_.push_back(scan.end());
+    if (mayGoWithoutImu() && (!imu_ || scan.end() - *first_scan_ > kImuIsHeard)) goOnWithoutImu();
+    if (!motion_) chooseImu(scan.end());
+    keep(slam_.addScan(std::move(scan)));
+    coverScans();
+  }
+
+  void take(const EventMark& mark)
+  {
+    marks_.push_back({mark, first_scan_ ? seconds(mark.stamp - *first_scan_) : 0});
+    see_mark_(mark);
+  }
+
+  bool mayGoWithoutImu() const
+  {
+    return !motion_ && first_scan_ && !imu_heard_ && (!imu_ || settings_.slam.imu == "auto");
+  }
+
+  /** From the first scan on: none was processed so far, because that takes an IMU. */
+  void goOnWithoutImu()
+  {
+    if (settings_.slam.imu != "none")
+      warn_("there is no IMU: constant velocity and turn rate are assumed between scans, and a level start");
+    imu_.reset();
+    motion_.emplace(*first_scan_);
+    slam_.changeImu({{Rigid::identity(), settings_.no_imu, true}, {}, {}});
+    coverScans();
+  }
+
+  /** Scan by scan, because what is assumed for the next one follows from the estimate of the last one. */
+  void coverScans()
+  {
+    for (; motion_ && !uncovered_.empty(); uncovered_.pop_front())
+    {
+      for (const ImuSample& assumed : motion_->samplesUntil(uncovered_.front())) slam_.addImu(assumed);
+      keep(slam_.process());
+    }
+  }
+
+  void chooseImu(Timestamp now)
+  {
+    if (imu_->changeIfSilent(now))
+      changeImu(fmt::format("the IMU '{}' is silent: '{}' goes on", imu_->previousName(), imu_->name()));
+    else if (imu_->returnToBetter(now))
+      changeImu(
+          fmt::format("the IMU '{}' is there again: it goes on in place of '{}'", imu_->name(), imu_->previousName()));
+  }
+
+  void changeImu(const std::string& why)
+  {
+    ++counts_.imu_changes;
+    warn_(why);
+    check_.changeImu(imuPose());
+    slam_.changeImu({{imuPose(), noise()}, imu_->recent(), imu_->previous()});
+  }
+
+  void keep(const std::vector<StateEstimate>& estimates)
+  {
+    for (const StateEstimate& estimate : estimates)
+    {
+      counts_.add(estimate);
+      if (motion_) motion_->update(estimate);
+      times_.measure("rig_check", [&] { check_.add(estimate); });
+      see_(estimate);
+    }
+  }
+
+  SteadyClock::time_point start_ = SteadyClock::now();
+  SensorInput& input_;
+  const SeeEstimate& see_;
+  const Warn& warn_;
+  const SeeMark& see_mark_;
+  SlamSettings settings_;
+  std::optional<ImuInUse> imu_;  // none: there is no IMU
+  LidarInertialSlam slam_;
+  std::optional<ConstantMotion> motion_;  // in place of an IMU
+  std::optional<Timestamp> first_scan_;
+  std::deque<Timestamp> uncovered_;  // ends of scans that an IMU, or what is assumed for it, does not cover yet
+  bool imu_heard_ = false;
+  std::vector<MarkedEvent> marks_;
+  RigCheck check_;
+  StageTimes times_;
+  RunCounts counts_;
+};
+}  // namespace
+
+SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, const SeeEstimate& see,
+                      const KeepGoing& keepGoing, const Warn& warn, const SeeMark& see_mark)
+{
+  SlamRun run(input, settings, see, warn, see_mark);
+  bool going = true;
+  try
+  {
+    while (going && !input.ended())
+    {
+      run.step();
+      going = keepGoing(run.progress());
+    }
+    run.finish();
+  }
+  catch (const std::exception& error)
+  {
+    if (!run.hasPoses()) throw;
+    return run.failed(error);
+  }
+  return run.result(!going);
+}
+}  // namespace scanloom

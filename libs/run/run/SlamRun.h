@@ -1,0 +1,59 @@
+/** Sensor input through localisation. */
+#pragma once
+#include "estimation/slam/LidarInertialSlam.h"
+#include "input/rig/SensorInput.h"
+#include "run/run/internal/RigCheck.h"
+#include "run/run/internal/RunSummary.h"
+
+#include <functional>
+
+namespace scanloom
+{
+struct RunProgress
+{
+  double share = 0;  // of the input that was read, 0 to 1
+  std::uint64_t scans = 0;
+  double recorded = 0;  // s, from the first pose to the newest
+  double busy = 0;      // s, without waiting for input
+};
+
+/** Called after each event, and when none came for 0.1 s; false stops the run and keeps what was processed. */
+using KeepGoing = std::function<bool(const RunProgress&)>;
+
+/** Called with every estimate, in the order of time. */
+using SeeEstimate = std::function<void(const StateEstimate&)>;
+
+/** Called with every event that a person marked, before the estimate of the scan in which it lies. */
+using SeeMark = std::function<void(const EventMark&)>;
+
+struct SlamRunResult
+{
+  /**
+   * Counts, stages, and the outcome: OK, LIDAR MISSING (OK, but a lidar is in no scan), INITIALISING, DEGENERATE, LOST,
+   * NOTHING, INTERRUPTED or FAILED.
+   */
+  RunSummary summary;
+  /**
+   * False if there is no pose, if the state was LOST at the end or for more than 5 % of the poses, if the local map was
+   * started anew (the trajectory has a break), if a lidar is in no scan, or if a lidar or the IMU is at fault
+   * (RigCheck).
+   */
+  bool passed = true;
+  bool with_imu = false;  // else constant velocity and turn rate were assumed
+};
+
+/**
+ * Runs to the end of the input. Throws ConfigError if settings.slam.imu names an IMU that the input does not have, and
+ * what requireGravity() throws.
+ *
+ * Whatever else the input or the localisation throws ends the run: the outcome is FAILED, the summary tells the error,
+ * and the estimates so far are kept. Before the first pose there is nothing to keep, and it is thrown on.
+ *
+ * A scan waits in LidarInertialSlam and nowhere else, by one rule: it is processed as soon as the IMU in use covers it,
+ * or when a scan arrives that ends ImuInUse::patience() later. By then, if the IMU is silent and another one is not,
+ * that one has taken over, and the scan is processed with its samples.
+ */
+SlamRunResult runSlam(
+    SensorInput&, const SlamSettings&, const SeeEstimate&, const KeepGoing&, const Warn&,
+    const SeeMark& = [](const EventMark&) {});
+}  // namespace scanloom

@@ -1,0 +1,127 @@
+#include "run/run/internal/CalibrationDrive.h"
+
+#include "estimation/imu/ImuScreening.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+/** Only the columns of one lidar. */
+Scan onlyOf(std::uint8_t lidar, const Scan& scan)
+{
+  Scan only;
+  only.start = scan.start;
+  only.period = scan.period;
+  only.columns_of.assign(scan.columns_of.size(), 0);
+  if (lidar < scan.columns_of.size()) only.columns_of[lidar] = scan.columns_of[lidar];
+  only.missing[lidar] = scan.missing[lidar];
+  std::vector<std::uint8_t> keep(scan.points.size(), 0);
+  std::uint32_t points = 0;
+  for (const Column& column : scan.columns)
+  {
+    if (column.sensor_id != lidar) continue;
+    std::fill_n(keep.begin() + column.first_point, column.count, std::uint8_t{1});
+    only.columns.push_back(column);
+    only.columns.back().first_point = points;
+    points += column.count;
+  }
+  only.points = scan.points;
+  only.points.keep(keep);
+  return only;
+}
+
+/** Hands on the scans of one lidar, and keeps those of all. */
+class OneLidarInput final : public SensorInput
+{
+ public:
+  OneLidarInput(SensorInput& input, std::size_t lidar, const Crop& crop, const std::optional<Mount>& body_imu)
+    : input_(input),
+      lidar_(static_cast<std::uint8_t>(lidar)),
+      crop_(crop),
+      body_imu_(body_imu),
+      scans_(mountedLidars(input.setup().header.lidars))
+  {
+  }
+
+  std::optional<SensorEvent> next(Duration patience) override
+  {
+    std::optional<SensorEvent> event = input_.next(patience);
+    if (event && std::holds_alternative<Scan>(*event))
+    {
+      const Scan scan = std::move(std::get<Scan>(*event));
+      scans_.add(cropOut(scan, crop_).scan);
+      return SensorEvent(onlyOf(lidar_, scan));
+    }
+    if (const auto* read = event ? std::get_if<SensorImu>(&*event) : nullptr; read && read->sensor == SensorImu::kBody)
+      for (const ImuSample& sample : screening_.pass(read->sample)) imu_.push_back(sample);
+    return event;
+  }
+  bool ended() const override { return input_.ended(); }
+  void stop() override { input_.stop(); }
+  SensorSetup setup() const override
+  {
+    SensorSetup setup = input_.setup();
+    if (body_imu_) setup.body_T_imu[SensorImu::kBody] = body_imu_->body_T_sensor;
+    return setup;
+  }
+  double progress() const override { return input_.progress(); }
+  RigAccount account() const override { return input_.account(); }
+  std::map<std::string, StageTime> stages() const override { return input_.stages(); }
+  std::vector<std::string> takeWarnings() override { return input_.takeWarnings(); }
+
+  const std::vector<std::vector<LidarScan>>& scans() const { return scans_.byLidar(); }
+  const std::vector<ImuSample>& imu() const { return imu_; }
+
+ private:
+  SensorInput& input_;
+  std::uint8_t lidar_;
+  Crop crop_;
+  std::optional<Mount> body_imu_;
+  LidarScans scans_;
+  ImuScreening screening_;
+  std::vector<ImuSample> imu_;
+};
+}  // namespace
+
+CalibrationDrive driveForCalibration(SensorInput& input, std::size_t reference, const SlamSettings& settings,
+                                     const std::optional<Mount>& body_imu, const KeepGoing& keepGoing, const Warn& warn)
+{
+  OneLidarInput one(input, reference, cropOf(settings.crop, mountedLidars(input.setup().header.lidars)), body_imu);
+  SlamSettings in_use = settings;
+  if (body_imu) in_use.slam.imu_delay_ms = 1e3 * body_imu->clock_offset;
+  CalibrationDrive drive;
+  const SeeEstimate see = [&drive](const StateEstimate& estimate)
+  {
+    const auto add = [&drive](const StampedPose& pose)
+    {
+      if (drive.trajectory.empty() || drive.trajectory.back().stamp < pose.stamp) drive.trajectory.push_back(pose);
+    };
+    for (const StampedPose& pose : estimate.since_last) add(pose);
+    add({estimate.stamp, estimate.map_T_body});
+    if (estimate.registration && estimate.registration->outcome == Outcome::Converged && !estimate.recovered &&
+        !estimate.map_restarted)
+      drive.registered.push_back({estimate.stamp, estimate.registration->target_T_source});
+  };
+  drive.run = runSlam(one, in_use, see, keepGoing, warn);
+  drive.scans = one.scans();
+  drive.imu = one.imu();
+  // Without an IMU the motion within a scan is not seen: the pose fits its middle.
+  const std::vector<LidarScan>& own = drive.scans[reference];
+  if (!drive.run.with_imu && !own.empty())
+  {
+    for (StampedPose& pose : drive.registered) pose.stamp -= own.front().period / 2;
+    drive.trajectory = drive.registered;
+  }
+  return drive;
+}
+
+bool isPath(const CalibrationDrive& drive)
+{
+  constexpr double kMostBad = 0.05;
+  const auto count = [&](const char* name) { return static_cast<double>(drive.run.summary.counts.at(name)); };
+  const bool whole = drive.run.summary.error.empty() && count("map_restarts") == 0 && drive.trajectory.size() > 1;
+  return whole && count("poses_degenerate") + count("poses_lost") <= kMostBad * count("poses");
+}
+}  // namespace scanloom

@@ -1,0 +1,114 @@
+#include "run/run/internal/LidarCheck.h"
+
+#include "calibration/GroundFinding.h"
+
+#include <algorithm>
+
+namespace scanloom
+{
+namespace
+{
+constexpr std::size_t kFewest = 2, kMost = 8;    // keyframes
+constexpr std::size_t kFewestForPose = 3;        // the error's deviation comes from leaving out one of them
+constexpr std::size_t kNeighbours = 2;           // keyframes to each side of one
+constexpr std::size_t kPointsOfLidar = 1 << 14;  // of a keyframe: memory is bounded
+
+/** By lidar, whole columns, so that the distance between beams stays what it is. */
+std::vector<PointCloud> splitByLidar(const PointCloud& points, std::size_t lidars)
+{
+  std::vector<std::size_t> counts(lidars, 0);
+  for (const std::uint8_t lidar : points.sensor_id)
+    if (lidar < lidars) ++counts[lidar];
+  std::vector<PointCloud> seen(lidars);
+  for (std::size_t lidar = 0; lidar < lidars; ++lidar)
+  {
+    const std::size_t every_nth = 1 + counts[lidar] / kPointsOfLidar;
+    std::vector<std::uint8_t> keep(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      keep[i] = points.sensor_id[i] == lidar && points.column[i] % every_nth == 0 ? 1 : 0;
+    seen[lidar] = points;
+    seen[lidar].keep(keep);
+  }
+  return seen;
+}
+/** In another frame. */
+PointCloud moved(PointCloud points, const Rigid& here_T_there)
+{
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Eigen::Vector3f p = (here_T_there * points.position(i).cast<double>()).cast<float>();
+    points.x[i] = p.x();
+    points.y[i] = p.y();
+    points.z[i] = p.z();
+  }
+  return points;
+}
+
+std::vector<SeenByBoth> pairsOf(const std::vector<SeenPoints>& a, const std::vector<SeenPoints>& b)
+{
+  std::vector<SeenByBoth> pairs;
+  for (std::size_t k = 0; k < a.size(); ++k) pairs.push_back({&a[k], &b[k]});
+  return pairs;
+}
+}  // namespace
+
+void LidarCheck::add(const Keyframe& keyframe)
+{
+  if (keyframes_.size() == kMost) keyframes_.erase(keyframes_.begin());
+  keyframes_.push_back({keyframe.map_T_body, splitByLidar(keyframe.points, lidars_.size())});
+}
+
+std::vector<SeenPoints> LidarCheck::seenBy(std::size_t lidar) const
+{
+  std::vector<SeenPoints> seen;
+  for (const Seen& keyframe : keyframes_) seen.push_back({keyframe.points[lidar], {}});
+  return seen;
+}
+
+std::vector<SeenPoints> LidarCheck::seenAround(std::size_t lidar, bool with_itself) const
+{
+  std::vector<SeenPoints> seen(keyframes_.size());
+  for (std::size_t k = 0; k < keyframes_.size(); ++k)
+    for (std::size_t i = k - std::min(kNeighbours, k); i <= std::min(k + kNeighbours, keyframes_.size() - 1); ++i)
+    {
+      if (i == k && !with_itself) continue;
+      const Rigid here_T_there = keyframes_[k].map_T_body.inverse() * keyframes_[i].map_T_body;
+      seen[k].points.append(moved(keyframes_[i].points[lidar], here_T_there));
+    }
+  return seen;
+}
+
+Findings LidarCheck::compareGrounds() const
+{
+  Findings upright;
+  bool one_is_level = false;
+  for (std::size_t i = 0; i < lidars_.size(); ++i)
+  {
+    std::vector<const PointCloud*> clouds;
+    for (const Seen& keyframe : keyframes_) clouds.push_back(&keyframe.points[i]);
+    Finding ground = groundFinding(lidars_[i].name, groundPlane(clouds, lidars_[i].body_T_sensor.translation), {});
+    one_is_level |= ground.verdict == Verdict::Ok;
+    if (ground.verdict == Verdict::NotFit) upright.push_back(std::move(ground));
+  }
+  return one_is_level ? upright : Findings{};
+}
+
+Findings LidarCheck::compare() const
+{
+  if (keyframes_.size() < kFewest) return compareGrounds();
+  Findings findings;
+  const std::vector<SeenPoints> by_first = seenAround(0, true);
+  for (std::size_t i = 0; i < lidars_.size(); ++i)
+  {
+    const auto& [name, body_T_sensor] = lidars_[i];
+    const std::vector<SeenPoints> own = seenBy(i), on_the_way = seenAround(i, false);
+    findings.push_back(
+        steadinessFinding(name, sharedView(pairsOf(own, on_the_way), Rigid::identity(), body_T_sensor), {}));
+    const bool is_comparable = i > 0 && keyframes_.size() >= kFewestForPose;
+    if (is_comparable && findings.front().verdict <= Verdict::Ok)  // else the first lidar is no measure of the others
+      findings.push_back(poseFinding(
+          name, lidars_[0].name, cloudAgreement(pairsOf(own, by_first), body_T_sensor, lidars_[0].body_T_sensor), {}));
+  }
+  return findings;
+}
+}  // namespace scanloom

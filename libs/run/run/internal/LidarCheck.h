@@ -1,0 +1,46 @@
+#pragma once
+#include "base/core/Keyframe.h"
+#include "base/core/MountedLidar.h"
+#include "calibration/PoseFinding.h"
+
+#include <utility>
+#include <vector>
+
+namespace scanloom
+{
+/**
+ * Whether the lidars' poses in the body fit what they see, by the last eight keyframes: what each lidar sees must stay
+ * in place while the machine drives, and be where the first lidar sees it at the same keyframe or its neighbours.
+ * Before the machine has driven, a lidar is named only if its ground is upright, while another's is level: lidars that
+ * contradict each other so much keep a run from making keyframes.
+ */
+class LidarCheck
+{
+ public:
+  /** `lidars` by sensor id. */
+  explicit LidarCheck(std::vector<MountedLidar> lidars) : lidars_(std::move(lidars)) {}
+
+  void add(const Keyframe&);
+
+  /** In the order of the lidars; of grounds before there are two keyframes, of poses once there are three. */
+  Findings compare() const;
+
+ private:
+  struct Seen
+  {
+    Rigid map_T_body;
+    std::vector<PointCloud> points;  // by sensor id, in the body frame
+  };
+
+  Findings compareGrounds() const;
+
+  /** By keyframe, in its body frame. */
+  std::vector<SeenPoints> seenBy(std::size_t lidar) const;
+
+  /** The same together with what its neighbours saw. */
+  std::vector<SeenPoints> seenAround(std::size_t lidar, bool with_itself) const;
+
+  std::vector<MountedLidar> lidars_;
+  std::vector<Seen> keyframes_;
+};
+}  // namespace scanloom

@@ -1,0 +1,39 @@
+#include "run/run/internal/RunCounts.h"
+
+namespace scanloom
+{
+void RunCounts::add(const StateEstimate& estimate)
+{
+  ++poses;
+  initialising += estimate.health == Health::Initialising;
+  degenerate += estimate.health == Health::Degenerate;
+  lost += estimate.health == Health::Lost;
+  keyframes += estimate.keyframe.has_value();
+  cut_scans += !estimate.scan_complete;
+  imu_short += !estimate.imu_complete;
+  last = estimate.health;
+  if (!first) first = estimate.stamp;
+  newest = estimate.stamp;
+}
+
+std::string RunCounts::outcome() const
+{
+  if (poses == 0) return "NOTHING";
+  if (!passed()) return "LOST";
+  if (last == Health::Initialising) return "INITIALISING";
+  return degenerate + lost > 0 ? "DEGENERATE" : "OK";
+}
+
+void RunCounts::addTo(std::map<std::string, std::uint64_t>& counts) const
+{
+  counts["scans"] = scans;
+  counts["imu_changes"] = imu_changes;
+  counts["scans_cut"] = cut_scans;
+  counts["scans_without_full_imu"] = imu_short;
+  counts["poses"] = poses;
+  counts["poses_initialising"] = initialising;
+  counts["poses_degenerate"] = degenerate;
+  counts["poses_lost"] = lost;
+  counts["keyframes"] = keyframes;
+}
+}  // namespace scanloom

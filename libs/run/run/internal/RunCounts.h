@@ -1,0 +1,31 @@
+#pragma once
+#include "estimation/slam/StateEstimate.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace scanloom
+{
+/** What a run counts of its scans and estimates, and how it went by them. */
+struct RunCounts
+{
+  std::uint64_t scans = 0, imu_changes = 0;
+  std::uint64_t poses = 0, initialising = 0, degenerate = 0, lost = 0, keyframes = 0;
+  std::uint64_t cut_scans = 0, imu_short = 0;
+  Health last = Health::Ok;
+  std::optional<Timestamp> first;  // pose
+  Timestamp newest;
+
+  void add(const StateEstimate&);
+
+  double recorded() const { return first ? seconds(newest - *first) : 0; }  // s
+
+  /** There are poses, at most 5 % of them are LOST, and the last one is not. */
+  bool passed() const { return poses > 0 && last != Health::Lost && 20 * lost <= poses; }
+
+  std::string outcome() const;
+  void addTo(std::map<std::string, std::uint64_t>& counts) const;
+};
+}  // namespace scanloom

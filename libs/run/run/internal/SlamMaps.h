@@ -1,0 +1,66 @@
+/** The maps of a localisation run, drawn from its keyframes during the run. */
+#pragma once
+#include "base/core/BoundedQueue.h"
+#include "base/formats/CloudWriter.h"
+#include "base/formats/Trajectory.h"
+#include "input/rig/RecordingHeader.h"
+#include "mrpt/maps/MapPicture.h"
+#include "mrpt/maps/OctoMapExport.h"
+#include "mrpt/maps/SimpleMapFile.h"
+#include "run/run/internal/RunSummary.h"
+
+#include <filesystem>
+#include <functional>
+#include <future>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** keyframes.simplemap, map.ply, map.bt, map.ot and map.png, all in the map frame. */
+class SlamMaps
+{
+ public:
+  /** All files that close() completes in the folder. */
+  static std::vector<std::string> names();
+
+  /** Throws std::runtime_error if the folder cannot be written. */
+  SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OctoMapOptions&);
+  SlamMaps(const SlamMaps&) = delete;
+  SlamMaps& operator=(const SlamMaps&) = delete;
+  ~SlamMaps();
+
+  /**
+   * Keyframes are drawn by a thread of their own, in order, because an occupancy map takes seconds for one. Waits while
+   * eight of them wait.
+   */
+  void add(Keyframe);
+
+  /**
+   * Waits for the last keyframe, renames every file to its name, and adds map points and stages to the summary. A map
+   * that could not be drawn or written, for want of memory for example, is left out and named in the summary's error.
+   */
+  void close(const Trajectory&, RunSummary&);
+
+ private:
+  void draw();
+  void addToAll(const Keyframe&);
+  void writeAll(const Trajectory&);
+
+  /** One step of a map. If it fails, the map is given up: its further steps are left out. */
+  void attempt(const std::string& files, const std::function<void()>& step);
+
+  std::filesystem::path folder_;
+  CloudWriter ply_;
+  SimpleMapBuilder simple_map_;
+  std::optional<OctoMapBuilder> octomap_;  // none once it is given up, for its memory
+  MapPicture picture_;
+  StageTimes times_;                             // of the thread
+  std::map<std::string, std::string> failures_;  // by files
+
+  BoundedQueue<Keyframe> queue_;
+  std::shared_future<void> drawn_;  // last: its thread uses all of the above, and it waits for that thread
+};
+}  // namespace scanloom

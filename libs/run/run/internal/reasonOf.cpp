@@ -1,0 +1,15 @@
+#include "run/run/internal/reasonOf.h"
+
+#include "base/config/MrptMessage.h"
+
+#include <new>
+
+namespace scanloom
+{
+std::string reasonOf(const std::exception& error)
+{
+  if (dynamic_cast<const std::bad_alloc*>(&error))
+    return "not enough memory: use coarser voxels ([octomap] resolution), or no maps ([output] maps = false)";
+  return messageIn(error.what());
+}
+}  // namespace scanloom

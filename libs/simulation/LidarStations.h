@@ -1,8 +1,0 @@
-#pragma once
-#include "simulation/Scene.h"
-
-namespace scanloom
-{
-/** The lidars of the settings. Throws std::invalid_argument that names a wrong option. */
-std::vector<LidarStation> makeLidarStations(const SimulationSettings&, const RecordingSpan&, std::uint64_t seed);
-}  // namespace scanloom

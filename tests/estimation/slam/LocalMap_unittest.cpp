@@ -1,0 +1,111 @@
+#include "estimation/slam/internal/LocalMap.h"
+
+#include "estimation/ndt/cellAt.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace scanloom::local_map_unittest
+{
+namespace
+{
+/** A full cube of points around the origin of the body, one cell of the map. */
+std::vector<View> cube()
+{
+  PointCloud points;
+  points.resize(27);
+  for (std::size_t i = 0; i < 27; ++i)
+  {
+    points.x[i] = 0.3f + 0.2f * static_cast<float>(i % 3);
+    points.y[i] = 0.3f + 0.2f * static_cast<float>(i / 3 % 3);
+    points.z[i] = 0.3f + 0.2f * static_cast<float>(i / 9);
+  }
+  return viewsOf(points, {});
+}
+
+Rigid at(double x, double yaw_deg = 0) { return Rigid::fromXyzYawPitchRoll(x, 0, 0, yaw_deg * M_PI / 180, 0, 0); }
+}  // namespace
+
+TEST(LocalMap, wantsAKeyframeFirstAndThenAfterTravelOrTurn)
+{
+  LocalMap map({}, {});
+  EXPECT_TRUE(map.wants(at(0)));
+  map.add(cube(), at(0), Matrix6d::Zero());
+  EXPECT_FALSE(map.wants(at(3.9)));
+  EXPECT_TRUE(map.wants(at(4.0)));
+  EXPECT_FALSE(map.wants(at(0, 19)));
+  EXPECT_TRUE(map.wants(at(0, 21)));
+}
+
+TEST(LocalMap, keepsTheLastKeyframes)
+{
+  LocalMapOptions options;
+  options.keyframes = 3;
+  LocalMap map(options, {});
+  for (int i = 0; i < 5; ++i) map.add(cube(), at(10 * i), Matrix6d::Zero());
+  EXPECT_EQ(map.ndt().points(), 3u * 27u);
+  EXPECT_EQ(cellAt(map.ndt(), {10, 0, 0}), nullptr);
+  ASSERT_NE(cellAt(map.ndt(), {40, 0, 0}), nullptr);
+  EXPECT_NEAR(cellAt(map.ndt(), {40, 0, 0})->mean.x(), 40.5, 1e-4);
+}
+
+TEST(LocalMap, keepsAllWithinTheRadiusAndTakesUpThoseOfAnEarlierPass)
+{
+  LocalMapOptions options;
+  options.radius = 15;
+  LocalMap map(options, {});
+  for (const double x : {0, 10, 20, 30}) map.add(cube(), at(x), Matrix6d::Zero());
+  EXPECT_EQ(cellAt(map.ndt(), {0, 0, 0}), nullptr);
+  EXPECT_EQ(map.ndt().points(), 2u * 27u);
+  map.add(cube(), at(5), Matrix6d::Zero());
+  EXPECT_EQ(map.ndt().points(), 4u * 27u) << "0, 5, 10 and 20";
+  ASSERT_NE(cellAt(map.ndt(), {0, 0, 0}), nullptr);
+}
+
+TEST(LocalMap, keyframesThatOverlapShareCells)
+{
+  LocalMap map({}, {});
+  map.add(cube(), at(0), Matrix6d::Zero());
+  map.add(cube(), at(0), Matrix6d::Zero());
+  EXPECT_EQ(map.ndt().cells().size(), 1u);
+  EXPECT_EQ(map.ndt().cells().front().points, 54u);
+}
+
+TEST(LocalMap, creepsByEachAlignmentWhereOneKeyframeIsTheMap)
+{
+  LocalMapOptions options;
+  options.keyframes = 1;
+  LocalMap map(options, {});
+  Matrix6d alignment = Matrix6d::Zero();
+  alignment.diagonal() << 1e-4, 4e-4, 0, 0, 0, 1e-6;  // m2, rad2
+  EXPECT_EQ(map.add(cube(), at(0), alignment).norm(), 0) << "the first keyframe is where the map begins";
+  for (const double x : {4.0, 8.0})
+  {
+    const Matrix6d at_origin = map.add(cube(), at(x), alignment);
+    EXPECT_NEAR(at_origin(1, 1), 4e-4 + x * x * 1e-6, 1e-9) << x;
+    EXPECT_NEAR(at_origin(5, 5), 1e-6, 1e-12) << x;
+  }
+}
+
+TEST(LocalMap, creepsTheLessTheMoreKeyframesItIsTheMeanOf)
+{
+  LocalMap map({}, {});
+  const Matrix6d alignment = 1e-4 * Matrix6d::Identity();
+  map.add(cube(), at(0), alignment);
+  // The second of two keyframes has half the weight of their mean, the third of three a third.
+  EXPECT_NEAR(map.add(cube(), at(0), alignment)(0, 0), 1e-4 / 4, 1e-9);
+  EXPECT_NEAR(map.add(cube(), at(0), alignment)(0, 0), 1e-4 / 9, 1e-9);
+}
+
+TEST(LocalMap, aKeyframeIsAlignedToWhatItSees)
+{
+  LocalMap map({}, {});
+  const Matrix6d alignment = 1e-4 * Matrix6d::Identity();
+  map.add(cube(), at(0), alignment);
+  for (int i = 0; i < 9; ++i) map.add(cube(), at(4), alignment);
+  LocalMap further = map;
+  EXPECT_GT(map.add(cube(), at(0), alignment)(2, 2), 1.5 * further.add(cube(), at(4), alignment)(2, 2))
+      << "it sees the first keyframe, which has no error, instead of the nine; alike if all counted alike";
+}
+}  // namespace scanloom::local_map_unittest

@@ -1,0 +1,64 @@
+#include "input/bags/BagContents.h"
+
+#include <gmock/gmock.h>
+
+#include "support/HandmadeMessages.h"
+#include "support/TemporaryFolder.h"
+
+namespace scanloom::bag_contents_unittest
+{
+namespace
+{
+using testing::HasSubstr;
+
+std::string point(std::uint64_t stamp, double x)
+{
+  return headerOf(stamp, "map") + littleEndian(x) + littleEndian(0.0) + littleEndian(0.0);
+}
+
+std::string problemOf(const std::function<void()>& reading)
+try
+{
+  reading();
+  return "";
+}
+catch (const std::invalid_argument& problem)
+{
+  return problem.what();
+}
+
+TEST(BagContents, sayWhatTheTimeOfCloudsIs)
+{
+  const TemporaryFolder folder;
+  const std::string timed = cloudMessage(1'000'000'000, "lidar", {{1, 2, 3, 0, 0}, {1, 2, 3, 90'000'000, 5}});
+  std::string untimed = timed;
+  untimed[untimed.find("t\x0c")] = 'q';
+  writeFile(folder / "bag", ros1Of({{"/a", "sensor_msgs/PointCloud2", 1'000'000'000, timed},
+                                    {"/a", "sensor_msgs/PointCloud2", 1'050'000'000, timed},
+                                    {"/b", "sensor_msgs/PointCloud2", 1'000'000'000, untimed}}));
+  const BagContents contents = contentsOf({folder / "bag"});
+  ASSERT_EQ(contents.topics.size(), 2u);
+  EXPECT_EQ(contents.topics[0].note, "field 't': uint32, ns after the header's stamp");
+  EXPECT_THAT(contents.topics[1].note, HasSubstr("its fields are: x, y, z, q, ring"));
+  EXPECT_EQ(contents.metadata.at("/a"), R"({"lidar": "cloud", "rate": 20, "channels": 6})");
+  EXPECT_EQ(metadataIn({folder / "bag"}, "/a"), contents.metadata.at("/a"));
+  EXPECT_THAT(problemOf([&] { metadataIn({folder / "bag"}, "/c"); }), HasSubstr("it has some on: /a"));
+}
+
+TEST(BagContents, givePosesInTheOrderOfStampsEachOnce)
+{
+  const TemporaryFolder folder;
+  const char* type = "geometry_msgs/PointStamped";
+  writeFile(
+      folder / "bag",
+      ros1Of({{"/prism", type, 1, point(5, 2)}, {"/prism", type, 2, point(4, 1)}, {"/prism", type, 3, point(5, 9)}}));
+  const BagPoses found = readBagPoses({folder / "bag"}, "");
+  EXPECT_FALSE(found.have_rotations);
+  ASSERT_EQ(found.poses.size(), 2u);
+  EXPECT_EQ(found.poses[0].map_T_body.translation.x(), 1);
+  EXPECT_EQ(found.poses[1].map_T_body.translation.x(), 2);
+  EXPECT_THAT(problemOf([&] { readBagPoses({folder / "bag"}, "/odom"); }), HasSubstr("topics with poses: /prism"));
+  EXPECT_THAT(problemOf([&] { readBagImu({folder / "bag"}, "/imu"); }), HasSubstr("topics with sensor_msgs/Imu: none"));
+}
+}  // namespace
+}  // namespace scanloom::bag_contents_unittest
