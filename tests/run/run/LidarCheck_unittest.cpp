@@ -86,6 +86,23 @@ TEST(LidarCheck, namesTheLidarWhoseGroundIsUprightBeforeTheMachineHasDriven)
   EXPECT_EQ(findings.at("left ground").verdict, Verdict::NotFit);
 }
 
+TEST(LidarCheck, namesBothOfTwoExchangedLidarsBeforeTheMachineHasDriven)
+{
+  Rig exchanged;
+  std::swap(exchanged.believed_left, exchanged.believed_right);
+  const auto findings = findingsOf(exchanged, 1);
+  EXPECT_GE(findings.at("left ground").verdict, Verdict::Warning);
+  EXPECT_GE(findings.at("right ground").verdict, Verdict::Warning);
+}
+
+TEST(LidarCheck, takesAGroundThatBothLidarsSeeTiltedForASlope)
+{
+  Rig sloping;
+  sloping.believed_left = at(0, 0, 0, 0, 30, 0) * sloping.left;
+  sloping.believed_right = at(0, 0, 0, 0, 30, 0) * sloping.right;
+  EXPECT_TRUE(findingsOf(sloping, 1).empty());
+}
+
 TEST(LidarCheck, tellsSteadinessFromTwoKeyframesOnAndPosesFromThreeOn)
 {
   EXPECT_EQ(findingsOf({}, 2).count("left steadiness"), 1u);

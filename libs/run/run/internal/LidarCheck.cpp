@@ -1,8 +1,10 @@
 #include "run/run/internal/LidarCheck.h"
 
+#include "base/core/Angle.h"
 #include "calibration/GroundFinding.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace scanloom
 {
@@ -12,6 +14,7 @@ constexpr std::size_t kFewest = 2, kMost = 8;    // keyframes
 constexpr std::size_t kFewestForPose = 3;        // the error's deviation comes from leaving out one of them
 constexpr std::size_t kNeighbours = 2;           // keyframes to each side of one
 constexpr std::size_t kPointsOfLidar = 1 << 14;  // of a keyframe: memory is bounded
+constexpr double kOfOneGround = 25 * kDegree;  // between the normals that two lidars see, slopes on both sides included
 
 /** By lidar, whole columns, so that the distance between beams stays what it is. */
 std::vector<PointCloud> splitByLidar(const PointCloud& points, std::size_t lidars)
@@ -80,17 +83,21 @@ std::vector<SeenPoints> LidarCheck::seenAround(std::size_t lidar, bool with_itse
 
 Findings LidarCheck::compareGrounds() const
 {
-  Findings upright;
-  bool one_is_level = false;
+  Findings tilted;
+  bool contradict = false;
+  std::vector<Eigen::Vector3d> ups;  // of the lidars that see the ground, by what the poses say
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
     std::vector<const PointCloud*> clouds;
     for (const Seen& keyframe : keyframes_) clouds.push_back(&keyframe.points[i]);
-    Finding ground = groundFinding(lidars_[i].name, groundPlane(clouds, lidars_[i].body_T_sensor.translation), {});
-    one_is_level |= ground.verdict == Verdict::Ok;
-    if (ground.verdict == Verdict::NotFit) upright.push_back(std::move(ground));
+    const std::optional<GroundPlane> plane = groundPlane(clouds, lidars_[i].body_T_sensor.translation);
+    if (!plane) continue;
+    for (const Eigen::Vector3d& up : ups) contradict |= up.dot(plane->up) < std::cos(kOfOneGround);
+    ups.push_back(plane->up);
+    Finding ground = groundFinding(lidars_[i].name, plane, {});
+    if (ground.verdict >= Verdict::Warning) tilted.push_back(std::move(ground));
   }
-  return one_is_level ? upright : Findings{};
+  return contradict ? tilted : Findings{};
 }
 
 Findings LidarCheck::compare() const

@@ -11,8 +11,9 @@ namespace scanloom
 /**
  * Whether the lidars' poses in the body fit what they see, by the last eight keyframes: what each lidar sees must stay
  * in place while the machine drives, and be where the first lidar sees it at the same keyframe or its neighbours.
- * Before the machine has driven, a lidar is named only if its ground is upright, while another's is level: lidars that
- * contradict each other so much keep a run from making keyframes.
+ * Before the machine has driven, a lidar is named if its ground is tilted and is not the ground that another lidar
+ * sees: lidars that contradict each other so much keep a run from making keyframes. A ground that all see alike may be
+ * a slope. With two lidars exchanged both are named.
  */
 class LidarCheck
 {
