@@ -15,8 +15,11 @@ namespace scanloom
 {
 namespace
 {
-// Between two scans there is a sample of every IMU: after so many scans it is known which IMUs there are.
-constexpr std::uint64_t kFirstScans = 2;
+// An IMU that has no sample in so much of a rawlog is not used: it could not tell the start either.
+constexpr Duration kProbed = 10s;
+// So much later than a scan's end the file may hold its IMU samples: a live recorder writes a scan by its deadline.
+constexpr Duration kLatest = 2s;
+constexpr std::size_t kMostHeld = 100;  // scans, whatever their stamps say
 
 /** The scan with the columns of those lidars only that have a new id. */
 Scan keepLidars(Scan scan, const std::vector<std::optional<std::uint8_t>>& new_id)
@@ -57,12 +60,7 @@ RawlogInput::RawlogInput(const std::filesystem::path& path, const std::vector<st
                     path.string()));
   bytes_ = std::filesystem::file_size(path);
   chooseLidars(only);
-  while (scans_ < kFirstScans)
-  {
-    std::optional<SensorEvent> event = read();
-    if (!event) break;
-    first_.push_back(std::move(*event));
-  }
+  probe(path);
 }
 
 RawlogInput::~RawlogInput() = default;
@@ -88,17 +86,46 @@ void RawlogInput::chooseLidars(const std::vector<std::string>& only)
   all_wanted_ = setup_.header.lidars.size() == names.size();
 }
 
+/** Which IMUs there are. Reads the beginning for itself, so that no scan needs to be kept. */
+void RawlogInput::probe(const std::filesystem::path& path)
+{
+  RawlogReader beginning(path);
+  std::optional<Timestamp> first;
+  while (const auto event = beginning.next())
+  {
+    if (const auto* scan = std::get_if<RecordedScan>(&*event))
+    {
+      if (!first) first = scan->scan.start;
+      if (scan->scan.start - *first > kProbed) return;
+    }
+    if (const auto* imu = std::get_if<RecordedImu>(&*event))
+      if (const auto sensor = sensorOf(imu->label)) setup_.body_T_imu.emplace(*sensor, imu->body_T_imu);
+  }
+}
+
 std::optional<SensorEvent> RawlogInput::next(Duration)
 {
-  if (first_.empty())
+  while (!stop_ && (held_.empty() || !isDue(held_.front())))
   {
-    std::optional<SensorEvent> event = stop_ ? std::nullopt : read();
-    ended_ = !event;
-    return event;
+    std::optional<SensorEvent> event = read();
+    if (!event) break;
+    auto* scan = std::get_if<Scan>(&*event);
+    if (!scan) return event;
+    newest_end_ = std::max(newest_end_, scan->end());
+    held_.push_back(std::move(*scan));
   }
-  std::optional<SensorEvent> event(std::move(first_.front()));
-  first_.pop_front();
+  ended_ = stop_ || held_.empty();
+  if (ended_) return std::nullopt;
+  std::optional<SensorEvent> event(std::move(held_.front()));
+  held_.pop_front();
   return event;
+}
+
+/** The samples of a scan come before it, as from the batcher. */
+bool RawlogInput::isDue(const Scan& scan) const
+{
+  return setup_.body_T_imu.empty() || newest_sample_ >= scan.end() || newest_end_ > scan.end() + kLatest ||
+         held_.size() > kMostHeld;
 }
 
 std::optional<SensorEvent> RawlogInput::read()
@@ -114,7 +141,12 @@ std::optional<SensorEvent> RawlogInput::read()
     if (const auto* recorded = std::get_if<RecordedImu>(&*event))
       if (const auto sensor = sensorOf(recorded->label))
       {
-        setup_.body_T_imu[*sensor] = recorded->body_T_imu;
+        if (setup_.body_T_imu.count(*sensor) == 0)
+        {
+          ++late_imus_[recorded->label];
+          continue;
+        }
+        newest_sample_ = std::max(newest_sample_, recorded->sample.stamp);
         return SensorImu{*sensor, recorded->sample};
       }
     if (const auto* other = std::get_if<OtherObservation>(&*event))
@@ -157,7 +189,8 @@ RigAccount RawlogInput::account() const
   account.input = {{"rawlog_scans", scans_},
                    {"rawlog_other_objects", other_objects_},
                    {"rawlog_scans_refused", refused_scans_},
-                   {kDamagedInputs, reader_->damage().empty() ? 0U : 1U}};
+                   {kDamagedInputs, (reader_->damage().empty() ? 0U : 1U) + late_imus_.size()}};
+  for (const auto& [label, samples] : late_imus_) account.input["rawlog_" + label + "_too_late"] = samples;
   return account;
 }
 
@@ -165,6 +198,11 @@ std::vector<std::string> RawlogInput::takeWarnings()
 {
   std::vector<std::string> warnings;
   if (const std::string refusal = std::exchange(refusal_, ""); !refusal.empty()) warnings.push_back(refusal);
+  for (const auto& [label, samples] : late_imus_)
+    if (told_late_.insert(label).second)
+      warnings.push_back(
+          fmt::format("the IMU '{}' is not used: its first sample comes more than {:g} s after the first scan", label,
+                      seconds(kProbed)));
   const std::string told = std::exchange(damage_, reader_->damage());
   if (damage_ != told) warnings.push_back(damage_);
   return warnings;

@@ -4,8 +4,10 @@
 #include <atomic>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -35,7 +37,9 @@ class RawlogInput : public SensorInput
 
  private:
   void chooseLidars(const std::vector<std::string>& only);
+  void probe(const std::filesystem::path&);
   std::optional<SensorEvent> read();
+  bool isDue(const Scan&) const;
   bool accepts(const Scan&);
   std::optional<int> sensorOf(const std::string& label) const;
 
@@ -44,7 +48,10 @@ class RawlogInput : public SensorInput
   SensorSetup setup_;
   std::vector<std::optional<std::uint8_t>> new_id_;  // by the rawlog's sensor id; none: the lidar is not wanted
   bool all_wanted_ = true;
-  std::deque<SensorEvent> first_;  // read by the constructor
+  std::deque<Scan> held_;  // until their IMU samples were given
+  Timestamp newest_sample_ = Timestamp::min(), newest_end_ = Timestamp::min();
+  std::map<std::string, std::uint64_t> late_imus_;  // by label: samples of IMUs that are not in the setup
+  std::set<std::string> told_late_;
   std::uint64_t scans_ = 0, other_objects_ = 0;
   std::uint64_t refused_scans_ = 0;  // with points of a lidar that the header does not name
   std::string refusal_;              // of the first of them, until takeWarnings() gives it

@@ -131,6 +131,32 @@ TEST_F(Rawlog, givesBackWhatAPersonMarked)
   EXPECT_LE(std::abs(nanoseconds(marks[0].stamp) - (kStart + 100'000'000)), 100) << "MRPT's clock counts in 100 ns";
 }
 
+TEST_F(Rawlog, givesScansAfterTheirSamplesWhereverTheseStandInTheFile)
+{
+  {
+    RawlogWriter writer(path_, someHeader(), {});
+    for (int i = 0; i < 6; ++i)
+      writer.write(*toObservation(someScan(fromNanoseconds(kStart) + i * 100ms), CloudClass::CGenericPointsMap));
+    for (int i = 0; i <= 60; ++i)
+      writer.write(*toObservation(ImuSample{fromNanoseconds(kStart) + i * 10ms, {1, 2, 3}, {4, 5, 6}}, kBodyTImu));
+    writer.close();
+  }
+  RawlogInput input(path_);
+  ASSERT_EQ(input.setup().body_T_imu.size(), 1U) << "the IMU begins after the sixth scan";
+  Timestamp newest;
+  int scans = 0;
+  while (const auto event = input.next())
+  {
+    if (const auto* imu = std::get_if<SensorImu>(&*event)) newest = imu->sample.stamp;
+    if (const auto* scan = std::get_if<Scan>(&*event))
+    {
+      ++scans;
+      EXPECT_GE(newest, scan->end());
+    }
+  }
+  EXPECT_EQ(scans, 6);
+}
+
 TEST_F(Rawlog, givesBackScansAndSamplesWholeAndInOrder)
 {
   RawlogReader reader(written(3));
