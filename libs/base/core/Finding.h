@@ -1,4 +1,4 @@
-/** Findings of `scanloom doctor` and `scanloom edit --check`: a measure, its verdict and a remedy. */
+/** Findings of `scanloom doctor` and of the checks in a run: a measure, its verdict and a remedy. */
 #pragma once
 #include <string>
 #include <vector>

@@ -18,7 +18,7 @@ struct ImuNoise
 {
   double gyro_noise_deg = 0.003;     // deg/s/sqrt(Hz)
   double accel_noise = 2.5e-4;       // m/s2/sqrt(Hz)
-  double gyro_bias_walk_deg = 1e-4;  // deg/s/sqrt(s)
+  double gyro_bias_walk_deg = 4e-4;  // deg/s/sqrt(s)
   double accel_bias_walk = 1e-4;     // m/s2/sqrt(s)
   double accel_bias_sigma = 0.05;    // m/s2
 

@@ -9,8 +9,7 @@ namespace scanloom
 {
 namespace
 {
-// Both fitted to drives of 120 to 315 m (doc/study/localisation.md).
-constexpr double kHeadingDeviations = 4;  // displacements (of cells one deviation farther away) by which a heading errs
+// Fitted to drives of 120 to 315 m (doc/study/localisation.md).
 constexpr double kTilt = 0.03 * kDegree;  // deviation; with more, one lidar's wrong registrations cost more
 constexpr double kSight = 12;             // m: on less way the same is seen from the same side
 }  // namespace
@@ -26,10 +25,7 @@ void SharedAttitudeNoise::add(const RegistrationResult& seen, const Eigen::Vecto
   sideways_ += std::min(1.0, travel / length_) * (across.normalized().dot(seen.viewpoint_bias) - sideways_);
 }
 
-double SharedAttitudeNoise::heading() const
-{
-  return length_ > 0 ? kHeadingDeviations * std::abs(sideways_) / length_ : 0;
-}
+double SharedAttitudeNoise::heading() const { return length_ > 0 ? std::abs(sideways_) / length_ : 0; }
 
 Matrix6d SharedAttitudeNoise::covariance(const Eigen::Vector3d& up_in_source) const
 {

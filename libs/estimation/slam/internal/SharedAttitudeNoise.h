@@ -10,7 +10,7 @@ namespace scanloom
  *
  * Heading: what is seen from one side displaces a registration sideways (RegistrationResult::viewpoint_bias), by other
  * amounts where the map begins than where it ends, because the machine saw both from different places. So the heading
- * errs by some such displacements over the length of the map. With a lidar on each side the displacements cancel, and
+ * errs by such a displacement over the length of the map. With a lidar on each side the displacements cancel, and
  * this doubt is near zero.
  *
  * Tilt: keyframes that lean by a little make the next registrations lean, too. Believed, they are taken for a bias of
