@@ -25,14 +25,14 @@ if(HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 endif()
 
-# The rooms that others can build on; those behind them need MRPT's maps and sensors, and are the program's own.
-set(public_rooms base/core base/config base/formats input/lidar input/batching input/whole_turns input/packets input/rawlogs
+# The libraries that others can build on; those behind them need MRPT's maps and sensors, and are the program's own.
+set(public_libraries base/core base/config base/formats input/lidar input/batching input/whole_turns input/packets input/rawlogs
     input/bags input/rig estimation/imu estimation/preprocessing estimation/ndt estimation/graph estimation/slam)
-foreach(folder ${public_rooms})
-  get_filename_component(room ${folder} NAME)
+foreach(folder ${public_libraries})
+  get_filename_component(library ${folder} NAME)
   get_filename_component(module ${folder} DIRECTORY)
-  set_target_properties(scanloom_${room} PROPERTIES EXPORT_NAME ${room})
-  install(TARGETS scanloom_${room} EXPORT scanloom ARCHIVE COMPONENT dev)
+  set_target_properties(scanloom_${library} PROPERTIES EXPORT_NAME ${library})
+  install(TARGETS scanloom_${library} EXPORT scanloom ARCHIVE COMPONENT dev)
   install(DIRECTORY libs/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/scanloom/${module} COMPONENT dev
           FILES_MATCHING PATTERN "*.h")
 endforeach()
