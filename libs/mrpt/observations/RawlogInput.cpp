@@ -91,8 +91,11 @@ void RawlogInput::probe(const std::filesystem::path& path)
 {
   RawlogReader beginning(path);
   std::optional<Timestamp> first;
-  while (const auto event = beginning.next())
+  const std::size_t most = setup_.header.lidars.size() + 1;  // one in each lidar, and the body's
+  while (setup_.body_T_imu.size() < most)
   {
+    const auto event = beginning.next();
+    if (!event) return;
     if (const auto* scan = std::get_if<RecordedScan>(&*event))
     {
       if (!first) first = scan->scan.start;

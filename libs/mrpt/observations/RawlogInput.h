@@ -15,7 +15,10 @@ namespace scanloom
 {
 class RawlogReader;
 
-/** The scans and IMU samples of a rawlog that scanloom recorded. */
+/**
+ * The scans and IMU samples of a rawlog that scanloom recorded. It knows from the start what lidars and IMUs there are,
+ * and holds each scan until its samples were given; beside that it counts, and keeps to be told, what it left out.
+ */
 class RawlogInput : public SensorInput
 {
  public:
