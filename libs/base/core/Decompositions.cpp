@@ -19,7 +19,10 @@ Matrix6d inverse(const Matrix6d& m) { return m.inverse(); }
 
 Matrix6d solve(const Matrix6d& a, const Matrix6d& b) { return a.partialPivLu().solve(b); }
 
-bool isPositiveDefinite(const Matrix6d& m) { return m.allFinite() && m.llt().info() == Eigen::Success; }
+bool isPositiveDefinite(const Eigen::Ref<const Eigen::MatrixXd>& m)
+{
+  return m.allFinite() && m.llt().info() == Eigen::Success;
+}
 
 std::optional<Vector6d> solvePositive(const Matrix6d& a, const Vector6d& b)
 {

@@ -14,8 +14,8 @@ Matrix6d inverse(const Matrix6d&);
 /** The x with a x = b. */
 Matrix6d solve(const Matrix6d& a, const Matrix6d& b);
 
-/** Finite, too. */
-bool isPositiveDefinite(const Matrix6d&);
+/** Of a symmetric matrix; finite, too. */
+bool isPositiveDefinite(const Eigen::Ref<const Eigen::MatrixXd>&);
 
 /** None if `a` is not positive definite. */
 std::optional<Vector6d> solvePositive(const Matrix6d& a, const Vector6d& b);

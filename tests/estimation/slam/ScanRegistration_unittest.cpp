@@ -5,6 +5,8 @@
 #include "StandOfStems.h"
 #include "estimation/slam/internal/SlamSettings.h"
 
+#include <limits>
+
 namespace scanloom::scan_registration_unittest
 {
 namespace
@@ -101,6 +103,13 @@ TEST(ScanRegistration, aPredictionThatFitsWorseThanWhatLargeCellsFindIsOverruled
       registerTwice(map, viewsAt(kMapPose * truth), guess, std::nullopt, SlamSettings().registration, times);
   EXPECT_GT(surpriseOf(found, guess), 5);
   EXPECT_LT(distance(found.target_T_source, truth), 0.02);
+}
+
+TEST(ScanRegistration, aCovarianceSpoiltByRoundingMakesTheSurpriseInfiniteAndThrowsNothing)
+{
+  RegistrationResult found;
+  found.covariance(0, 0) = -1;
+  EXPECT_EQ(surpriseOf(found, guessWith(Rigid::identity(), 0.1, 0.01)), std::numeric_limits<double>::infinity());
 }
 
 TEST(ScanRegistration, relocalisesFromAnywhereNearby)

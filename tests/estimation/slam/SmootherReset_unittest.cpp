@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/imu/ImuInitialisation.h"
+#include "estimation/slam/internal/TrackerState.h"
 
 #include <cmath>
 
@@ -43,5 +44,12 @@ TEST(SmootherReset, theBetterAccelerometerTakesOutTheTiltOfTheOneBefore)
 
   change.imu.noise.accel_bias_sigma = 2;
   EXPECT_NEAR(tiltDegrees(continuedBy(change, tilted, Rigid::identity())), tiltDegrees(tilted), 0.1);
+}
+TEST(SmootherReset, aWindowBeginsAlsoWithACovarianceThatRoundingHasSpoilt)
+{
+  NavEstimate start{NavState{}, Matrix15d::Identity()};
+  start.covariance(0, 1) = start.covariance(1, 0) = 1 + 1e-9;
+  const FixedLagSmoother window = windowFrom(start, {}, {});
+  EXPECT_NEAR(window.newestCovariance()(0, 0), 1, 1e-6);
 }
 }  // namespace scanloom::smoother_reset_unittest

@@ -22,8 +22,6 @@ Matrix6d rootOfInformation(const Matrix6d& information)
   return eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.vectors.transpose();
 }
 
-bool isPositiveDefinite(const Matrix15d& m) { return m.allFinite() && m.llt().info() == Eigen::Success; }
-
 Matrix9d rootOfInverse(const Matrix9d& covariance) { return rootOf(covariance); }
 
 Matrix15d rootOfInverse(const Matrix15d& covariance) { return rootOf(covariance); }

@@ -2,7 +2,6 @@
 
 #include "base/core/Angle.h"
 #include "base/core/Decompositions.h"
-#include "estimation/ndt/AmbiguousPoses.h"
 #include "estimation/ndt/LidarInformation.h"
 #include "estimation/ndt/Minimiser.h"
 #include "estimation/ndt/NormalEquations.h"
@@ -10,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace scanloom
@@ -185,8 +185,9 @@ RegistrationResult registerTwice(const NdtMap& map, const std::vector<View>& vie
 
 double surpriseOf(const RegistrationResult& registration, const PoseGuess& predicted)
 {
-  const PoseGuess both(predicted.target_T_source, *predicted.covariance + registration.covariance);
-  return std::sqrt(surprise(both, registration.target_T_source));
+  const Vector6d apart = boxMinus(registration.target_T_source, predicted.target_T_source);
+  const std::optional<Vector6d> weighed = solvePositive(*predicted.covariance + registration.covariance, apart);
+  return weighed ? std::sqrt(apart.dot(*weighed)) : std::numeric_limits<double>::infinity();
 }
 
 Matrix6d covarianceWithin(const SearchArea& area, const RegistrationResult& found)

@@ -43,7 +43,8 @@ RegistrationResult registerTwice(const NdtMap& map, const std::vector<View>& see
                                  const PoseGuess& map_T_body, std::optional<double> usual_score,
                                  const ScanRegistrationOptions&, StageTimes&);
 
-/** Distance of what was found from the prediction, whose covariance is known, in standard deviations of both. */
+/** Distance of what was found from the prediction, whose covariance is known, in standard deviations of both; infinite
+ * where rounding has left the sum of both covariances without an inverse. */
 double surpriseOf(const RegistrationResult&, const PoseGuess& predicted);
 
 /** Where a lost body is searched. */

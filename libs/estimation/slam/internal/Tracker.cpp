@@ -198,7 +198,7 @@ void Tracker::addKeyframe(const Seen& seen, TrackerState& state, StateEstimate& 
   const Rigid estimated = map_T_local.inverse() * estimate.map_T_body;
   Rigid local_T_body = estimated;
   Matrix6d alignment = state.smoother.newestBodyCovariance();
-  if (!state.local_map.empty())
+  if (!state.local_map.empty() && isPositiveDefinite(alignment))
   {
     const NdtMap source(seen.views, settings_.keyframe_cells, Grid::Turned);
     const PoseGuess guess(estimated, alignment);

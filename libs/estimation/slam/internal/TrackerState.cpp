@@ -15,7 +15,11 @@ void TrackerState::anchorAt(const Rigid& local_T_body)
 
 FixedLagSmoother windowFrom(const NavEstimate& start, const MountedImu& imu, const SmootherOptions& options)
 {
-  return {start.state, start.covariance, imu.body_T_imu, imu.noise, options};
+  // Rounding can cost a covariance its positive eigenvalues where it spans kilometres and millimetres.
+  const Matrix15d covariance = isPositiveDefinite(start.covariance)
+                                   ? start.covariance
+                                   : Matrix15d(start.covariance.diagonal().cwiseAbs().asDiagonal());
+  return {start.state, covariance, imu.body_T_imu, imu.noise, options};
 }
 
 Eigen::Vector3d upInBody(const Rigid& map_T_body) { return map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ(); }
