@@ -24,45 +24,16 @@ namespace
 {
 constexpr std::size_t kLargestUnpacked = std::size_t{4} << 30;  // bytes
 
-/** Clouds shrink to a third; text of round numbers to a twentieth. A file of 1 MB that is made to can hold 1 GB. */
-constexpr std::size_t kMostPerPackedByte = 64;
-constexpr std::size_t kAlwaysUnpacked = 64 << 20;  // bytes
-
-/**
- * Gives the unpacked bytes to `take`, in parts. Throws std::invalid_argument if there are more than `most`, and what
- * CompressedFile throws.
- */
-void unpack(const std::filesystem::path& path, std::size_t most,
-            const std::function<void(const std::uint8_t*, std::size_t)>& take)
-{
-  if (!std::filesystem::is_regular_file(path)) throw std::invalid_argument("cannot be read");
-  if (!isCompressed(path)) throw std::invalid_argument("is not compressed, but its name ends in .gz");
-  CompressedFile file(path);
-  std::vector<std::uint8_t> chunk(1 << 18);
-  std::size_t unpacked = 0;
-  while (const std::size_t got = file.readUpTo(chunk.data(), chunk.size()))
-  {
-    unpacked += got;
-    if (unpacked > most)
-      throw std::invalid_argument(
-          fmt::format("unpacks to more than {} MB, {} times its size: no cloud does; if it is one, unpack it by gunzip",
-                      most >> 20, most / std::max<std::size_t>(1, std::filesystem::file_size(path))));
-    take(chunk.data(), got);
-  }
-  file.atEnd();  // throws if it is cut
-}
-
 /** Unpacked twice, first only to be measured: no memory is taken for a file that is refused. */
 std::vector<std::uint8_t> unpackedContent(const std::filesystem::path& path)
 {
-  const std::size_t plausible = kAlwaysUnpacked + kMostPerPackedByte * std::filesystem::file_size(path);
-  const std::size_t most = std::min(kLargestUnpacked, plausible);
-  std::size_t size = 0;
-  unpack(path, most, [&](const std::uint8_t*, std::size_t count) { size += count; });
-  std::vector<std::uint8_t> content;
-  content.reserve(size);
-  unpack(path, most,
-         [&](const std::uint8_t* bytes, std::size_t count) { content.insert(content.end(), bytes, bytes + count); });
+  if (!std::filesystem::is_regular_file(path)) throw std::invalid_argument("cannot be read");
+  if (!isCompressed(path)) throw std::invalid_argument("is not compressed, but its name ends in .gz");
+  const std::uint64_t size = uncompressedBytes(path);
+  if (size > kLargestUnpacked)
+    throw std::invalid_argument(fmt::format("unpacks to {} bytes: at most 4 GB are read", size));
+  std::vector<std::uint8_t> content(size);
+  CompressedFile(path).read(content.data(), content.size());
   return content;
 }
 

@@ -17,7 +17,8 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kBuffer = 1 << 18;       // bytes
+constexpr std::size_t kBuffer = 1 << 18;  // bytes
+constexpr std::uint64_t kAlways = 64 << 20, kMostRatio = 64;
 constexpr std::size_t kLargestCall = 1 << 30;  // zlib counts in int
 constexpr std::array<char, 4> kZstdMagic{'\x28', '\xB5', '\x2F', '\xFD'};
 
@@ -190,6 +191,9 @@ std::size_t CompressedFile::readUpTo(void* bytes, std::size_t count)
     if (!got) fail("the compressed data is damaged");
     if (*got == 0) break;
     done += *got;
+    unpacked_ += *got;
+    if (unpacked_ > kAlways + kMostRatio * bytesRead())
+      fail("it unpacks to more than 64 times its size, as no recording does; if it is one, unpack it first");
   }
   return done;
 }

@@ -182,7 +182,7 @@ TEST_F(CloudFiles, thatUnpackToNothingButZerosAreRefusedWithoutTheirMemory)
             0);
   rusage before{}, after{};
   getrusage(RUSAGE_SELF, &before);
-  EXPECT_THAT([&] { readCloud(packed); }, ThrowsMessage<std::runtime_error>(HasSubstr("no cloud does")));
+  EXPECT_THAT([&] { readCloud(packed); }, ThrowsMessage<std::runtime_error>(HasSubstr("as no recording does")));
   getrusage(RUSAGE_SELF, &after);
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 50'000) << "kB";
 }

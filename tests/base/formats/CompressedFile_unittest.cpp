@@ -131,6 +131,14 @@ TEST(CompressedFile, ofGzipThatIsCutWithinItsHeaderOrItsCheckSumIsCut)
   }
 }
 
+TEST(CompressedFile, ofZerosThatWouldFillAMemoryIsDamaged)
+{
+  const TemporaryFolder folder;
+  const auto path = (folder / "bomb").string();
+  runProgram(fmt::format("head -c 100000000 /dev/zero | gzip > {}", path));
+  EXPECT_THAT(messageOfReading(path), testing::HasSubstr("bomb: it unpacks to more than 64 times its size"));
+}
+
 TEST(CompressedFile, thatCannotBeReadIsNamed)
 {
   const TemporaryFolder folder;

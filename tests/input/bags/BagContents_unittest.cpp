@@ -27,6 +27,14 @@ catch (const std::invalid_argument& problem)
   return problem.what();
 }
 
+TEST(BagContents, refuseACloudOfMorePointsThanATurnHas)
+{
+  const TemporaryFolder folder;
+  const std::vector<HandmadePoint> many(2'000'001);
+  writeFile(folder / "bag", ros1Of({{"/a", "sensor_msgs/PointCloud2", 1, cloudMessage(1, "lidar", many)}}));
+  EXPECT_THAT(contentsOf({folder / "bag"}).topics.at(0).note, HasSubstr("a cloud of 2000001 points"));
+}
+
 TEST(BagContents, sayWhatTheTimeOfCloudsIs)
 {
   const TemporaryFolder folder;

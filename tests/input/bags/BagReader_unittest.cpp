@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "input/bags/internal/unpacked.h"
 #include "support/HandmadeBag.h"
 #include "support/TemporaryFolder.h"
 
@@ -135,7 +136,27 @@ TEST(BagReader, takesNoMoreMemoryThanTheFileHasForAClaimedLength)
 {
   const TemporaryFolder folder;
   writeFile(folder / "bag", "\x89MCAP0\r\n" + littleEndian(std::uint8_t{6}) + littleEndian(std::uint64_t{1} << 60));
-  EXPECT_THAT(contentOfBag(folder / "bag"), ElementsAre(HasSubstr("at most 2^30")));
+  EXPECT_THAT(contentOfBag(folder / "bag"), ElementsAre(HasSubstr("a record that claims 1152921504606846976 bytes")));
+}
+
+TEST(BagReader, leavesOutAChunkThatUnpacksToFarMoreThanAnyRecording)
+{
+  const TemporaryFolder folder;
+  const std::string zeros(100'000'000, '\0');
+  for (const char* compression : {"lz4", "zstd"})
+  {
+    writeFile(folder / "bag", mcapOf({{"/a", "std_msgs/msg/String", 1, zeros}}, compression));
+    EXPECT_THAT(contentOfBag(folder / "bag"), ElementsAre(HasSubstr("1 chunks are damaged and left out")));
+  }
+}
+
+TEST(BagReader, endsAFileWhoseChunksTogetherUnpackToFarMoreThanAnyRecording)
+{
+  const std::string zeros = packed(std::string(40'000'000, '\0'), "bz2");
+  const Bytes chunk(reinterpret_cast<const std::uint8_t*>(zeros.data()), zeros.size());
+  Unpacker unpacker(2 * zeros.size());
+  EXPECT_EQ(unpacker.unpacked(chunk, "bz2", 40'000'000).size(), 40'000'000U);
+  EXPECT_THROW(unpacker.unpacked(chunk, "bz2", 40'000'000), UnpacksToTooMuch);
 }
 
 TEST(BagReader, refusesWhatIsNoBag)

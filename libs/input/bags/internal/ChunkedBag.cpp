@@ -12,13 +12,19 @@ namespace scanloom
 namespace
 {
 constexpr std::uint64_t kReadAtOnce = 1 << 16;
-constexpr std::uint64_t kLargestRecord = 1 << 30;
+constexpr std::uint64_t kAnyRecord = 64 << 20,
+                        kRatioOfRecord = 6;  // the latter for a file that is compressed as a whole
 }  // namespace
+
+BagFile::BagFile(const std::filesystem::path& path)
+  : file_(path), largest_record_(kAnyRecord + kRatioOfRecord * std::filesystem::file_size(path))
+{
+}
 
 std::vector<std::uint8_t> BagFile::read(std::uint64_t count)
 {
-  if (count > kLargestRecord)
-    throw std::runtime_error(fmt::format("a record that claims {} bytes: at most 2^30 are read", count));
+  if (count > largest_record_)
+    throw std::runtime_error(fmt::format("a record that claims {} bytes: at most {} are read", count, largest_record_));
   std::vector<std::uint8_t> bytes;
   while (bytes.size() < count)
   {
@@ -101,12 +107,10 @@ double ChunkedBag::progress() const
   return std::min(1.0, static_cast<double>(source_->file().bytesRead()) / static_cast<double>(file_bytes_));
 }
 
-std::size_t placeOf(const BagTopic& topic, std::vector<BagTopic>& topics)
+std::size_t TopicList::placeOf(const BagTopic& topic)
 {
-  const auto same = [&](const BagTopic& known)
-  { return known.name == topic.name && known.type == topic.type && known.serialisation == topic.serialisation; };
-  const auto found = std::find_if(topics.begin(), topics.end(), same);
-  if (found == topics.end()) topics.push_back(topic);
-  return static_cast<std::size_t>(std::find_if(topics.begin(), topics.end(), same) - topics.begin());
+  const auto [place, is_new] = places_.try_emplace({topic.name, topic.type, topic.serialisation}, topics_.size());
+  if (is_new) topics_.push_back(topic);
+  return place->second;
 }
 }  // namespace scanloom

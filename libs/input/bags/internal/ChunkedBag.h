@@ -4,7 +4,9 @@
 #include "input/bags/BagReader.h"
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <tuple>
 
 namespace scanloom
 {
@@ -19,10 +21,10 @@ struct BagChunk
 class BagFile
 {
  public:
-  explicit BagFile(const std::filesystem::path& path) : file_(path) {}
+  explicit BagFile(const std::filesystem::path&);
 
   /** Memory grows with what the file has, not with `count`. Throws std::runtime_error if it ends before, or for more
-   * than 2^30 bytes. */
+   * than 64 MiB and 6 times the file. */
   std::vector<std::uint8_t> read(std::uint64_t count);
 
   /** Throws as read(). */
@@ -34,6 +36,7 @@ class BagFile
 
  private:
   CompressedFile file_;
+  std::uint64_t largest_record_;
   std::uint64_t position_ = 0;  // unpacked
 };
 
@@ -84,6 +87,17 @@ class ChunkedBag : public BagReader
   std::vector<std::string> warnings_;
 };
 
-/** The place of a topic among those known, to which it is added if it is new. */
-std::size_t placeOf(const BagTopic&, std::vector<BagTopic>& topics);
+/** Topics in the order in which they were met, each once. */
+class TopicList
+{
+ public:
+  /** Its place; it is added if it is new. */
+  std::size_t placeOf(const BagTopic&);
+
+  const std::vector<BagTopic>& topics() const { return topics_; }
+
+ private:
+  std::vector<BagTopic> topics_;
+  std::map<std::tuple<std::string, std::string, Serialisation>, std::size_t> places_;  // by name, type, serialisation
+};
 }  // namespace scanloom

@@ -108,6 +108,7 @@ struct CloudLayout
 CloudLayout layoutOf(const BagTopic& topic, Bytes bytes)
 {
   constexpr std::size_t kLeastBytesOfAField = 4 + 4 + 1 + 4;
+  constexpr std::size_t kMostPoints = 2'000'000;  // two returns of 128 channels in 4096 columns are 1'048'576
   MessageReader message(bytes, topic.serialisation);
   CloudLayout layout;
   layout.header = message.header();
@@ -128,6 +129,8 @@ CloudLayout layoutOf(const BagTopic& topic, Bytes bytes)
   if (layout.step == 0 || (height > 1 && row != width * layout.step))
     throw std::invalid_argument("a cloud whose rows have gaps, or whose points have no size");
   layout.points = std::min<std::uint64_t>(height * width, layout.data.size() / layout.step);
+  if (layout.points > kMostPoints)
+    throw std::invalid_argument(fmt::format("a cloud of {} points; a turn has at most {}", layout.points, kMostPoints));
   return layout;
 }
 

@@ -55,7 +55,7 @@ class McapTopics
     topic.name = fields.string();
     topic.serialisation = serialisationNamed(fields.string());
     if (const auto type = types_.find(schema); type != types_.end()) topic.type = type->second;
-    places_[id] = placeOf(topic, topics_);
+    places_[id] = topics_.placeOf(topic);
   }
 
   /** Of a channel that was not declared, none. */
@@ -76,12 +76,12 @@ class McapTopics
     if (kind == kMcapMessage) addMessage(record, chunk);
   }
 
-  const std::vector<BagTopic>& topics() const { return topics_; }
+  const std::vector<BagTopic>& topics() const { return topics_.topics(); }
 
  private:
   std::map<std::uint16_t, std::string> types_;   // by schema
   std::map<std::uint16_t, std::size_t> places_;  // of topics, by channel
-  std::vector<BagTopic> topics_;
+  TopicList topics_;
 };
 
 /** All records of `bytes`. Throws std::out_of_range if the last one is cut. */
@@ -112,7 +112,10 @@ std::vector<std::uint8_t> summaryOf(const std::filesystem::path& path)
 class McapSource : public ChunkSource
 {
  public:
-  explicit McapSource(const std::filesystem::path& path) : file_(path) { file_.skip(kMagicBytes); }
+  explicit McapSource(const std::filesystem::path& path) : file_(path), unpacker_(std::filesystem::file_size(path))
+  {
+    file_.skip(kMagicBytes);
+  }
 
   const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
   const BagFile& file() const override { return file_; }
@@ -176,10 +179,14 @@ class McapSource : public ChunkSource
     try
     {
       chunk.bytes = compression.empty() ? std::vector<std::uint8_t>(records.begin(), records.end())
-                                        : unpacked(records, compression, size);
+                                        : unpacker_.unpacked(records, compression, size);
       const auto found = ::crc32_z(0, chunk.bytes.data(), chunk.bytes.size());
       if (crc != 0 && found != crc) throw std::runtime_error("a wrong checksum");
       addRecords(chunk.bytes, topics_, chunk);
+    }
+    catch (const UnpacksToTooMuch&)
+    {
+      throw;
     }
     catch (const std::exception&)  // as unpacked() and addRecords() throw
     {
@@ -189,6 +196,7 @@ class McapSource : public ChunkSource
   }
 
   BagFile file_;
+  Unpacker unpacker_;
   McapTopics topics_;
   std::uint64_t damaged_ = 0;
 };

@@ -46,15 +46,21 @@ class Ros1Header
   template <typename Number>
   Number number(std::string_view name) const
   {
-    return load<Number>(fields_.at(name), 0);
+    return load<Number>(field(name), 0);
   }
   std::string text(std::string_view name) const
   {
-    const Bytes value = fields_.at(name);
+    const Bytes value = field(name);
     return {value.begin(), value.end()};
   }
 
  private:
+  Bytes field(std::string_view name) const
+  {
+    if (const auto found = fields_.find(name); found != fields_.end()) return found->second;
+    throw std::out_of_range(fmt::format("a record without '{}'", name));
+  }
+
   std::map<std::string_view, Bytes> fields_;
 };
 
@@ -66,7 +72,7 @@ class Ros1Topics
   void addConnection(const Ros1Header& record, Bytes data)
   {
     const BagTopic topic{record.text("topic"), typeNameOf(Ros1Header(data).text("type")), Serialisation::Ros1};
-    places_[record.number<std::uint32_t>("conn")] = placeOf(topic, topics_);
+    places_[record.number<std::uint32_t>("conn")] = topics_.placeOf(topic);
   }
 
   /** Of a connection that was not declared, none. */
@@ -85,11 +91,11 @@ class Ros1Topics
     if (kind == kRos1Message) addMessage(header, data, chunk);
   }
 
-  const std::vector<BagTopic>& topics() const { return topics_; }
+  const std::vector<BagTopic>& topics() const { return topics_.topics(); }
 
  private:
   std::map<std::uint32_t, std::size_t> places_;  // of topics, by connection
-  std::vector<BagTopic> topics_;
+  TopicList topics_;
 };
 
 /** Throws std::out_of_range if the last record is cut. */
@@ -108,7 +114,10 @@ void addRos1Records(Bytes bytes, Ros1Topics& topics, BagChunk& chunk)
 class Ros1Source : public ChunkSource
 {
  public:
-  explicit Ros1Source(const std::filesystem::path& path) : file_(path) { file_.skip(kRos1Magic); }
+  explicit Ros1Source(const std::filesystem::path& path) : file_(path), unpacker_(std::filesystem::file_size(path))
+  {
+    file_.skip(kRos1Magic);
+  }
 
   const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
   const BagFile& file() const override { return file_; }
@@ -189,9 +198,13 @@ class Ros1Source : public ChunkSource
     try
     {
       const std::string compression = header.text("compression");
-      chunk.bytes =
-          compression == "none" ? std::move(data) : unpacked(data, compression, header.number<std::uint32_t>("size"));
+      chunk.bytes = compression == "none" ? std::move(data)
+                                          : unpacker_.unpacked(data, compression, header.number<std::uint32_t>("size"));
       addRos1Records(chunk.bytes, topics_, chunk);
+    }
+    catch (const UnpacksToTooMuch&)
+    {
+      throw;
     }
     catch (const std::exception&)  // as unpacked() and addRos1Records() throw
     {
@@ -201,6 +214,7 @@ class Ros1Source : public ChunkSource
   }
 
   BagFile file_;
+  Unpacker unpacker_;
   Ros1Topics topics_;
   std::vector<std::uint8_t> header_bytes_;
   std::uint64_t index_at_ = 0, chunks_expected_ = 0, chunks_ = 0, damaged_ = 0;

@@ -24,7 +24,7 @@ std::string textOf(sqlite3_stmt* row, int column)
 class SqliteBag : public BagReader
 {
  public:
-  explicit SqliteBag(const std::filesystem::path& path) : path_(path), database_(path)
+  explicit SqliteBag(const std::filesystem::path& path) : path_(path), database_(path), unpacker_(database_.bytes())
   {
     for (const char* table : {"topics", "messages"}) requirePlainTable(table);
     readTopics();
@@ -127,7 +127,7 @@ class SqliteBag : public BagReader
   {
     try
     {
-      unpacked_ = unpackedMessage(data);
+      unpacked_ = unpacker_.unpackedMessage(data);
     }
     catch (const std::runtime_error&)  // a message that nobody can read: it is counted where it is needed
     {
@@ -150,6 +150,7 @@ class SqliteBag : public BagReader
   std::vector<BagTopic> topics_;
   std::map<std::int64_t, std::size_t> places_;  // of topics, by their id
   SqliteDatabase::Rows rows_;                   // null after the last
+  Unpacker unpacker_;
   std::vector<std::uint8_t> unpacked_;
   std::uint64_t bytes_read_ = 0;
   std::vector<std::string> warnings_;

@@ -14,7 +14,8 @@ namespace scanloom
 namespace
 {
 constexpr std::size_t kStep = 1 << 20;
-constexpr std::uint64_t kMostBytes = 1 << 30;  // a chunk is usually some MB; less may be hidden bombs
+constexpr std::uint64_t kAlways = 64 << 20;  // bytes that any chunk may have, and any file: chunks are usually some MB
+constexpr std::uint64_t kRatioOfChunk = 6, kRatioOfFile = 20;
 
 [[noreturn]] void refuse(const char* compression)
 {
@@ -109,29 +110,40 @@ std::unique_ptr<Decompressor> decompressorFor(const std::string& compression)
 }
 }  // namespace
 
-std::vector<std::uint8_t> unpacked(Bytes packed, const std::string& compression, std::uint64_t size)
+Unpacker::Unpacker(std::uint64_t file_bytes) : left_(kAlways + kRatioOfFile * file_bytes) {}
+
+std::vector<std::uint8_t> Unpacker::unpacked(Bytes packed, const std::string& compression, std::uint64_t size)
 {
-  if (size > kMostBytes) throw std::runtime_error(fmt::format("it claims {} bytes: at most 2^30 are read", size));
+  const std::uint64_t most = kAlways + kRatioOfChunk * packed.size();
+  if (size > most)
+    throw std::runtime_error(fmt::format("{} bytes claim to be {}: at most {} are read", packed.size(), size, most));
   const auto decompressor = decompressorFor(compression);
   std::vector<std::uint8_t> bytes;
   std::size_t filled = 0;
   while (filled < size)
   {
     if (filled == bytes.size()) bytes.resize(std::min<std::uint64_t>(size, std::max(kStep, 2 * bytes.size())));
-    const std::size_t left = packed.size();
+    const std::size_t before = packed.size();
     const std::size_t got = decompressor->unpack(packed, bytes.data() + filled, bytes.size() - filled);
     filled += got;
-    if (got == 0 && packed.size() == left) break;
+    if (got == 0 && packed.size() == before) break;
+    if (got > left_) throw UnpacksToTooMuch();
+    left_ -= got;
   }
   if (filled < size) throw std::runtime_error(fmt::format("it holds {} bytes of the {} that it claims", filled, size));
   return bytes;
 }
 
-std::vector<std::uint8_t> unpackedMessage(Bytes message)
+std::vector<std::uint8_t> Unpacker::unpackedMessage(Bytes message)
 {
   const unsigned long long size = ZSTD_getFrameContentSize(message.data(), message.size());
   if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR) return {};
   return unpacked(message, "zstd", size);
+}
+
+UnpacksToTooMuch::UnpacksToTooMuch()
+  : std::runtime_error(fmt::format("it unpacks to more than {} times its size", kRatioOfFile))
+{
 }
 
 bool isZstd(Bytes bytes) { return bytes.size() >= 4 && load<std::uint32_t>(bytes, 0) == ZSTD_MAGICNUMBER; }
