@@ -37,6 +37,24 @@ std::vector<Eigen::Vector3d> courtyard()
   return points;
 }
 
+/** Of 12 m by 8 m, with a column in one corner. */
+std::vector<Eigen::Vector3d> room()
+{
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 0.01);
+  std::uniform_real_distribution<double> along(-6, 6), across(-4, 4), up(-1.2, 1.8), column(2.5, 3.5);
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i < 20000; ++i) points.emplace_back(along(random), across(random), -1.2 + noise(random));
+  for (const double side : {-1, 1})
+    for (int i = 0; i < 5000; ++i)
+    {
+      points.emplace_back(along(random), side * 4 + noise(random), up(random));
+      points.emplace_back(side * 6 + noise(random), across(random), up(random));
+    }
+  for (int i = 0; i < 4000; ++i) points.emplace_back(column(random) + 2, 3 + noise(random), up(random));
+  return points;
+}
+
 std::vector<Eigen::Vector3d> plain()
 {
   std::vector<Eigen::Vector3d> points = courtyard();
@@ -183,6 +201,21 @@ TEST_F(Register, refusesADeviationOfTheGuessForMetresAlone)
 {
   EXPECT_EQ(registered(pairOf(courtyard()) + "--guess-sigma-m 0.1").status, 2);
   EXPECT_EQ(registered(pairOf(courtyard()) + "--guess-sigma-m 0.1 --guess-sigma-deg 1").status, 0);
+}
+
+TEST_F(Register, saysThatARoomFitsItselfTheOtherWayRoundAsWell)
+{
+  const std::vector<Eigen::Vector3d> points = room();
+  writePcd(folder / "target.pcd", points, Eigen::Isometry3d::Identity());
+  const auto statusAfter = [&](double turn)
+  {
+    const Eigen::Isometry3d pose(Eigen::AngleAxisd(turn * M_PI / 180, Eigen::Vector3d::UnitZ()));
+    writePcd(folder / "source.pcd", points, pose.inverse());
+    return registered((folder / "target.pcd").string() + " " + (folder / "source.pcd").string()).status;
+  };
+  EXPECT_EQ(statusAfter(10), 0);
+  EXPECT_EQ(statusAfter(90), 3);
+  EXPECT_EQ(statusAfter(180), 3);
 }
 
 TEST(RegisterRecorded, findsThePairOfSmallGicp)

@@ -1,5 +1,7 @@
 #include "lab/evaluation/CloudRegistration.h"
 
+#include "base/core/Angle.h"
+
 #include <chrono>
 #include <sstream>
 
@@ -53,6 +55,13 @@ std::vector<double> sizesOf(const std::string& text, const std::string& key, con
         "must be lengths " + toString(bounds) + " m, separated by blanks, each smaller than the one before");
   return sizes;
 }
+/** Within half a metre and 5 deg two results are one. */
+std::optional<PoseError> distanceIfFar(const Rigid& pose, const Rigid& other)
+{
+  constexpr double kMetres = 0.5, kDegrees = 5;
+  const PoseError apart = poseError(pose, other);
+  return apart.metres > kMetres || apart.degrees > kDegrees ? std::optional(apart) : std::nullopt;
+}
 }  // namespace
 
 LevelSizes levelsOf(const RegisterSettings& settings, const Configuration& configuration)
@@ -89,11 +98,26 @@ TimedRegistration CloudPair::registered(const PoseGuess& guess) const
 
 std::optional<PoseError> CloudPair::contradiction(const RegistrationResult& found, const Rigid& guess) const
 {
-  constexpr double kEnough = 0.5, kMetres = 0.5, kDegrees = 5;
-  if (found.overlap >= kEnough) return std::nullopt;
-  const RegistrationResult back =
-      alignCoarseToFine(pairLevels(source_.levels, target_.levels), PoseGuess(guess.inverse()), options_);
-  const PoseError apart = poseError(found.target_T_source, back.target_T_source.inverse());
-  return apart.metres > kMetres || apart.degrees > kDegrees ? std::optional(apart) : std::nullopt;
+  constexpr double kFew = 0.5, kMost = 0.9;  // overlaps
+  if (found.overlap < kFew)
+  {
+    const RegistrationResult back =
+        alignCoarseToFine(pairLevels(source_.levels, target_.levels), PoseGuess(guess.inverse()), options_);
+    if (const auto apart = distanceIfFar(found.target_T_source, back.target_T_source.inverse())) return apart;
+  }
+  return found.overlap < kMost ? rivalAtAnotherHeading(found, guess) : std::nullopt;
+}
+
+std::optional<PoseError> CloudPair::rivalAtAnotherHeading(const RegistrationResult& found, const Rigid& guess) const
+{
+  constexpr double kAsGood = 0.95;  // of the score; scores are negative
+  for (const double turn : {90, 180, 270})
+  {
+    const RegistrationResult rival =
+        registered(guess * Rigid::fromXyzYawPitchRoll(0, 0, 0, turn * kDegree, 0, 0)).result;
+    if (rival.outcome == Outcome::LowOverlap || rival.score > kAsGood * found.score) continue;
+    if (const auto apart = distanceIfFar(found.target_T_source, rival.target_T_source)) return apart;
+  }
+  return std::nullopt;
 }
 }  // namespace scanloom

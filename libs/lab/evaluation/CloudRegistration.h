@@ -63,9 +63,9 @@ class CloudPair
   TimedRegistration registered(const PoseGuess&) const;
 
   /**
-   * Where less than half of the source meets the target, many poses look well: how far apart this pose, found from
-   * `guess`, and that of the target in the source, from the same guess, are. None where they agree (within half a metre
-   * and 5 deg), and where more than half meets.
+   * How far away another pose is that may be the true one; none within half a metre and 5 deg, and none where 90 % of
+   * the source meet the target. It is that of the target in the source from the same guess, where less than half meets;
+   * or one that agrees as well, found from the guess turned by 90, 180 or 270 deg: walls of a room meet four ways.
    */
   std::optional<PoseError> contradiction(const RegistrationResult&, const Rigid& guess) const;
 
@@ -73,6 +73,8 @@ class CloudPair
   double sourceMilliseconds() const { return source_.milliseconds; }
 
  private:
+  std::optional<PoseError> rivalAtAnotherHeading(const RegistrationResult&, const Rigid& guess) const;
+
   struct Prepared
   {
     std::vector<NdtMap> levels;

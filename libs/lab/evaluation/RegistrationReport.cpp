@@ -125,9 +125,8 @@ std::string toText(const RegistrationReport& report)
   text += fmt::format("outcome              {}\n", outcomeLine(result));
   if (const auto& apart = report.contradiction)
     text += fmt::format(
-        "not confirmed        the other way round, from the same guess, the pose is {:.2f} m and {:.1f} deg away: give "
-        "a "
-        "better --guess\n",
+        "not confirmed        another pose, {:.2f} m and {:.1f} deg away, may be the true one: give a better --guess, "
+        "and how good it is (--guess-sigma-m, --guess-sigma-deg)\n",
         apart->metres, apart->degrees);
   text += fmt::format("overlap              {:.1f} %\n", 100 * result.overlap);
   text += fmt::format("iterations           {}\n", result.iterations);
