@@ -29,13 +29,13 @@ Turns cellsOf(const std::vector<SeenByBoth>& pairs, Which which, double edge)
 {
   NdtOptions options;
   options.cell_size = edge;
-  const auto cells = [&](const SeenPoints& seen)
-  { return NdtMap(which == Which::All ? seen.points : surroundings(seen), options); };
+  const auto cells = [&](const SeenPoints& seen, Grid grid)
+  { return NdtMap(viewsOf(which == Which::All ? seen.points : surroundings(seen), {}), options, grid); };
   Turns turns;
   for (const SeenByBoth& pair : pairs)
   {
-    turns.a.push_back(cells(*pair.a));
-    turns.b.push_back(cells(*pair.b));
+    turns.a.push_back(cells(*pair.a, Grid::Turned));  // one grid for both would hold them together
+    turns.b.push_back(cells(*pair.b, Grid::Straight));
   }
   return turns;
 }
@@ -120,6 +120,7 @@ std::optional<CloudAgreement> cloudAgreement(const std::vector<SeenByBoth>& all,
   agreement.turns = here->turns.size();
   agreement.common = here->common;
   agreement.near_share = here->near_share;
+  agreement.near_sigma = here->near_sigma;
   if (agreement.turns < kFewestTurns) return agreement;
 
   const std::optional<Rigid> correction = alignAll(here->turns);

@@ -9,9 +9,9 @@ namespace scanloom
 {
 struct CloudAgreement
 {
-  std::size_t turns = 0;  // these three as in OverlapOverTurns
+  std::size_t turns = 0;  // these four as in OverlapOverTurns
   std::size_t common = 0;
-  double near_share = 0;
+  double near_share = 0, near_sigma = 0;
 
   /**
    * How A's sensor must move and turn (in the body's axes) if B's pose is right. None with fewer than three turns, or

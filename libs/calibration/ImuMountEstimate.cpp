@@ -105,7 +105,7 @@ std::optional<Mount> imuMountByTurns(const Trajectory& poses, const std::vector<
 {
   constexpr double kLeastScale = 0.8;
   const std::optional<GyroAgreement> told = gyroAgreement(turnsOf(poses), {samples, given.body_T_sensor});
-  if (!told || told->scale < kLeastScale || told->scale > 1 / kLeastScale) return std::nullopt;
+  if (!told || told->mirrored || told->scale < kLeastScale || told->scale > 1 / kLeastScale) return std::nullopt;
   return Mount{{(expSo3(told->rotation) * given.body_T_sensor.rotation).normalized(), given.body_T_sensor.translation},
                seconds(told->lag)};
 }

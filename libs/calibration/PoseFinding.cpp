@@ -11,9 +11,11 @@ namespace scanloom
 namespace
 {
 constexpr double kLargestOffset = 1, kLargestTurn = 15;  // m, deg: what registration with cells of 2 m can correct
+constexpr std::size_t kFewestPlaces = 3;                 // one may have a pose that the drive's beginning left wrong
 constexpr const char* kMeasureAgain =
     "measure both poses again: x y z in m, yaw pitch roll in deg, of the sensor frame in the body; see that each lidar "
     "has its own metadata file, or let 'scanloom calibrate' find the pose from a drive";
+
 }  // namespace
 
 Finding poseFinding(const std::string& lidar, const std::string& other, const std::optional<CloudAgreement>& agreement,
@@ -22,7 +24,8 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
   Finding finding{lidar, "pose", Verdict::NotMeasured, fmt::format("too few points that '{}' sees as well", other)};
   if (!agreement) return finding;
   const CloudAgreement& a = *agreement;
-  finding.says = fmt::format("{:.0f} % of {} common points agree with '{}'", 100 * a.near_share, a.common, other);
+  finding.says = fmt::format("{:.0f} % (+-{:.0f}) of {} common points agree with '{}'", 100 * a.near_share,
+                             100 * a.near_sigma, a.common, other);
   finding.verdict = a.near_share < limits.near_share_warning ? Verdict::Warning : Verdict::Ok;
   if (finding.verdict != Verdict::Ok) finding.mend = kMeasureAgain;
   if (!a.correction)
@@ -34,7 +37,7 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
   const Eigen::Vector3d degrees = c.rotation / kDegree;
   finding.says += fmt::format("; best fit of {} turns {:.3f} m (+-{:.3f}) and {:.2f} deg (+-{:.2f}) off", a.turns,
                               c.offset.norm(), c.offset_sigma, degrees.norm(), c.rotation_sigma / kDegree);
-  const auto atLeast = [](double value, double sigma) { return value > 3 * sigma ? value - sigma : 0; };
+  const auto atLeast = [](double value, double sigma) { return value - 3 * sigma; };
   const Verdict fit =
       std::max(grade(atLeast(c.offset.norm(), c.offset_sigma), limits.pose_offset_warning, limits.pose_offset_not_fit),
                grade(atLeast(degrees.norm(), c.rotation_sigma / kDegree), limits.pose_angle_warning_deg,
@@ -56,10 +59,11 @@ Finding steadinessFinding(const std::string& lidar, const std::optional<OverlapO
                           const PoseLimits& limits)
 {
   Finding finding{lidar, "steadiness", Verdict::NotMeasured, "too few points that are seen again on the way"};
-  if (!on_the_way) return finding;
-  finding.says = fmt::format("{:.0f} % of {} points that are seen again on the way are in the same place",
-                             100 * on_the_way->near_share, on_the_way->common);
-  finding.verdict = on_the_way->near_share < limits.near_share_warning ? Verdict::Warning : Verdict::Ok;
+  if (!on_the_way || on_the_way->turns.size() < kFewestPlaces) return finding;
+  finding.says = fmt::format("{:.0f} % (+-{:.0f}) of {} points that are seen again on the way are in the same place",
+                             100 * on_the_way->near_share, 100 * on_the_way->near_sigma, on_the_way->common);
+  const bool is_low = on_the_way->near_share + 2 * on_the_way->near_sigma < limits.near_share_warning;
+  finding.verdict = is_low ? Verdict::Warning : Verdict::Ok;
   if (finding.verdict != Verdict::Ok)
     finding.mend =
         "its pose in the body is wrong, or its metadata file is another lidar's: measure x y z in m, yaw pitch roll in "

@@ -13,9 +13,9 @@ namespace scanloom
 struct PoseLimits
 {
   double near_share_warning = 0.5;
-  double pose_offset_warning = 0.1;
+  double pose_offset_warning = 0.05;
   double pose_offset_not_fit = 0.25;
-  double pose_angle_warning_deg = 0.8;
+  double pose_angle_warning_deg = 0.3;
   double pose_angle_not_fit_deg = 3;
 
   template <typename Self, typename Visitor>
@@ -24,21 +24,21 @@ struct PoseLimits
     visit(o.near_share_warning,
           Field{"near_share_warning", "", "share of the points that another lidar should see and sees within 0.3 m",
                 between(0, 1)});
-    visit(o.pose_offset_warning, Field{"pose_offset_warning", "m",
-                                       "error by registration to the first lidar; a stem is seen twice", above(0)});
+    visit(o.pose_offset_warning,
+          Field{"pose_offset_warning", "m", "error by registration to the first lidar; drift grows by half", above(0)});
     visit(o.pose_offset_not_fit,
           Field{"pose_offset_not_fit", "m",
                 "error by registration to the first lidar; more than the width of most stems", above(0)});
     visit(o.pose_angle_warning_deg,
-          Field{"pose_angle_warning_deg", "deg", "error by registration to the first lidar; 14 cm at 10 m", above(0)});
+          Field{"pose_angle_warning_deg", "deg", "error by registration to the first lidar; drift doubles", above(0)});
     visit(o.pose_angle_not_fit_deg, Field{"pose_angle_not_fit_deg", "deg",
                                           "error by registration to the first lidar; half a metre at 10 m", above(0)});
   }
 };
 
 /**
- * About `lidar`, if the pose of `other` is right. Errors below three standard deviations are none; of larger ones a
- * standard deviation is subtracted before they are compared with the limits.
+ * About `lidar`, if the pose of `other` is right. Three standard deviations are subtracted from an error before it is
+ * compared with the limits.
  */
 Finding poseFinding(const std::string& lidar, const std::string& other, const std::optional<CloudAgreement>&,
                     const PoseLimits&);

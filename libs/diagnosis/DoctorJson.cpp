@@ -117,11 +117,17 @@ json jsonOf(const ImuExamination& imu)
   if (imu.gyro_scale)
     result["gyro_scale"] = {
         {"scale", imu.gyro_scale->scale}, {"sigma", imu.gyro_scale->sigma}, {"tilt_rate", imu.gyro_scale->tilt_rate}};
-  if (imu.to_first)
-    result["gyro_to_first"] = {{"rotation_rad", jsonOf(imu.to_first->rotation)},
-                               {"sigma_rad", imu.to_first->sigma},
-                               {"scale", imu.to_first->scale},
-                               {"lag_s", seconds(imu.to_first->lag)}};
+  if (imu.compared && imu.compared->agreement)
+  {
+    const GyroAgreement& a = *imu.compared->agreement;
+    result["gyro_to_reference"] = {{"reference", imu.compared->reference},
+                                   {"rotation_rad", jsonOf(a.rotation)},
+                                   {"sigma_rad", a.sigma},
+                                   {"mirrored", a.mirrored},
+                                   {"scale", a.scale},
+                                   {"scale_sigma", a.scale_sigma},
+                                   {"lag_s", seconds(a.lag)}};
+  }
   return result;
 }
 

@@ -122,30 +122,6 @@ Finding gyroFinding(const ImuExamination& imu, const ImuLimits& limits)
                      : "check the gyroscope's unit, full-scale setting and axes against the accelerometer's";
   return finding;
 }
-
-Finding agreementFinding(const ImuExamination& imu, const std::string& first, const ImuLimits& limits)
-{
-  const GyroAgreement& a = *imu.to_first;
-  const double angle = a.rotation.norm() / kDegree, lag = 1e3 * seconds(a.lag);
-  Finding finding{
-      imu.name, "turns", Verdict::Ok,
-      fmt::format("turn rates {:.1f} deg (+-{:.1f}) off those of '{}', {:+.1f} ms late, {:.2f} times as large", angle,
-                  a.sigma / kDegree, first, lag, a.scale)};
-  if (angle > limits.gyro_angle_warning_deg && angle > 3 * a.sigma / kDegree)
-  {
-    finding.verdict = angle > limits.gyro_angle_not_fit_deg ? Verdict::NotFit : Verdict::Warning;
-    const Eigen::Vector3d axis = a.rotation.normalized();
-    finding.mend =
-        fmt::format("one of the two poses is wrong: turn this IMU's by {:.1f} deg about ({:.2f} {:.2f} {:.2f})", angle,
-                    axis.x(), axis.y(), axis.z());
-  }
-  else if (std::abs(lag) > limits.imu_lag_warning_ms)
-  {
-    finding.verdict = Verdict::Warning;
-    finding.mend = "stamp both IMUs by the same clock, or subtract this from the later one's stamps";
-  }
-  return finding;
-}
 }  // namespace
 
 Findings imuFindings(const RigExamination& rig, std::size_t index, const ImuLimits& limits)
@@ -156,7 +132,8 @@ Findings imuFindings(const RigExamination& rig, std::size_t index, const ImuLimi
   findings.push_back(gravityFinding(imu, limits));
   findings.push_back(upFinding(imu, rig.poses_known, limits));
   findings.push_back(gyroFinding(imu, limits));
-  if (imu.to_first && rig.poses_known) findings.push_back(agreementFinding(imu, rig.imus.front().name, limits));
+  if (imu.compared)
+    findings.push_back(turnsFinding(*imu.compared, imu.name, rig.imus[imu.compared->reference].name, limits));
   return findings;
 }
 }  // namespace scanloom

@@ -1,11 +1,12 @@
 /** ImuTiming, MeanForce, GyroScale and GyroAgreement on a swaying machine whose motion is known by formula. */
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 #include <random>
 
 #include "base/core/Angle.h"
 #include "base/core/So3.h"
+#include "diagnosis/ImuComparison.h"
 #include "diagnosis/internal/ImuTiming.h"
 #include "estimation/imu/GyroAgreement.h"
 #include "estimation/imu/GyroScale.h"
@@ -200,5 +201,69 @@ TEST(GyroAgreement, saysNothingOfABodyThatTurnsAboutOneAxisOrNotAtAll)
     for (ImuSample& sample : *samples) sample.gyro = {0, 0, sample.gyro.z()};
   EXPECT_FALSE(gyroAgreement({a, {}}, {b, {}}));
   EXPECT_FALSE(gyroAgreement({a, {}}, {{}, {}}));
+}
+namespace
+{
+struct ImuFault
+{
+  const char* name;
+  Eigen::Matrix3d gyro;  // what becomes of the turn rates
+  const char* told;
+};
+
+Eigen::Matrix3d yawed() { return Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix(); }
+
+class WrongImus : public testing::TestWithParam<ImuFault>
+{
+ public:
+  std::vector<std::vector<ImuSample>> samples;
+
+  /** Three, of which the one at `wrong` has the fault. */
+  std::vector<BodyImu> imus(std::size_t wrong)
+  {
+    const Rigid poses[] = {at(0, 0, 0, 0, 0, 0), at(1, 1, 2, 30, 15, -25), at(1, -1, 2, -30, 15, 25)};
+    samples.clear();
+    for (unsigned i = 0; i < 3; ++i) samples.push_back(swayingImu(poses[i], 30, 100, i + 1));
+    for (ImuSample& sample : samples[wrong]) sample.gyro = GetParam().gyro * sample.gyro;
+    std::vector<BodyImu> all;
+    for (std::size_t i = 0; i < 3; ++i) all.push_back({std::to_string(i), samples[i], poses[i]});
+    return all;
+  }
+};
+}  // namespace
+
+TEST_P(WrongImus, areNamedWhicheverIsTheFirst)
+{
+  for (std::size_t wrong = 0; wrong < 3; ++wrong)
+  {
+    const std::vector<BodyImu> all = imus(wrong);
+    for (const ImuComparison& compared : compareImus(all, {}))
+    {
+      const Finding finding = turnsFinding(compared, all[compared.imu].name, "another", {});
+      EXPECT_EQ(finding.verdict >= Verdict::Warning, compared.imu == wrong) << finding.about << ": " << finding.says;
+      if (compared.imu == wrong)
+      {
+        EXPECT_THAT(finding.mend, testing::HasSubstr(GetParam().told));
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, WrongImus,
+    testing::Values(ImuFault{"degrees", Eigen::Matrix3d::Identity() * 180 / M_PI, "they are in deg/s"},
+                    ImuFault{"scale", Eigen::Matrix3d::Identity() * 1.05, "divide them by 1.05"},
+                    ImuFault{"yawed", yawed(), "turn it by 90"},
+                    ImuFault{"z_reversed", Eigen::Vector3d(1, 1, -1).asDiagonal(), "its turn rate about z is wrong"},
+                    ImuFault{"y_reversed", Eigen::Vector3d(1, -1, 1).asDiagonal(), "its turn rate about y is wrong"}),
+    [](const auto& fault) { return std::string(fault.param.name); });
+
+TEST(ImuComparison, ofTwoThatDifferNamesBoth)
+{
+  const std::vector<ImuSample> a = swayingImu({}), b = scaled(swayingImu({}, 30, 100, 2), 1.1);
+  const std::vector<ImuComparison> compared = compareImus({{"a", a, {}}, {"b", b, {}}}, {});
+  ASSERT_EQ(compared.size(), 1u);
+  EXPECT_FALSE(compared[0].outvoted);
+  EXPECT_THAT(turnsFinding(compared[0], "b", "a", {}).mend, testing::HasSubstr("or of a"));
 }
 }  // namespace scanloom::imu_unittest

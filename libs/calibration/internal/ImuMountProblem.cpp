@@ -226,18 +226,18 @@ class Drive
 ImuMountSolution solveImuMount(const Trajectory& poses, const std::vector<ImuSample>& samples, const Mount& start,
                                const ImuNoise& noise, const PoseNoise& pose_noise)
 {
-  constexpr int kRounds = 6;
-  constexpr double kSettled = 2e-4;  // m
+  constexpr int kMostRounds = 6;
+  constexpr double kSettledStep = 2e-4;  // m
   Mount mount = start;
   ImuBias bias;
   ImuMountSolution solution;
-  for (int round = 0; round < kRounds; ++round)
+  for (int round = 0; round < kMostRounds; ++round)
   {
     Drive drive(poses, samples, mount, bias, noise, pose_noise);
     solution = drive.solve();
     mount = solution.mount;
     bias = drive.bias();
-    if (solution.step.cwiseQuotient(mountStepOfMetres()).norm() < kSettled) break;
+    if (solution.step.cwiseQuotient(mountStepOfMetres()).norm() < kSettledStep) break;
   }
   solution.residual.position *= pose_noise.position;
   solution.residual.rotation *= pose_noise.rotation;

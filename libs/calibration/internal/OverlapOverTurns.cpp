@@ -3,6 +3,8 @@
 #include "base/core/Statistics.h"
 #include "calibration/internal/CoVisiblePoints.h"
 
+#include <cmath>
+
 namespace scanloom
 {
 PointCloud surroundings(const SeenPoints& seen)
@@ -18,7 +20,8 @@ PointCloud surroundings(const SeenPoints& seen)
 std::optional<OverlapOverTurns> sharedView(const std::vector<SeenByBoth>& turns, const Rigid& correction,
                                            const Rigid& body_T_b)
 {
-  constexpr std::size_t kFewestCommon = 500;
+  constexpr std::size_t kFewestCommon = 500, kFewestForSigma = 3;
+  constexpr double kOfMedian = 1.2533;  // its deviation over that of the mean, for normally distributed values
   OverlapOverTurns shared;
   std::vector<double> common, near_share;
   for (const SeenByBoth& turn : turns)
@@ -32,6 +35,8 @@ std::optional<OverlapOverTurns> sharedView(const std::vector<SeenByBoth>& turns,
   if (shared.turns.empty()) return std::nullopt;
   shared.common = static_cast<std::size_t>(median(common));
   shared.near_share = median(near_share);
+  if (near_share.size() >= kFewestForSigma)
+    shared.near_sigma = kOfMedian * robustDeviation(near_share) / std::sqrt(static_cast<double>(near_share.size()));
   return shared;
 }
 }  // namespace scanloom

@@ -32,6 +32,7 @@ struct OverlapOverTurns
   std::vector<SeenByBoth> turns;  // these
   std::size_t common = 0;         // points of A in a turn that B should see, too (CoVisiblePoints)
   double near_share = 0;          // of these: points with one of B within 0.3 m
+  double near_sigma = 0;          // standard deviation of near_share, by its scatter over three turns or more
 };
 
 /** A's points are moved by `correction` first. None if no turn has enough common points. */

@@ -76,6 +76,7 @@ struct ImuLimits
   double tilt_warning_deg = 15;
   double tilt_not_fit_deg = 45;
   double gyro_scale_factor = 2;
+  double gyro_scale_warning = 0.02;
   double gyro_angle_warning_deg = 3;
   double gyro_angle_not_fit_deg = 15;
   double imu_lag_warning_ms = 20;
@@ -98,6 +99,10 @@ struct ImuLimits
             "factor between the gyroscope's rotation and gravity's, if beyond three standard deviations; only a wrong "
             "unit explains it",
             above(1)});
+    visit(o.gyro_scale_warning,
+          Field{"gyro_scale_warning", "",
+                "error of the turn rates of two IMUs against each other; a corner of 90 deg becomes 2 deg wrong",
+                above(0)});
     visit(o.gyro_angle_warning_deg,
           Field{"gyro_angle_warning_deg", "deg",
                 "angle between the turn rates of two IMUs; more than the error of a bracket", above(0)});

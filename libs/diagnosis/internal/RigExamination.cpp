@@ -40,7 +40,10 @@ LidarExamination examineLidar(const LidarEvidence& evidence, Duration deadline, 
   seen.clock.steps = clockSteps(runs, evidence.lidar, least_step);
   seen.clock.drift = clockDrift(arrivals, fromSeconds(limits.drift_time));
   seen.clock.phase = rotorPhase(runs, evidence.lidar, least_step);
-  seen.jitter = arrivalJitter(arrivals, seen.clock.drift, deadline);
+  // Packets that are whole turns, clouds of a driver, are waited for a turn longer.
+  const bool sends_turns = seen.lidar.columns_per_packet == seen.lidar.columns_per_frame;
+  const Duration patience = deadline + (sends_turns ? fromSeconds(1 / seen.lidar.frame_rate) : Duration{0});
+  seen.jitter = arrivalJitter(arrivals, seen.clock.drift, patience);
   if (arrivals.empty()) return seen;
   seen.clock.epoch = epochOf(arrivals.back().stamp, arrivals.back().received);
   seen.clock.ahead_of_host = -leastDelayLately(arrivals);
@@ -67,15 +70,13 @@ TimeSpan spanOf(const std::vector<LidarEvidence>& lidars)
 }
 
 /** Samples in the order of their stamps, but for the timing. */
-ImuExamination examineImu(const ImuEvidence& imu, const ImuTiming& timing, const ImuEvidence& first,
-                          const TimeSpan& lidars)
+ImuExamination examineImu(const ImuEvidence& imu, const ImuTiming& timing, const TimeSpan& lidars)
 {
   ImuExamination seen;
   seen.name = imu.name;
   seen.timing = timing;
   if (const auto force = meanForce(imu.samples)) seen.force_in_body = imu.body_T_imu.rotation * *force;
   seen.gyro_scale = gyroScale(imu.samples);
-  if (&imu != &first) seen.to_first = gyroAgreement({first.samples, first.body_T_imu}, {imu.samples, imu.body_T_imu});
   if (lidars.first < lidars.last)
     seen.lidar_share =
         std::max(0.0, seconds(std::min(lidars.last, seen.timing.last) - std::max(lidars.first, seen.timing.first)) /
@@ -112,6 +113,13 @@ std::optional<GroundPlane> groundOf(const std::vector<RigSnapshot>& snapshots, s
   return groundPlane(clouds, description.body_T_sensor.translation);
 }
 
+std::vector<BodyImu> bodyImus(const std::vector<ImuEvidence>& imus)
+{
+  std::vector<BodyImu> placed;
+  for (const ImuEvidence& imu : imus) placed.push_back({imu.name, imu.samples, imu.body_T_imu});
+  return placed;
+}
+
 PairExamination examinePair(const RigEvidence& evidence, std::size_t lidar, std::size_t reference)
 {
   std::vector<SeenByBoth> pairs;
@@ -144,8 +152,10 @@ RigExamination examine(RigEvidence evidence, const DoctorLimits& limits)
     std::stable_sort(imu.samples.begin(), imu.samples.end(),
                      [](const ImuSample& a, const ImuSample& b) { return a.stamp < b.stamp; });
   }
-  for (std::size_t i = 0; i < timings.size(); ++i)
-    rig.imus.push_back(examineImu(evidence.imus[i], timings[i], evidence.imus.front(), span));
+  for (std::size_t i = 0; i < timings.size(); ++i) rig.imus.push_back(examineImu(evidence.imus[i], timings[i], span));
+  if (evidence.poses_known)
+    for (const ImuComparison& compared : compareImus(bodyImus(evidence.imus), limits.imu))
+      rig.imus[compared.imu].compared = compared;
 
   for (std::size_t i = 1; i < rig.lidars.size(); ++i)
   {

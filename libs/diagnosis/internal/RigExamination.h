@@ -2,6 +2,7 @@
 #pragma once
 #include "calibration/GroundPlane.h"
 #include "calibration/PoseFinding.h"
+#include "diagnosis/ImuComparison.h"
 #include "diagnosis/internal/ClockDrift.h"
 #include "diagnosis/internal/ClockKind.h"
 #include "diagnosis/internal/Delivery.h"
@@ -11,7 +12,6 @@
 #include "diagnosis/internal/RotorPhase.h"
 #include "diagnosis/internal/SelfReturns.h"
 #include "diagnosis/internal/SensorFlags.h"
-#include "estimation/imu/GyroAgreement.h"
 #include "estimation/imu/GyroScale.h"
 #include "estimation/imu/MeanForce.h"
 
@@ -56,7 +56,7 @@ struct ImuExamination
   ImuTiming timing;
   Eigen::Vector3d force_in_body = Eigen::Vector3d::Zero();  // mean specific force
   std::optional<GyroScale> gyro_scale;
-  std::optional<GyroAgreement> to_first;  // against the first IMU's gyroscope; not for the first itself
+  std::optional<ImuComparison> compared;  // with the reference (compareImus); not for the reference itself
   std::optional<double> lidar_share;      // share of the lidars' time that the samples cover
 };
 

@@ -133,6 +133,28 @@ double peakBeside(const std::vector<double>& values, std::size_t maximum)
   const double bend = left - 2 * values[maximum] + right;
   return bend < 0 ? 0.5 * (left - right) / bend : 0;
 }
+
+/** The rotation of b's rates, at the scale of a's, that leaves the least of a's. */
+struct Alignment
+{
+  LargestTrace trace;
+  double residual = 0, noise = 0;  // rad/s: norm of what is left, and its deviation about one axis
+};
+
+Alignment aligned(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b)
+{
+  Alignment alignment{rotationOfLargestTrace(a * b.transpose())};
+  alignment.residual = (a - alignment.trace.rotation * b * (a.norm() / b.norm())).norm();
+  alignment.noise = alignment.residual / std::sqrt(3.0 * static_cast<double>(a.cols()));
+  return alignment;
+}
+
+/** By more than noise about the axis with the least motion explains: that alone tells left hands from right. */
+bool isFarBetter(const Alignment& a, const Alignment& b)
+{
+  constexpr double kSigmas = 10;
+  return b.residual * b.residual - a.residual * a.residual > std::pow(kSigmas * a.noise, 2);
+}
 }  // namespace
 
 std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const PlacedGyro& b)
@@ -156,13 +178,15 @@ std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const
   agreement.lag = (best - kMostLagSteps) * kStep +
                   fromSeconds(seconds(kStep) * peakBeside(correlations, static_cast<std::size_t>(best)));
   const Eigen::Matrix3Xd rates_b = ratesOf(turns, gyro, agreement.lag);
-  const LargestTrace alignment = rotationOfLargestTrace(rates_a * rates_b.transpose());
-  agreement.rotation = logSo3(Eigen::Quaterniond(alignment.rotation));
+  const Alignment as_told = aligned(rates_a, rates_b), reversed = aligned(rates_a, -rates_b);
+  agreement.mirrored = isFarBetter(reversed, as_told);
+  const Alignment& alignment = agreement.mirrored ? reversed : as_told;
+  agreement.rotation = logSo3(Eigen::Quaterniond(alignment.trace.rotation));
   agreement.scale = rates_b.norm() / rates_a.norm();
-  const Eigen::Matrix3Xd residual = rates_a - alignment.rotation * rates_b / agreement.scale;
-  const double noise = residual.norm() / std::sqrt(3.0 * static_cast<double>(residual.cols()));
+  const double noise = alignment.noise, unexplained = std::pow(alignment.residual / rates_a.norm(), 2);
+  agreement.scale_sigma = agreement.scale * (noise / rates_a.norm() + unexplained / 2);
   // By the two axes with the most motion: the third follows from them.
-  agreement.sigma = noise / std::sqrt(alignment.singular_values[1] / agreement.scale);
+  agreement.sigma = noise / std::sqrt(alignment.trace.singular_values[1] / agreement.scale);
   if (!(agreement.sigma < kWorstSigma)) return std::nullopt;
   const double by_lag =
       (ratesOf(turns, gyro, agreement.lag + kStep / 2) - ratesOf(turns, gyro, agreement.lag - kStep / 2)).norm();

@@ -26,8 +26,10 @@ struct GyroAgreement
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();  // rad: exp(rotation) times b's rates are a's
   double sigma = 0;                                    // rad, standard deviation about the least certain axis
   double scale = 1;                                    // b's rates over a's
-  Duration lag{0};                                     // b's stamps are later than a's for the same instant
-  double lag_sigma = 0;                                // s, its standard deviation
+  double scale_sigma = 0;                              // standard deviation, with what noise adds to b's rates
+  bool mirrored = false;  // b's axes are left-handed: rotation turns its reversed rates to a's (a half turn: one axis)
+  Duration lag{0};        // b's stamps are later than a's for the same instant
+  double lag_sigma = 0;   // s, its standard deviation
 };
 
 /**

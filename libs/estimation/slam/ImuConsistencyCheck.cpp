@@ -52,7 +52,7 @@ std::optional<std::string> ofAxes(const GyroAgreement& a)
 
 std::optional<std::string> ofClocks(const GyroAgreement& a)
 {
-  constexpr double kLeast = 0.01;  // s
+  constexpr double kLeast = 0.02;  // s: short drives of right rigs show up to 12 ms
   const double lag = seconds(a.lag);
   if (std::abs(lag) < kLeast || std::abs(lag) < kSigmas * a.lag_sigma) return std::nullopt;
   return fmt::format(
@@ -95,6 +95,7 @@ std::optional<GyroAgreement> ImuConsistencyCheck::agreement() const
 std::optional<std::string> ImuConsistencyCheck::complaint(const std::optional<GyroAgreement>& told) const
 {
   if (!told) return ofUnits(kept());
+  if (told->mirrored) return "its axes are left-handed, change its signs";
   if (const auto units = ofUnits(1 / told->scale)) return units;
   const std::optional<std::string> axes = ofAxes(*told);
   if (!axes) return ofClocks(*told);

@@ -39,9 +39,9 @@ ImuInUse::ImuInUse(const SensorInput& input, const std::string& wanted, Duration
   sensor_ = previous_ = first_ = sensors[static_cast<std::size_t>(found - names.begin())];
 }
 
-std::string ImuInUse::nameOf(int sensor) const
+std::string imuName(const SensorSetup& setup, int sensor)
 {
-  return sensor == SensorImu::kBody ? "body" : setup().header.lidars.at(static_cast<std::size_t>(sensor)).name;
+  return sensor == SensorImu::kBody ? "body" : setup.header.lidars.at(static_cast<std::size_t>(sensor)).name;
 }
 
 std::vector<ImuSample> ImuInUse::take(const SensorImu& read)

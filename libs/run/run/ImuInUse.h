@@ -11,6 +11,9 @@
 
 namespace scanloom
 {
+/** "body" or the name of a lidar. */
+std::string imuName(const SensorSetup&, int sensor);
+
 /** The choice among the input's IMUs: the one that localisation uses, and another one while it is silent. */
 class ImuInUse
 {
@@ -23,9 +26,10 @@ class ImuInUse
   ImuInUse(const SensorInput&, const std::string& wanted, Duration delay);
 
   Rigid body_T_imu() const { return poseOf(sensor_); }
+  int sensor() const { return sensor_; }  // SensorImu::sensor
   bool insideLidar() const { return sensor_ != SensorImu::kBody; }
 
-  /** "body" or the name of a lidar; of the one in use, and of the one before it. */
+  /** imuName() of the one in use, and of the one before it. */
   std::string name() const { return nameOf(sensor_); }
   std::string previousName() const { return nameOf(previous_); }
 
@@ -68,7 +72,7 @@ class ImuInUse
 
   SensorSetup setup() const { return input_.setup(); }
   Rigid poseOf(int sensor) const { return setup().body_T_imu.at(sensor); }
-  std::string nameOf(int sensor) const;
+  std::string nameOf(int sensor) const { return imuName(setup(), sensor); }
   bool silent(int sensor, Timestamp now) const;
   bool heardWithoutBreak(int sensor) const;
   void change(int sensor);

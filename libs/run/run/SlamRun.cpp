@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
 
 namespace scanloom
@@ -21,6 +23,46 @@ using SteadyClock = std::chrono::steady_clock;
 double secondsSince(SteadyClock::time_point start)
 {
   return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
+
+/** From the first stamp to the last, in any order. */
+struct TimesSeen
+{
+  Timestamp first = Timestamp::max(), last = Timestamp::min();
+
+  void add(Timestamp stamp)
+  {
+    first = std::min(first, stamp);
+    last = std::max(last, stamp);
+  }
+};
+
+/** What is wrong with an IMU none of whose samples is of the scans' time; empty if nothing is. */
+std::string otherClock(const TimesSeen& imu, const TimesSeen& scans)
+{
+  constexpr double kTaiAheadOfUtc = 37, kLeast = 1;  // s
+  const double later = seconds(imu.first - scans.last), earlier = seconds(scans.first - imu.last);
+  if (scans.first > scans.last || std::max(later, earlier) < kLeast) return "";
+  const double begins = seconds(imu.first - scans.first);
+  const bool is_leap_seconds = std::abs(std::abs(begins) - kTaiAheadOfUtc) < 5;
+  const double offset = is_leap_seconds ? std::copysign(kTaiAheadOfUtc, begins) : begins;
+  return fmt::format(
+      "is not used, its clock is another one: its samples begin {:.1f} s {} the scans{}. Stamp both by one "
+      "clock, or set time_offset = {}{:.1f} (s) for each lidar",
+      std::abs(begins), begins > 0 ? "after" : "before", is_leap_seconds ? " (37 s are between TAI and UTC)" : "",
+      is_leap_seconds ? "" : "about ", offset);
+}
+
+std::map<int, RigImu> imusOf(const SensorSetup& setup)
+{
+  std::map<int, RigImu> imus;
+  for (const auto& [sensor, body_T_imu] : setup.body_T_imu)
+  {
+    const std::string name = imuName(setup, sensor);
+    imus[sensor] = {sensor == SensorImu::kBody ? "the IMU" : fmt::format("the IMU of the lidar '{}'", name),
+                    body_T_imu};
+  }
+  return imus;
 }
 
 /** One run, event by event. */
@@ -36,7 +78,7 @@ class SlamRun
       settings_(settings),
       imu_(chosenImu(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms))),
       slam_(settingsInUse(), imuPose(), mountedLidars(lidars())),
-      check_(mountedLidars(lidars()), imuPose(), warn)
+      check_(mountedLidars(lidars()), imusOf(input.setup()), imu_ ? std::optional(imu_->sensor()) : std::nullopt, warn)
   {
   }
 
@@ -60,6 +102,12 @@ class SlamRun
       warn_(fmt::format("the IMU '{}': samples were refused: {}", name, refused.toString()));
     for (const std::string& warning : cropWarnings(slam_.cropped(), lidars())) warn_(warning);
     for (const std::string& line : silentLidars(input_.account())) warn_(line);
+    for (const auto& [sensor, imu] : times_of_imus_)
+      if (const std::string clock = otherClock(imu, times_of_scans_); !clock.empty())
+      {
+        warn_(fmt::format("the IMU '{}' {}", imuName(input_.setup(), sensor), clock));
+        imu_of_other_clock_ = true;
+      }
   }
 
   RunProgress progress() const
@@ -86,7 +134,7 @@ class SlamRun
     const bool whole = slam_.mapRestarts() == 0;
     const RigAccount account = input_.account();
     const bool silent = !silentLidars(account).empty();
-    result.passed = counts_.passed() && whole && !silent && !check_.warned();
+    result.passed = counts_.passed() && whole && !silent && !check_.warned() && !imu_of_other_clock_;
     result.with_imu = imu_.has_value();
     summary.imu = check_.imu();
     summary.lidars = check_.lidars();
@@ -135,12 +183,14 @@ class SlamRun
 
   void take(const SensorImu& read)
   {
+    times_of_imus_[read.sensor].add(read.sample.stamp);
     if (motion_ || !imu_) return;
     imu_heard_ = true;
     uncovered_.clear();
+    if (read.sensor != imu_->sensor()) check_.add(read.sensor, read.sample);
     for (const ImuSample& sample : imu_->take(read))
     {
-      check_.add(sample);
+      check_.add(read.sensor, sample);
       slam_.addImu(sample);
       keep(slam_.process());
     }
@@ -150,6 +200,8 @@ class SlamRun
   {
     constexpr Duration kImuIsHeard = 1s;  // every IMU sends far more often
     ++counts_.scans;
+    times_of_scans_.add(scan.start);
+    times_of_scans_.add(scan.end());
     if (!first_scan_) first_scan_ = scan.start;
     if (motion_ || mayGoWithoutImu()) uncovered_.push_back(scan.end());
     if (mayGoWithoutImu() && (!imu_ || scan.end() - *first_scan_ > kImuIsHeard)) goOnWithoutImu();
@@ -203,7 +255,7 @@ class SlamRun
   {
     ++counts_.imu_changes;
     warn_(why);
-    check_.changeImu(imuPose());
+    check_.changeImu(imu_->sensor());
     slam_.changeImu({{imuPose(), noise()}, imu_->recent(), imu_->previous()});
   }
 
@@ -230,6 +282,9 @@ class SlamRun
   std::optional<Timestamp> first_scan_;
   std::deque<Timestamp> uncovered_;  // ends of scans that an IMU, or what is assumed for it, does not cover yet
   bool imu_heard_ = false;
+  std::map<int, TimesSeen> times_of_imus_;  // by SensorImu::sensor
+  TimesSeen times_of_scans_;
+  bool imu_of_other_clock_ = false;
   std::vector<MarkedEvent> marks_;
   RigCheck check_;
   StageTimes times_;

@@ -10,8 +10,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kFewest = 2, kMost = 8;    // keyframes
-constexpr std::size_t kFewestForPose = 3;        // the error's deviation comes from leaving out one of them
+constexpr std::size_t kFewest = 3, kMost = 8;    // keyframes: deviations come from leaving out one of them
 constexpr std::size_t kNeighbours = 2;           // keyframes to each side of one
 constexpr std::size_t kPointsOfLidar = 1 << 14;  // of a keyframe: memory is bounded
 constexpr double kOfOneGround = 25 * kDegree;  // between the normals that two lidars see, slopes on both sides included
@@ -111,8 +110,7 @@ Findings LidarCheck::compare() const
     const std::vector<SeenPoints> own = seenBy(i), on_the_way = seenAround(i, false);
     findings.push_back(
         steadinessFinding(name, sharedView(pairsOf(own, on_the_way), Rigid::identity(), body_T_sensor), {}));
-    const bool is_comparable = i > 0 && keyframes_.size() >= kFewestForPose;
-    if (is_comparable && findings.front().verdict <= Verdict::Ok)  // else the first lidar is no measure of the others
+    if (i > 0 && findings.front().verdict <= Verdict::Ok)  // else the first lidar is no measure of the others
       findings.push_back(poseFinding(
           name, lidars_[0].name, cloudAgreement(pairsOf(own, by_first), body_T_sensor, lidars_[0].body_T_sensor), {}));
   }

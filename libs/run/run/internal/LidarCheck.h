@@ -23,7 +23,7 @@ class LidarCheck
 
   void add(const Keyframe&);
 
-  /** In the order of the lidars; of grounds before there are two keyframes, of poses once there are three. */
+  /** In the order of the lidars; of grounds alone before there are three keyframes. */
   Findings compare() const;
 
  private:
