@@ -1,5 +1,7 @@
 #include "base/core/printable.h"
 
+#include <cstdlib>
+
 #include <cstdint>
 #include <string_view>
 
@@ -53,5 +55,14 @@ std::string printable(const std::string& text)
     rest.remove_prefix(bytes);
   }
   return shown;
+}
+
+std::string notAFormula(const std::string& text)
+{
+  if (text.empty() || std::string("=+-@\t\r").find(text.front()) == std::string::npos) return text;
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  const bool is_number = end == text.c_str() + text.size();
+  return is_number ? text : "'" + text;
 }
 }  // namespace scanloom

@@ -8,4 +8,10 @@ namespace scanloom
  * writing, and bytes that are no UTF-8 become '?'. Otherwise a sensor's model could move the cursor or hide a warning.
  */
 std::string printable(const std::string& text);
+
+/**
+ * Text for a column of CSV: after a ' where a spreadsheet would compute it, as it does what begins with = + - or @ and
+ * is no number.
+ */
+std::string notAFormula(const std::string& text);
 }  // namespace scanloom

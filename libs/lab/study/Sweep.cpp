@@ -186,6 +186,17 @@ std::vector<RunRecord> runDrive(const PlannedDrive& drive, const std::vector<Run
   return records;
 }
 
+namespace
+{
+/** As Slurm wants a '%' of a path, because it replaces patterns. */
+std::string withDoubledPercents(const std::string& path)
+{
+  std::string doubled;
+  for (const char c : path) doubled += c == '%' ? std::string("%%") : std::string(1, c);
+  return doubled;
+}
+}  // namespace
+
 std::vector<RunRecord> runOnSlurm(Sweep sweep, const Command& one_drive, int jobs, const OnRun& on_run)
 {
   std::vector<std::size_t> numbers;
@@ -207,7 +218,7 @@ std::vector<RunRecord> runOnSlurm(Sweep sweep, const Command& one_drive, int job
   const std::string limit = jobs > 0 ? fmt::format("%{}", jobs) : "";
   const Command array{
       {"sbatch", "--wait", "--job-name=scanloom", fmt::format("--array={}{}", fmt::join(numbers, ","), limit),
-       fmt::format("--output={}/%a.txt", logs.string()),
+       fmt::format("--output={}/%a.txt", withDoubledPercents(logs.string())),
        fmt::format("--wrap={} --only $SLURM_ARRAY_TASK_ID", toText(one_drive))},
       {}};
   runCommand(array, logs / "sbatch.txt");  // its status is that of the worst run: the records say more

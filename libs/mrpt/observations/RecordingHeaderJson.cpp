@@ -1,5 +1,6 @@
 #include "mrpt/observations/RecordingHeaderJson.h"
 
+#include "base/core/printable.h"
 #include "input/batching/Scan.h"
 
 #include <fmt/format.h>
@@ -46,15 +47,15 @@ double rateFrom(const char* key, double rate)
 RecordedLidar lidarFromJson(const json& j)
 {
   RecordedLidar lidar;
-  lidar.name = j.at("name").get<std::string>();
-  lidar.serial = j.at("serial").get<std::string>();
-  lidar.model = j.at("model").get<std::string>();
+  lidar.name = printable(j.at("name").get<std::string>());
+  lidar.serial = printable(j.at("serial").get<std::string>());
+  lidar.model = printable(j.at("model").get<std::string>());
   lidar.body_T_sensor = Rigid::fromMatrix(fromRows(j.at("body_T_sensor")));
   if (!(lidar.body_T_sensor.translation.norm() <= kFarthestLidar))
     refuse(fmt::format("lidar '{}' is more than {} m from the body", lidar.name, kFarthestLidar));
   lidar.beams = j.at("beams").get<int>();
   lidar.columns = j.at("columns").get<int>();
-  lidar.clock = j.at("clock").get<std::string>();
+  lidar.clock = printable(j.at("clock").get<std::string>());
   return lidar;
 }
 }  // namespace

@@ -136,6 +136,7 @@ void LiveServer::mark(const HttpRequest& request, HttpReply& reply)
     throw BadRequest(kHttpBadRequest, fmt::format("the text of a mark has at most {} bytes", kMostMarkBytes));
   {
     const std::lock_guard lock(exchange_.mutex);
+    if (exchange_.status.player) throw BadRequest(kHttpConflict, "a recording that is played takes no marks");
     if (exchange_.marks.size() >= kMostUntaken) throw BadRequest(kHttpBusy, "too many marks at once");
     exchange_.marks.push_back(printable(request.body));
   }

@@ -1,5 +1,7 @@
 #include "run/run/SlamFiles.h"
 
+#include "base/core/printable.h"
+
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
 
@@ -20,9 +22,10 @@ double distance(const StampedPose& a, const StampedPose& b)
   return (a.map_T_body.translation - b.map_T_body.translation).norm();
 }
 
-/** Without what would end the column or the line. */
+/** Without what would end the column or the line, or what a spreadsheet would compute. */
 std::string csvText(std::string text)
 {
+  text = notAFormula(text);
   for (char& c : text)
     if (c == ',' || c == '"' || c == '\n' || c == '\r') c = ' ';
   return text;

@@ -125,6 +125,14 @@ TEST(IniFile, saysWhatIsWrongWithAFormula)
                                 "x.ini:3: [a] k: $eval{NAME+1}: ERR232 - Undefined symbol: 'NAME'")));
 }
 
+TEST(IniFile, refusesAFormulaThatMayNeverEnd)
+{
+  EXPECT_THAT(
+      problemsOf("[a]\nk = $eval{repeat 1; until (false)}\nl = $eval{While(1 > 0) 2}\n"),
+      ElementsAre("x.ini:2: [a] k: $eval{repeat 1; until (false)}: 'repeat' is not allowed: a formula has no loops",
+                  "x.ini:3: [a] l: $eval{While(1 > 0) 2}: 'While' is not allowed: a formula has no loops"));
+}
+
 TEST(IniFile, reportsAllProblemsOfAFile)
 {
   EXPECT_THAT(problemsOf("k = 1\n[a\n[a]\nnonsense\n= 5\nl = ${X\n[b] c\n"),

@@ -32,4 +32,10 @@ TEST(Printable, showsBytesThatAreNoUtf8AsMarks)
   EXPECT_EQ(printable("\xc0\x9b"), "??") << "too long a form";
   EXPECT_EQ(printable("\xf0\x9f\x8c"), "???") << "cut";
 }
+TEST(Printable, textForATableIsNoFormula)
+{
+  for (const char* text : {"left", "", "-0.5", "+3e2", "a=b"}) EXPECT_EQ(notAFormula(text), text);
+  for (const char* text : {"=HYPERLINK(\"http://evil\")", "@SUM(1)", "+cmd|' /C calc'!A0", "-2+3"})
+    EXPECT_EQ(notAFormula(text), std::string("'") + text);
+}
 }  // namespace scanloom::printable_unittest

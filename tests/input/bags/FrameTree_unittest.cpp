@@ -31,7 +31,18 @@ TEST(FrameTree, endsWhereFramesGoInCircles)
   tree.add(moved("a", "b", 1));
   tree.add(moved("b", "a", 1));
   EXPECT_FALSE(tree.transform("a", "c"));
-  EXPECT_TRUE(tree.transform("a", "b"));
+  EXPECT_FALSE(tree.transform("a", "b")) << "which of both?";
+  EXPECT_EQ(tree.inCircles(), (std::vector<std::string>{"a", "b"}));
+}
+
+TEST(FrameTree, leavesOutWhatIsNoTransformAsTf2Does)
+{
+  FrameTree tree;
+  tree.add(moved("base_link", "left", 1));
+  tree.add(moved("left", "left", 2));
+  tree.add(moved("", "left", 3));
+  EXPECT_DOUBLE_EQ(tree.transform("base_link", "left")->translation.x(), 1);
+  EXPECT_TRUE(tree.inCircles().empty());
 }
 }  // namespace
 }  // namespace scanloom::frame_tree_unittest

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <regex>
 #include <stdexcept>
 #include <vector>
 
@@ -30,6 +31,14 @@ std::string environment(const std::string& name)
   const char* value = std::getenv(name.c_str());
   if (!value) throw std::invalid_argument(fmt::format("the environment variable {} is not set", name));
   return value;
+}
+
+/** The word of the formula that begins a loop, of which the language knows three; empty if there is none. */
+std::string loopIn(const std::string& formula)
+{
+  std::smatch found;
+  const bool has_one = std::regex_search(formula, found, std::regex("\\b(for|while|repeat)\\b", std::regex::icase));
+  return has_one ? found.str() : "";
 }
 
 /** The message of the parser, which MRPT's exception has between back quotes. */
@@ -95,6 +104,8 @@ std::string Expansion::valueOf(std::string_view opening, const std::string& insi
 
 double Expansion::evaluate(const std::string& formula) const
 {
+  if (const std::string loop = loopIn(formula); !loop.empty())
+    throw std::invalid_argument(fmt::format("$eval{{{}}}: '{}' is not allowed: a formula has no loops", formula, loop));
   mrpt::expr::CRuntimeCompiledExpression expression;
   try
   {

@@ -5,15 +5,21 @@
 
 namespace scanloom
 {
-void FrameTree::add(const FrameTransform& t) { links_[t.child] = {t.parent, t.parent_T_child}; }
+void FrameTree::add(const FrameTransform& t)
+{
+  if (t.parent.empty() || t.child.empty() || t.parent == t.child) return;
+  links_[t.child] = {t.parent, t.parent_T_child};
+}
 
-/** The frame itself, its parent, and so on. A damaged recording may go in circles: then once around. */
+/** The frame itself, its parent, and so on; of a frame that hangs from itself the frame alone. */
 std::vector<FrameTree::Ancestor> FrameTree::ancestorsOf(const std::string& frame) const
 {
   std::vector<Ancestor> ancestors{{frame, Rigid::identity()}};
   for (auto link = links_.find(frame); link != links_.end() && ancestors.size() <= links_.size();
        link = links_.find(link->second.parent))
     ancestors.push_back({link->second.parent, link->second.parent_T_child * ancestors.back().ancestor_T_frame});
+  const bool in_circle = ancestors.size() > links_.size();  // more steps than links
+  if (in_circle && links_.count(ancestors.back().frame) > 0) ancestors.resize(1);
   return ancestors;
 }
 
@@ -27,6 +33,14 @@ std::optional<Rigid> FrameTree::transform(const std::string& to, const std::stri
     if (found != of_to.end()) return found->ancestor_T_frame.inverse() * common.ancestor_T_frame;
   }
   return std::nullopt;
+}
+
+std::vector<std::string> FrameTree::inCircles() const
+{
+  std::vector<std::string> circling;
+  for (const auto& [child, link] : links_)
+    if (ancestorsOf(child).size() == 1) circling.push_back(child);
+  return circling;
 }
 
 bool FrameTree::has(const std::string& frame) const

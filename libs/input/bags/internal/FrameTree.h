@@ -12,8 +12,11 @@ namespace scanloom
 class FrameTree
 {
  public:
-  /** Replaces what was known of the child's parent. */
+  /** Replaces what was known of the child's parent. Transforms to itself, and of frames without a name, are none. */
   void add(const FrameTransform&);
+
+  /** Frames whose parents lead in a circle: they are connected with nothing. */
+  std::vector<std::string> inCircles() const;
 
   /** to_T_from; none if the frames are not connected. Every frame is known to itself. */
   std::optional<Rigid> transform(const std::string& to, const std::string& from) const;

@@ -1,5 +1,6 @@
 #include "lab/study/internal/RunRecord.h"
 
+#include "base/core/printable.h"
 #include "lab/study/internal/RunHash.h"
 
 #include <fmt/format.h>
@@ -91,8 +92,9 @@ RunCosts costsFrom(const Json& json)
 }
 
 /** RFC 4180. */
-std::string cell(const std::string& text)
+std::string cell(const std::string& from_data)
 {
+  const std::string text = notAFormula(from_data);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

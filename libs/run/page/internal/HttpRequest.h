@@ -17,6 +17,7 @@ enum HttpStatus : int
   kHttpForbidden = 403,
   kHttpNotFound = 404,
   kHttpNotAllowed = 405,
+  kHttpConflict = 409,
   kHttpTooLarge = 413,
   kHttpHeadTooLarge = 431,
   kHttpFailed = 500,
