@@ -98,24 +98,25 @@ TimedRegistration CloudPair::registered(const PoseGuess& guess) const
 
 std::optional<PoseError> CloudPair::contradiction(const RegistrationResult& found, const Rigid& guess) const
 {
-  constexpr double kFew = 0.5, kMost = 0.9;  // overlaps
+  constexpr double kFew = 0.5, kAll = 0.99;  // overlaps
   if (found.overlap < kFew)
   {
     const RegistrationResult back =
         alignCoarseToFine(pairLevels(source_.levels, target_.levels), PoseGuess(guess.inverse()), options_);
     if (const auto apart = distanceIfFar(found.target_T_source, back.target_T_source.inverse())) return apart;
   }
-  return found.overlap < kMost ? rivalAtAnotherHeading(found, guess) : std::nullopt;
+  return found.overlap < kAll ? rivalAtAnotherHeading(found, guess) : std::nullopt;
 }
 
 std::optional<PoseError> CloudPair::rivalAtAnotherHeading(const RegistrationResult& found, const Rigid& guess) const
 {
-  constexpr double kAsGood = 0.95;  // of the score; scores are negative
+  constexpr double kMost = 0.9;                             // overlap, from which on a rival must be better
+  const double as_good = found.overlap < kMost ? 0.95 : 1;  // of the score; scores are negative
   for (const double turn : {90, 180, 270})
   {
     const RegistrationResult rival =
         registered(guess * Rigid::fromXyzYawPitchRoll(0, 0, 0, turn * kDegree, 0, 0)).result;
-    if (rival.outcome == Outcome::LowOverlap || rival.score > kAsGood * found.score) continue;
+    if (rival.outcome == Outcome::LowOverlap || rival.score > as_good * found.score) continue;
     if (const auto apart = distanceIfFar(found.target_T_source, rival.target_T_source)) return apart;
   }
   return std::nullopt;

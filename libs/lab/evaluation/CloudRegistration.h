@@ -63,9 +63,10 @@ class CloudPair
   TimedRegistration registered(const PoseGuess&) const;
 
   /**
-   * How far away another pose is that may be the true one; none within half a metre and 5 deg, and none where 90 % of
+   * How far away another pose is that may be the true one; none within half a metre and 5 deg, and none where 99 % of
    * the source meet the target. It is that of the target in the source from the same guess, where less than half meets;
-   * or one that agrees as well, found from the guess turned by 90, 180 or 270 deg: walls of a room meet four ways.
+   * or one found from the guess turned by 90, 180 or 270 deg, because walls of a room meet four ways: one that agrees
+   * better, or, where less than 90 % meet, nearly as well.
    */
   std::optional<PoseError> contradiction(const RegistrationResult&, const Rigid& guess) const;
 
