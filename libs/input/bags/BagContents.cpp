@@ -1,6 +1,7 @@
 #include "input/bags/BagContents.h"
 
 #include "base/core/Statistics.h"
+#include "base/core/printable.h"
 #include "input/bags/internal/CloudMessage.h"
 #include "input/bags/internal/PacketMessages.h"
 #include "input/lidar/CloudDecoder.h"
@@ -118,6 +119,7 @@ class Inventory
       clouds.channels = std::max(clouds.channels, cloud.channels);
       known.frame = cloud.frame;
       known.note = cloud.time_is;
+      known.one_instant = cloud.one_instant;
     }
     catch (const std::invalid_argument& no_time)
     {
@@ -205,6 +207,9 @@ BagContents contentsOf(const BagPaths& paths, Duration longest)
                                  });
   BagContents contents = inventory.finish();
   contents.warnings = std::move(warnings);
+  if (const auto circling = contents.frames.inCircles(); !circling.empty())
+    contents.warnings.push_back(fmt::format("tf_static goes in a circle, so these frames have no pose: {}",
+                                            printable(fmt::format("{}", fmt::join(circling, ", ")))));
   return contents;
 }
 

@@ -16,9 +16,10 @@ struct TopicContents
 {
   std::string name, type;
   std::uint64_t messages = 0;
-  Timestamp first, last;  // receive times; the same if there are fewer than two messages
-  std::string frame;      // of the first message with packets, IMU samples or a cloud that names one
-  std::string note;       // of clouds: what their points' time is, or why they have none
+  Timestamp first, last;     // receive times; the same if there are fewer than two messages
+  std::string frame;         // of the first message with packets, IMU samples or a cloud that names one
+  std::string note;          // of clouds: what their points' time is, or why they have none
+  bool one_instant = false;  // of clouds: all points of one have the same time
 };
 
 struct BagContents

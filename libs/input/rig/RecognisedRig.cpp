@@ -264,6 +264,11 @@ RecognisedRig recogniseRig(const RecordingFiles& files, const std::filesystem::p
 
   RecognisedRig rig;
   rig.notes = found.notes;
+  for (const TopicContents& topic : bags.topics)
+    if (topic.one_instant)
+      rig.notes.push_back(printable(
+          fmt::format("topic {}: all points of a cloud have one time, so the motion within a turn cannot be corrected",
+                      topic.name)));
   rig.poses_from_bag = extrinsics.empty();
   const Poses poses =
       rig.poses_from_bag ? posesByFrames(bags, found.lidars, names, imu_topic) : readExtrinsics(extrinsics);

@@ -1,6 +1,7 @@
 #include "input/rig/RecordingFiles.h"
 
 #include "base/core/ConfigError.h"
+#include "base/core/naturalOrder.h"
 #include "input/packets/describeFile.h"
 #include "input/rig/FileKind.h"
 
@@ -103,7 +104,8 @@ std::string foldersIn(const std::filesystem::path& folder)
 
 void sort(Paths& paths)
 {
-  std::sort(paths.begin(), paths.end());
+  std::sort(paths.begin(), paths.end(),
+            [](const auto& a, const auto& b) { return inNaturalOrder(a.string(), b.string()); });
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
 }
 }  // namespace

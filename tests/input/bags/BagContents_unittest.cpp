@@ -35,6 +35,44 @@ TEST(BagContents, refuseACloudOfMorePointsThanATurnHas)
   EXPECT_THAT(contentsOf({folder / "bag"}).topics.at(0).note, HasSubstr("a cloud of 2000001 points"));
 }
 
+/** sensor_msgs/PointCloud2 with a field 'timestamp' of doubles. */
+std::string cloudWithTimes(std::uint64_t header, const std::vector<double>& times)
+{
+  std::string data;
+  for (const double time : times)
+    data += littleEndian(1.0F) + littleEndian(2.0F) + littleEndian(3.0F) + littleEndian(time);
+  const auto count = static_cast<std::uint32_t>(times.size());
+  constexpr std::uint32_t kStep = 20;
+  return headerOf(header, "lidar") + littleEndian(std::uint32_t{1}) + littleEndian(count) +
+         littleEndian(std::uint32_t{4}) + cloudField("x", 0, 7) + cloudField("y", 4, 7) + cloudField("z", 8, 7) +
+         cloudField("timestamp", 12, 8) + std::string(1, '\0') + littleEndian(kStep) + littleEndian(kStep * count) +
+         withLength(data) + std::string(1, '\1');
+}
+
+TopicContents contentsOfCloud(std::uint64_t header, const std::vector<double>& times)
+{
+  const TemporaryFolder folder;
+  writeFile(folder / "bag", ros1Of({{"/a", "sensor_msgs/PointCloud2", header, cloudWithTimes(header, times)}}));
+  return contentsOf({folder / "bag"}).topics.at(0);
+}
+
+TEST(BagContents, takeTheUnitOfTimesInWhichTheyAreTheHeaders)
+{
+  const std::uint64_t booted = 221'300'000'000, utc = 1'700'000'000'000'000'000;
+  EXPECT_THAT(contentsOfCloud(booted, {221.298, 221.398}).note, HasSubstr("float64, s"));
+  EXPECT_THAT(contentsOfCloud(booted, {221.298e9, 221.398e9}).note, HasSubstr("float64, ns"));
+  EXPECT_THAT(contentsOfCloud(utc, {1.7e15, 1.7e15 + 1e5}).note, HasSubstr("float64, us"));
+  EXPECT_THAT(contentsOfCloud(utc, {1.7e9, 1.7e9 + 0.1}).note, HasSubstr("float64, s"));
+  EXPECT_THAT(contentsOfCloud(utc, {0, 0.1}).note, HasSubstr("s after the header's stamp"));
+  EXPECT_THAT(contentsOfCloud(utc, {4e3, 4e3 + 0.1}).note, HasSubstr("neither a turn after the header's stamp"));
+}
+
+TEST(BagContents, sayWhereAllPointsOfACloudHaveOneTime)
+{
+  EXPECT_TRUE(contentsOfCloud(1'000'000'000, {0.05, 0.05}).one_instant);
+  EXPECT_FALSE(contentsOfCloud(1'000'000'000, {0.05, 0.06}).one_instant);
+}
+
 TEST(BagContents, sayWhatTheTimeOfCloudsIs)
 {
   const TemporaryFolder folder;

@@ -1,5 +1,7 @@
 #include "input/rig/CloudsInput.h"
 
+#include "base/core/naturalOrder.h"
+#include "input/rig/RecordingFiles.h"
 #include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
@@ -75,6 +77,46 @@ TEST_F(Clouds, haveTheNanosecondsOfTheirNames)
   write("1700000000250000001.ply");
   write("1700000000500000000.ply");
   EXPECT_EQ(scans()[0].end(), fromNanoseconds(1700000000250000001));
+}
+
+TEST_F(Clouds, haveTheTimesOfTheirNamesInTheUnitThatIsALidarsPace)
+{
+  write("1700000000250000.ply");
+  write("1700000000350000.ply");
+  EXPECT_EQ(scans().front().end(), fromNanoseconds(1700000000250000000)) << "us";
+  write("1700000000450000.ply");
+  EXPECT_EQ(scans().back().end(), fromNanoseconds(1700000000450000000));
+}
+
+TEST_F(Clouds, whoseNamesOnlyCountAreTakenForTenHertzInTheOrderOfNumbers)
+{
+  for (const char* name : {"0000000000.ply", "0000000001.ply", "0000000002.ply"}) write(name);
+  EXPECT_EQ(scans().back().end(), Timestamp{300ms});
+}
+
+TEST_F(Clouds, withNumbersWithoutZerosComeInTheOrderOfNumbers)
+{
+  for (const char* name : {"10.ply", "9.ply", "100.ply"}) write(name);
+  EXPECT_THAT(filesOf({folder_.path()}).clouds,
+              ElementsAre(folder_ / "9.ply", folder_ / "10.ply", folder_ / "100.ply"));
+  EXPECT_TRUE(inNaturalOrder("9.ply", "10.ply"));
+  EXPECT_TRUE(inNaturalOrder("a2b10", "a2b11"));
+  EXPECT_FALSE(inNaturalOrder("a", "a"));
+}
+
+TEST_F(Clouds, whoseNamesAreTimesInNoUnitAreRefused)
+{
+  write("1700000000.ply");
+  write("1700000003.ply");
+  EXPECT_THAT([&] { scans(); }, ThrowsMessage<std::runtime_error>(HasSubstr("their names are no times, 3 apart")));
+}
+
+TEST_F(Clouds, haveTheDatesOfKittisTimestamps)
+{
+  write("0000000000.ply");
+  write("0000000001.ply");
+  std::ofstream(folder_ / "timestamps.txt") << "2011-09-26 13:02:25.951199337\n2011-09-26 13:02:26.054847000\n";
+  EXPECT_EQ(scans()[0].end(), fromNanoseconds(1317042145951199337));
 }
 
 TEST_F(Clouds, mustHaveATimeEach)

@@ -1,5 +1,7 @@
 #include "input/bags/internal/CloudMessage.h"
 
+#include "base/formats/SecondsText.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -97,6 +99,26 @@ TimeUnit unitOf(std::uint8_t type, double lowest, double highest)
   return span <= 1e6 ? TimeUnit{1e3, false, "us"} : TimeUnit{};
 }
 
+/** The unit in which doubles are of the header's time; none if there is no such. */
+std::optional<TimeUnit> unitByHeader(std::uint8_t type, double lowest, Timestamp header)
+{
+  constexpr double kNear = 5;  // s
+  if (type != kFloat64) return std::nullopt;
+  for (const TimeUnit& unit :
+       {TimeUnit{1e9, true, "s"}, TimeUnit{1e6, true, "ms"}, TimeUnit{1e3, true, "us"}, TimeUnit{1, true, "ns"}})
+    if (std::abs(1e-9 * lowest * unit.nanoseconds - seconds(header.time_since_epoch())) < kNear) return unit;
+  return std::nullopt;
+}
+
+/** After the header's stamp, if they are near 0 then; else of the header's time; else by their size alone. */
+TimeUnit judgedUnit(std::uint8_t type, double lowest, double highest, Timestamp header)
+{
+  constexpr double kNearZero = 2e9;  // ns
+  const TimeUnit by_size = unitOf(type, lowest, highest);
+  if (!by_size.absolute && std::abs(lowest) * by_size.nanoseconds < kNearZero) return by_size;
+  return unitByHeader(type, lowest, header).value_or(by_size);
+}
+
 struct CloudLayout
 {
   MessageHeader header;
@@ -176,14 +198,18 @@ TimedCloud timedCloudOf(const BagTopic& topic, Bytes message)
   if (!std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); }))
     throw std::invalid_argument(fmt::format("a cloud whose field '{}' holds what is no number", time.name));
   const auto [lowest, highest] = std::minmax_element(times.begin(), times.end());
-  const TimeUnit unit = unitOf(time.type, *lowest, *highest);
+  const TimeUnit unit = judgedUnit(time.type, *lowest, *highest, layout.header.stamp);
   const bool is_a_turn = (*highest - *lowest) * unit.nanoseconds <= 1e9;
   const bool is_near = std::abs(*lowest) * unit.nanoseconds < (unit.absolute ? 4e18 : 1e10);
   if (!is_a_turn || !is_near)
     throw std::invalid_argument(
-        fmt::format("a cloud whose field '{}' spans {:g} to {:g}", time.name, *lowest, *highest));
+        fmt::format("a cloud of {} s whose field '{}' spans {:g} to {:g}: neither a turn after the header's stamp, nor "
+                    "times around it, in s, ms, us or ns",
+                    secondsText(layout.header.stamp), time.name, *lowest, *highest));
   cloud.time_is = fmt::format("field '{}': {}, {}{}", time.name, kTypeNames[time.type], unit.name,
                               unit.absolute ? "" : " after the header's stamp");
+  cloud.one_instant = layout.points > 1 && *highest == *lowest;
+  if (cloud.one_instant) cloud.time_is += "; all points have the same";
   for (std::size_t i = 0; i < layout.points; ++i)
   {
     const Bytes point = layout.data.slice(i * layout.step, layout.step);

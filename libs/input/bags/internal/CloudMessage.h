@@ -11,13 +11,15 @@ namespace scanloom
 /**
  * The time of each point is its field t, time, timestamp, offset_time or time_stamp. Integers count from the header's
  * stamp, in ns (a turn is 1e8 of them), or in us if they span less than 2e6. So do float32, in s, ms, us or ns as they
- * span up to 1, 1e3, 1e6 or more. float64 are the same, or absolute: in s from 1e8 on, in ns from 1e15 on.
+ * span up to 1, 1e3, 1e6 or more. float64 are the same, or absolute: in the unit in which they are
+ * within 5 s of the header's stamp, or, where that is not set, in s from 1e8 on, in ns from 1e15 on.
  */
 struct TimedCloud
 {
   std::string frame;
   std::vector<TimedPoint> points;  // as in the message
   std::string time_is;             // "field 't': uint32, ns after the header's stamp"
+  bool one_instant = false;        // all points have one time: the motion within the turn is not known
   int channels = 1;                // of the field ring, channel or line
 };
 

@@ -11,7 +11,6 @@ namespace scanloom
 namespace
 {
 constexpr double kRadiansPerCount = 2 * M_PI / kVelodyneTurn;
-constexpr std::uint32_t kHourInMicroseconds = 3'600'000'000;
 
 std::vector<Beam> beamsOf(const VelodyneMetadata& m)
 {
@@ -86,10 +85,10 @@ void VelodyneDecoder::readBlocks(Bytes packet, std::vector<MeasurementBlock>& bl
   {
     const VelodyneSequence sequence = view.sequence(i);
     MeasurementBlock block;
-    block.stamp = Timestamp{(first_shot + sequence.after_first + hour) % hour};
+    block.stamp = Timestamp{(first_shot + sequence.after_first + hour) % hour};  // some counters go on past the hour
     block.measurement_id = column(sequence.azimuth);
     block.index = static_cast<std::uint16_t>(i);
-    block.valid = sequence.valid && view.microseconds() < kHourInMicroseconds;
+    block.valid = sequence.valid;
     blocks.push_back(block);
   }
 }
@@ -100,7 +99,7 @@ void VelodyneDecoder::appendPoints(Bytes packet, std::size_t block_index, std::i
   const VelodynePacket view = this->view(packet);
   if (block_index >= view.sequences()) throw std::out_of_range("appendPoints: the packet has no such block");
   const VelodyneSequence sequence = view.sequence(block_index);
-  if (!sequence.valid || view.microseconds() >= kHourInMicroseconds) return;
+  if (!sequence.valid) return;
 
   // Encoder angles count counter-clockwise.
   const double th = -sequence.azimuth * kRadiansPerCount, rate = -view.rate() * kRadiansPerCount;

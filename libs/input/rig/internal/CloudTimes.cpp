@@ -1,12 +1,17 @@
 #include "input/rig/internal/CloudTimes.h"
 
+#include "base/core/Statistics.h"
 #include "base/formats/SecondsText.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <ctime>
 #include <fstream>
+#include <iomanip>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 namespace scanloom
@@ -17,6 +22,20 @@ using Paths = std::vector<std::filesystem::path>;
 
 constexpr Duration kDefaultInterval = 100ms;  // 10 Hz
 
+/** "2011-09-26 13:02:25.951199337", UTC, as in the timestamps.txt of KITTI's raw recordings. */
+std::optional<Timestamp> parseDate(const std::string& text)
+{
+  std::tm date{};
+  std::istringstream words(text);
+  words >> std::get_time(&date, "%Y-%m-%d %H:%M:%S");
+  if (words.fail()) return std::nullopt;
+  std::string fraction;
+  std::getline(words, fraction);
+  const std::optional<Timestamp> after = parseSeconds("0" + fraction);
+  if (!after) return std::nullopt;
+  return *after + std::chrono::seconds(::timegm(&date));
+}
+
 std::optional<std::vector<Timestamp>> stampsOfFile(const std::filesystem::path& path)
 {
   std::ifstream file(path);
@@ -26,8 +45,9 @@ std::optional<std::vector<Timestamp>> stampsOfFile(const std::filesystem::path& 
   {
     line.erase(line.find_last_not_of(" \t\r") + 1);
     if (line.empty()) continue;
-    const std::optional<Timestamp> stamp = parseSeconds(line);
-    if (!stamp) throw std::runtime_error(fmt::format("{}: '{}' is no time in s", path.string(), line));
+    std::optional<Timestamp> stamp = parseSeconds(line);
+    if (!stamp) stamp = parseDate(line);
+    if (!stamp) throw std::runtime_error(fmt::format("{}: '{}' is no time in s, and no date", path.string(), line));
     stamps.push_back(*stamp);
   }
   return stamps;
@@ -39,25 +59,83 @@ std::string stemOf(std::filesystem::path path)
   return path.stem().string();
 }
 
-/** 1700000000.100000 or 1700000000100000000. */
-std::optional<Timestamp> stampOfName(const std::string& name)
+struct Unit
 {
-  const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-  if (digits < 9) return std::nullopt;
-  if (digits == name.size() && digits >= 16 && digits <= 19) return Timestamp{Duration{std::stoll(name)}};
-  return parseSeconds(name);
+  const char* name;
+  std::int64_t nanoseconds;
+};
+constexpr std::array kUnits{Unit{"s", 1'000'000'000}, Unit{"ms", 1'000'000}, Unit{"us", 1'000}, Unit{"ns", 1}};
+
+/** The unit in which numbers that lie `step` apart have the pace of a lidar: it makes a turn in 5 ms to 2 s. */
+std::optional<Unit> unitOf(double step)
+{
+  for (const Unit& unit : kUnits)
+    if (const double s = step * 1e-9 * static_cast<double>(unit.nanoseconds); s >= 0.005 && s <= 2) return unit;
+  return std::nullopt;
 }
 
-std::optional<std::vector<Timestamp>> stampsOfNames(const Paths& clouds)
+/** Of the one cloud there is: what its number of digits means since 2001. */
+std::optional<Unit> unitOfDigits(std::size_t digits)
 {
-  std::vector<Timestamp> stamps;
+  constexpr std::size_t kDigitsOfSeconds = 10;
+  for (std::size_t i = 0; i < kUnits.size(); ++i)
+    if (digits == kDigitsOfSeconds + 3 * i) return kUnits[i];
+  return std::nullopt;
+}
+
+/** The integers that the names are; none if another name is among them, or one of less than nine digits. */
+std::optional<std::vector<std::int64_t>> integersOf(const Paths& clouds)
+{
+  constexpr std::size_t kLeastDigits = 9, kMostDigits = 19;
+  std::vector<std::int64_t> integers;
   for (const auto& cloud : clouds)
   {
-    const std::optional<Timestamp> stamp = stampOfName(stemOf(cloud));
-    if (!stamp) return std::nullopt;
-    stamps.push_back(*stamp);
+    const std::string name = stemOf(cloud);
+    const bool is_integer = name.find_first_not_of("0123456789") == name.npos;
+    if (!is_integer || name.size() < kLeastDigits || name.size() > kMostDigits || name > "9223372036854775807")
+      return std::nullopt;
+    integers.push_back(std::stoll(name));
   }
-  return stamps;
+  return integers;
+}
+
+/** As integers, in a unit that their steps tell; none if they only count. */
+std::optional<CloudTimes> timesOfIntegers(const Paths& clouds)
+{
+  const std::optional<std::vector<std::int64_t>> integers = integersOf(clouds);
+  if (!integers) return std::nullopt;
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < integers->size(); ++i)
+    steps.push_back(static_cast<double>((*integers)[i] - (*integers)[i - 1]));
+  if (!steps.empty() && std::all_of(steps.begin(), steps.end(), [](double step) { return step == 1; }))
+    return std::nullopt;
+  const std::optional<Unit> unit = steps.empty() ? unitOfDigits(stemOf(clouds.front()).size()) : unitOf(median(steps));
+  if (!unit)
+    throw std::runtime_error(fmt::format(
+        "{} and the other clouds: their names are no times, {} apart: 5 ms to 2 s are expected, in s, ms, us "
+        "or ns; give a times.txt with a line for each, in s",
+        clouds.front().string(), steps.empty() ? 0 : median(steps)));
+  CloudTimes times{{}, fmt::format("the clouds' names, in {}", unit->name)};
+  for (const std::int64_t integer : *integers)
+  {
+    if (integer > kFarthestStamp.count() / unit->nanoseconds) return std::nullopt;
+    times.stamps.push_back(Timestamp{Duration{integer * unit->nanoseconds}});
+  }
+  return times;
+}
+
+/** As seconds with decimals: 1700000000.100000. */
+std::optional<CloudTimes> timesOfDecimals(const Paths& clouds)
+{
+  CloudTimes times{{}, "the clouds' names, in s"};
+  for (const auto& cloud : clouds)
+  {
+    const std::string name = stemOf(cloud);
+    const std::optional<Timestamp> stamp = parseSeconds(name);
+    if (!stamp || std::min(name.find_first_not_of("0123456789"), name.size()) < 9) return std::nullopt;
+    times.stamps.push_back(*stamp);
+  }
+  return times;
 }
 
 /** Of some of the clouds: the file has a line for each number, 000000 is the first. */
@@ -67,7 +145,7 @@ std::optional<std::vector<Timestamp>> stampsOfNumbers(const Paths& clouds, const
   for (const auto& cloud : clouds)
   {
     const std::string name = stemOf(cloud);
-    const bool is_number = !name.empty() && name.size() < 9 && name.find_first_not_of("0123456789") == name.npos;
+    const bool is_number = !name.empty() && name.size() <= 18 && name.find_first_not_of("0123456789") == name.npos;
     if (!is_number || std::stoul(name) >= lines.size()) return std::nullopt;
     stamps.push_back(lines[std::stoul(name)]);
   }
@@ -77,7 +155,8 @@ std::optional<std::vector<Timestamp>> stampsOfNumbers(const Paths& clouds, const
 CloudTimes timesAnywhere(const Paths& clouds)
 {
   const std::filesystem::path folder = std::filesystem::absolute(clouds.front()).parent_path();
-  for (const auto& file : {folder / "times.txt", folder.parent_path() / "times.txt"})
+  for (const auto& file : {folder / "times.txt", folder / "timestamps.txt", folder.parent_path() / "times.txt",
+                           folder.parent_path() / "timestamps.txt"})
     if (auto stamps = stampsOfFile(file))
     {
       if (stamps->size() == clouds.size()) return {std::move(*stamps), file.string()};
@@ -85,7 +164,8 @@ CloudTimes timesAnywhere(const Paths& clouds)
       throw std::runtime_error(
           fmt::format("{} has {} times for {} clouds", file.string(), stamps->size(), clouds.size()));
     }
-  if (auto stamps = stampsOfNames(clouds)) return {std::move(*stamps), "the clouds' names"};
+  if (auto times = timesOfIntegers(clouds)) return *times;
+  if (auto times = timesOfDecimals(clouds); times && !integersOf(clouds)) return *times;
   CloudTimes times{{}, "none, taken for 10 Hz"};
   for (std::size_t i = 0; i < clouds.size(); ++i)
     times.stamps.push_back(Timestamp{static_cast<std::int64_t>(i + 1) * kDefaultInterval});
