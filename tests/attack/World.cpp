@@ -1,6 +1,9 @@
 #include "World.h"
 
 #include "LimitedRun.h"
+#include "input/packets/CaptureReader.h"
+#include "support/HandmadeBag.h"
+#include "support/HandmadeMessages.h"
 #include "support/TemporaryFolder.h"
 
 #include <fmt/format.h>
@@ -72,6 +75,54 @@ std::string pcapngOf(const std::string& pcap)
   return file;
 }
 
+enum class Encoding
+{
+  Ros1,
+  Cdr
+};
+
+/** The drive's first packets as messages of Ouster's driver, with metadata, an IMU and poses. */
+std::vector<HandmadeMessage> messagesOf(const fs::path& drive, Encoding encoding)
+{
+  constexpr int kPackets = 150;
+  const std::string begin = encoding == Encoding::Cdr ? std::string("\0\1\0\0", 4) : "";
+  const std::string packet_type =
+      encoding == Encoding::Cdr ? "ouster_sensor_msgs/msg/PacketMsg" : "ouster_ros/PacketMsg";
+  std::vector<HandmadeMessage> messages;
+  CaptureReader capture(drive / "recording.pcap");
+  Datagram datagram;
+  for (int i = 0; i < kPackets && capture.next(datagram); ++i)
+  {
+    const std::string bytes(datagram.payload.begin(), datagram.payload.end());
+    messages.push_back({fmt::format("/{}/packets", datagram.destination_port), packet_type,
+                        static_cast<std::uint64_t>(nanoseconds(datagram.received)), begin + withLength(bytes)});
+  }
+  const std::uint64_t first = messages.front().received;
+  for (const char* side : {"left", "right"})
+  {
+    const std::string text = contentOf(drive / (std::string(side) + ".json"));
+    messages.push_back({fmt::format("/{}/metadata", side), "std_msgs/String", first, begin + withLength(text)});
+  }
+  if (encoding == Encoding::Cdr) return messages;
+  for (std::uint64_t i = 0; i < 20; ++i)
+    messages.push_back({"/imu", "sensor_msgs/Imu", first + 5'000'000 * i, imuMessage(first + 5'000'000 * i, "imu")});
+  messages.push_back({"/tf_static", "tf2_msgs/TFMessage", first, transformMessage("base_link", "imu", 1)});
+  messages.push_back({"/points", "sensor_msgs/PointCloud2", first,
+                      cloudMessage(first, "left", {{1, 2, 3, 0, 0}, {2, 3, 4, 50'000'000, 1}})});
+  return messages;
+}
+
+void writeBags(const fs::path& folder)
+{
+  const std::vector<HandmadeMessage> ros1 = messagesOf(folder / "drive", Encoding::Ros1),
+                                     cdr = messagesOf(folder / "drive", Encoding::Cdr);
+  for (const char* compression : {"none", "bz2", "lz4"})
+    writeFile(folder / fmt::format("{}.bag", compression), ros1Of(ros1, compression));
+  for (const char* compression : {"", "zstd", "lz4"})
+    writeFile(folder / fmt::format("drive{}.mcap", compression), mcapOf(cdr, compression));
+  writeDb3(folder / "drive.db3", cdr);
+}
+
 constexpr RunLimits kPatient{600, 600, std::uint64_t{8} << 30};
 
 class Maker
@@ -128,6 +179,7 @@ void makeWorld(const fs::path& scanloom, const fs::path& folder)
   const Maker maker(scanloom, folder);
   maker.run("simulate -c scene.ini --out-dir drive");
   write(folder / "drive.pcapng", pcapngOf(contentOf(folder / "drive/recording.pcap")));
+  writeBags(folder);
   maker.copy("drive/recording.pcap", "drive.pcap");
   maker.pack("drive.pcap");
   maker.pack("drive.pcapng");
@@ -150,11 +202,29 @@ void makeWorld(const fs::path& scanloom, const fs::path& folder)
   maker.run("config --default slam");
 }
 
+namespace
+{
+/** Every verb that reads bags, on every container. */
+std::vector<Target> targetsOfBags()
+{
+  std::vector<Target> targets;
+  for (const char* bag :
+       {"none.bag", "bz2.bag", "lz4.bag", "drive.mcap", "drivezstd.mcap", "drivelz4.mcap", "drive.db3"})
+    for (const char* verb :
+         {"info {} --json", "doctor {} --json",
+          "record {} --set lidars.extrinsics=drive/extrinsics.txt -o out/a.rawlog",
+          "slam {} --set lidars.extrinsics=drive/extrinsics.txt --set output.maps=false --out-dir out/slam",
+          "evaluate --trajectory true.tum --reference {}"})
+      targets.push_back({bag, Content::Binary, verb});
+  return targets;
+}
+}  // namespace
+
 const std::vector<Target>& targets()
 {
   using C = Content;
   static const std::string kMetadata = "--metadata drive/left.json --metadata drive/right.json";
-  static const std::vector<Target> kTargets{
+  static const std::vector<Target> kOthers{
       {"drive.pcap", C::Binary, "info {} " + kMetadata},
       {"drive.pcap", C::Binary, "doctor {} " + kMetadata},
       {"drive.pcap", C::Binary, "record -c rig.ini --set lidars.pcap_input={} -o out/a.rawlog"},
@@ -218,6 +288,12 @@ const std::vector<Target>& targets()
       {"map.simplemap", C::Packed, "map -q -i {} --preset preview -o out/a.bt -o out/a.ply"},
       {"map.simplemap", C::Packed, "view {} --png out/a.png --width 64 --height 64"},
   };
+  static const std::vector<Target> kTargets = [&]
+  {
+    std::vector<Target> all = kOthers, bags = targetsOfBags();
+    all.insert(all.end(), bags.begin(), bags.end());
+    return all;
+  }();
   return kTargets;
 }
 }  // namespace scanloom
