@@ -40,17 +40,18 @@ struct TimesSeen
 /** What is wrong with an IMU none of whose samples is of the scans' time; empty if nothing is. */
 std::string otherClock(const TimesSeen& imu, const TimesSeen& scans)
 {
-  constexpr double kTaiAheadOfUtc = 37, kLeast = 1;  // s
+  constexpr double kTaiAheadOfUtc = 37, kLeast = 1, kFarthestOffset = 1e6;  // s
   const double later = seconds(imu.first - scans.last), earlier = seconds(scans.first - imu.last);
   if (scans.first > scans.last || std::max(later, earlier) < kLeast) return "";
   const double begins = seconds(imu.first - scans.first);
   const bool is_leap_seconds = std::abs(std::abs(begins) - kTaiAheadOfUtc) < 5;
   const double offset = is_leap_seconds ? std::copysign(kTaiAheadOfUtc, begins) : begins;
-  return fmt::format(
-      "is not used, its clock is another one: its samples begin {:.1f} s {} the scans{}. Stamp both by one "
-      "clock, or set time_offset = {}{:.1f} (s) for each lidar",
-      std::abs(begins), begins > 0 ? "after" : "before", is_leap_seconds ? " (37 s are between TAI and UTC)" : "",
-      is_leap_seconds ? "" : "about ", offset);
+  std::string told = fmt::format(
+      "is not used, its clock is another one: its samples begin {:.1f} s {} the scans{}. Stamp both by one clock",
+      std::abs(begins), begins > 0 ? "after" : "before", is_leap_seconds ? " (37 s are between TAI and UTC)" : "");
+  if (std::abs(offset) < kFarthestOffset)
+    told += fmt::format(", or set time_offset = {}{:.1f} (s) for each lidar", is_leap_seconds ? "" : "about ", offset);
+  return told;
 }
 
 std::map<int, RigImu> imusOf(const SensorSetup& setup)
@@ -140,6 +141,7 @@ class SlamRun
     summary.lidars = check_.lidars();
     summary.outcome = interrupted ? "INTERRUPTED" : whole ? counts_.outcome() : "LOST";
     if (silent && summary.outcome == "OK") summary.outcome = "LIDAR MISSING";
+    if (imu_of_other_clock_ && summary.outcome == "OK") summary.outcome = "IMU MISSING";
     summary.counts = countsOf(account);
     summary.counts["scans_skipped"] = slam_.skippedScans();
     summary.counts["recoveries"] = slam_.recoveries();

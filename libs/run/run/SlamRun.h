@@ -29,7 +29,8 @@ using SeeMark = std::function<void(const EventMark&)>;
 struct SlamRunResult
 {
   /**
-   * Counts, stages, and the outcome: OK, LIDAR MISSING (OK, but a lidar is in no scan), INITIALISING, DEGENERATE, LOST,
+   * Counts, stages, and the outcome: OK, LIDAR MISSING (OK, but a lidar is in no scan), IMU MISSING (OK,
+   * but the samples of an IMU are of another time than all scans), INITIALISING, DEGENERATE, LOST,
    * NOTHING, INTERRUPTED or FAILED.
    */
   RunSummary summary;

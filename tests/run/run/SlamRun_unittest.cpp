@@ -29,7 +29,8 @@ constexpr int kEnough = 40;  // scans: the start takes 20
 class BrokenInput : public SensorInput
 {
  public:
-  BrokenInput(int scans, std::function<void()> fail, int marked_scan = -1) : fail_(std::move(fail))
+  BrokenInput(int scans, std::function<void()> fail, int marked_scan = -1, Duration imu_late = 0s)
+    : fail_(std::move(fail))
   {
     setup_.header.lidars.resize(1);
     setup_.header.lidars[0].name = "left";
@@ -42,7 +43,7 @@ class BrokenInput : public SensorInput
       for (Duration t{0}; t < 100ms; t += 5ms)
       {
         const double noise = 1e-4 * std::sin(seconds(start.time_since_epoch() + t) * 700);  // constant ones are refused
-        events_.push_back(SensorImu{SensorImu::kBody, {start + t, {noise, 0, 0}, {0, noise, 9.80665}}});
+        events_.push_back(SensorImu{SensorImu::kBody, {start + t + imu_late, {noise, 0, 0}, {0, noise, 9.80665}}});
       }
       events_.push_back(shifted(scan, start));
       if (i == marked_scan) events_.push_back(EventMark{start + 100ms, "a deer, left"});
@@ -69,8 +70,22 @@ class BrokenInput : public SensorInput
   }
 
   SensorSetup setup_;
-  std::deque<SensorEvent> events_;
   std::function<void()> fail_;
+
+ protected:
+  std::deque<SensorEvent> events_;
+};
+
+/** Ends where its events end. */
+class WholeInput : public BrokenInput
+{
+ public:
+  explicit WholeInput(Duration imu_late)
+    : BrokenInput(
+          kEnough, [] {}, -1, imu_late)
+  {
+  }
+  bool ended() const override { return events_.empty(); }
 };
 
 struct BrokenRun : testing::Test
@@ -138,6 +153,25 @@ TEST_F(BrokenRun, keepsThePosesThatAFullDiskTook)
   EXPECT_THAT(result.summary.error, HasSubstr(": cannot be written: "));
   EXPECT_GT(readTum(folder / "trajectory.tum").size(), 3u);
   EXPECT_GT(readTum(folder / "trajectory_imu.tum").size(), 100u) << "its last line may have been cut";
+}
+
+TEST(SlamRun, namesAnImuOfAnotherClockByHowMuchAndDoesNotPass)
+{
+  for (const Duration late : {-37s, 0s, 1000s})
+  {
+    WholeInput input(late);
+    std::vector<std::string> warnings;
+    const SlamRunResult result = runSlam(
+        input, {}, [](const StateEstimate&) {}, [](const RunProgress&) { return true; },
+        [&](const std::string& warning) { warnings.push_back(warning); });
+    const auto told = testing::Contains(HasSubstr(fmt::format(
+        "the IMU 'body' is not used, its clock is another one: its samples begin {:.1f} s", std::abs(seconds(late)))));
+    if (late == 0s)
+      EXPECT_THAT(warnings, testing::Not(told));
+    else
+      EXPECT_THAT(warnings, told);
+    EXPECT_EQ(result.passed, late == 0s);
+  }
 }
 
 TEST_F(BrokenRun, hasNothingToKeepBeforeItsFirstPose)
