@@ -104,14 +104,13 @@ TEST(SlamVerb, anInterruptedRunIsPutBesideTheResultsOfAnEarlierOne)
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
   const TemporaryFolder folder;
   for (const char* name : {"trajectory.tum", "summary.json"}) std::ofstream(folder / name) << "earlier";
-  constexpr std::uintmax_t kThreePoses = 300;  // bytes
+  constexpr std::uintmax_t kSomeScans = 20'000;  // bytes of trajectory_imu.tum
   const auto running = [&]
   {
     for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
       if (entry.is_directory())
         for (const auto& file : std::filesystem::directory_iterator(entry.path()))
-          if (file.path().filename() == "trajectory.tum" && std::filesystem::file_size(file.path()) > kThreePoses)
-            return true;
+          if (file.path().extension() == ".tum" && std::filesystem::file_size(file.path()) > kSomeScans) return true;
     return false;
   };
   ChildProcess child("env SCANLOOM_RECORDING=" + recording.string() +
