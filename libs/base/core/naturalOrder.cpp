@@ -11,7 +11,7 @@ namespace
 {
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/** Its digits without leading zeros; `at` is moved behind it. */
+/** The digits of the number that begins at `at`, without leading zeros. */
 std::string_view numberAt(std::string_view text, std::size_t at)
 {
   const auto begin = std::min(text.find_first_not_of('0', at), text.size());

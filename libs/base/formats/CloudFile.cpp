@@ -12,7 +12,6 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <memory>
 #include <stdexcept>

@@ -37,9 +37,19 @@ std::optional<Rigid> FrameTree::transform(const std::string& to, const std::stri
 
 std::vector<std::string> FrameTree::inCircles() const
 {
-  std::vector<std::string> circling;
+  std::map<std::string, bool> ends;  // by frame: whether its parents do; each is followed once
   for (const auto& [child, link] : links_)
-    if (ancestorsOf(child).size() == 1) circling.push_back(child);
+  {
+    std::vector<std::string> way;
+    std::string frame = child;
+    for (; links_.count(frame) > 0 && ends.emplace(frame, false).second; frame = links_.at(frame).parent)
+      way.push_back(frame);
+    const bool way_ends = links_.count(frame) == 0 || ends.at(frame);
+    for (const std::string& passed : way) ends[passed] = way_ends;
+  }
+  std::vector<std::string> circling;
+  for (const auto& [frame, frame_ends] : ends)
+    if (!frame_ends) circling.push_back(frame);
   return circling;
 }
 
