@@ -11,6 +11,7 @@
 #include <fstream>
 #include <new>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace scanloom
@@ -23,23 +24,29 @@ constexpr std::size_t kLargestCall = 1 << 30;  // zlib counts in int
 constexpr std::array<char, 4> kZstdMagic{'\x28', '\xB5', '\x2F', '\xFD'};
 
 bool isGzip(const std::array<char, 4>& bytes) { return bytes[0] == '\x1F' && bytes[1] == '\x8B'; }
-
-std::array<char, 4> firstBytesOf(const std::filesystem::path& path)
-{
-  std::array<char, 4> bytes{};
-  std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
-  return bytes;
-}
 }  // namespace
+
+/** A file and its first bytes, which were read to see what it is; what is read from a pipe is gone. */
+struct CompressedFile::OpenFile
+{
+  /** Throws std::runtime_error if it cannot be opened. */
+  explicit OpenFile(const std::filesystem::path& path) : stream(path, std::ios::binary)
+  {
+    if (!stream) throw std::runtime_error(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+    if (std::filesystem::is_directory(path)) throw std::runtime_error(path.string() + ": is a directory");
+    stream.read(first.data(), first.size());
+    held = static_cast<std::size_t>(stream.gcount());
+  }
+
+  std::ifstream stream;
+  std::array<char, 4> first{};
+  std::size_t held = 0, taken = 0;  // of the first bytes: those that are there, those that were given on
+};
 
 class CompressedFile::Source
 {
  public:
-  explicit Source(const std::filesystem::path& path) : file_(path, std::ios::binary)
-  {
-    if (!file_) throw std::runtime_error(fmt::format("{}: {}", path.string(), std::strerror(errno)));
-    if (std::filesystem::is_directory(path)) throw std::runtime_error(path.string() + ": is a directory");
-  }
+  explicit Source(OpenFile file) : file_(std::move(file)) {}
   virtual ~Source() = default;
 
   /** Some of the bytes that are asked for; 0 at the end; nothing if the data are damaged. */
@@ -52,14 +59,18 @@ class CompressedFile::Source
   /** Bytes of the file as they are, fewer than `count` at its end. */
   std::size_t readFile(void* bytes, std::size_t count)
   {
-    file_.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count));
-    const auto got = static_cast<std::size_t>(file_.gcount());
+    auto* const to = static_cast<char*>(bytes);
+    const std::size_t ahead = std::min(count, file_.held - file_.taken);
+    std::copy_n(file_.first.begin() + file_.taken, ahead, to);
+    file_.taken += ahead;
+    file_.stream.read(to + ahead, static_cast<std::streamsize>(count - ahead));
+    const std::size_t got = ahead + static_cast<std::size_t>(file_.stream.gcount());
     bytes_read_ += got;
     return got;
   }
 
  private:
-  std::ifstream file_;
+  OpenFile file_;
   std::uint64_t bytes_read_ = 0;
 };
 
@@ -75,7 +86,7 @@ class CompressedFile::Plain : public Source
 class CompressedFile::Gzip : public Source
 {
  public:
-  explicit Gzip(const std::filesystem::path& path) : Source(path), packed_(kBuffer)
+  explicit Gzip(OpenFile file) : Source(std::move(file)), packed_(kBuffer)
   {
     if (inflateInit2(&stream_, kGzipOnly) != Z_OK) throw std::bad_alloc();
   }
@@ -128,8 +139,8 @@ class CompressedFile::Gzip : public Source
 class CompressedFile::Zstd : public Source
 {
  public:
-  explicit Zstd(const std::filesystem::path& path)
-    : Source(path), stream_(ZSTD_createDStream(), &ZSTD_freeDStream), packed_(kBuffer)
+  explicit Zstd(OpenFile file)
+    : Source(std::move(file)), stream_(ZSTD_createDStream(), &ZSTD_freeDStream), packed_(kBuffer)
   {
   }
 
@@ -165,13 +176,13 @@ class CompressedFile::Zstd : public Source
 
 CompressedFile::CompressedFile(const std::filesystem::path& path) : path_(path)
 {
-  const std::array<char, 4> bytes = firstBytesOf(path);
-  if (bytes == kZstdMagic)
-    source_ = std::make_unique<Zstd>(path);
-  else if (isGzip(bytes))
-    source_ = std::make_unique<Gzip>(path);
+  OpenFile file(path);
+  if (file.first == kZstdMagic)
+    source_ = std::make_unique<Zstd>(std::move(file));
+  else if (isGzip(file.first))
+    source_ = std::make_unique<Gzip>(std::move(file));
   else
-    source_ = std::make_unique<Plain>(path);
+    source_ = std::make_unique<Plain>(std::move(file));
 }
 
 CompressedFile::~CompressedFile() = default;
@@ -225,7 +236,8 @@ void CompressedFile::fail(const char* what) const
 bool isCompressed(const std::filesystem::path& path)
 {
   if (!std::filesystem::is_regular_file(path)) return false;  // what is read from a pipe is gone
-  const std::array<char, 4> bytes = firstBytesOf(path);
+  std::array<char, 4> bytes{};
+  std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
   return bytes == kZstdMagic || isGzip(bytes);
 }
 

@@ -8,17 +8,16 @@
 #include <string>
 #include <vector>
 
-struct pcap;
-struct pcap_pkthdr;
-
 namespace scanloom
 {
-struct PackedCapture;
+class CaptureRecords;
+class CompressedFile;
+struct CaptureRecord;
 
 /**
  * The UDP datagrams of a pcap or pcapng file, plain or in gzip or zstd, in the file's order, with stamps in
- * nanoseconds. Link types: Ethernet with or without VLAN tags, Linux cooked, raw IP, loopback. IPv4 and IPv6; fragments
- * are joined.
+ * nanoseconds. Link types: Ethernet with or without VLAN tags, Linux cooked, raw IP, loopback; the interfaces of a
+ * pcapng may differ, and records of those that carry no IP count as no UDP. IPv4 and IPv6; fragments are joined.
  */
 class CaptureReader : public DatagramReader
 {
@@ -30,7 +29,8 @@ class CaptureReader : public DatagramReader
 
   /**
    * Replaces `datagram` by the next one, reusing its memory; false at the end of the file. A joined datagram gets the
-   * stamp of the fragment that completed it. A damaged file ends before the damage, which the counters tell.
+   * stamp of the fragment that completed it. A damaged file ends before the damage, which the counters tell. Throws
+   * std::runtime_error at the end of a pcapng none of whose interfaces carries IP.
    */
   bool next(Datagram& datagram) override;
 
@@ -39,21 +39,17 @@ class CaptureReader : public DatagramReader
   double progress() const override;
 
  private:
-  struct Close
-  {
-    void operator()(pcap*) const;
-  };
-
-  bool nextRecord();
-  bool readDatagram(Bytes frame, Datagram&);
+  std::optional<CaptureRecord> nextRecord();
+  bool readDatagram(const CaptureRecord&, Datagram&);
 
   std::filesystem::path path_;
-  std::unique_ptr<PackedCapture> packed_;  // that capture_ reads; null if the file is not compressed
-  std::unique_ptr<pcap, Close> capture_;
-  int link_type_ = 0;
-  double file_size_ = 0;
-  const pcap_pkthdr* record_ = nullptr;  // owned by libpcap, like frame_; valid until the next record is read
-  const std::uint8_t* frame_ = nullptr;
+  std::unique_ptr<CompressedFile> file_;
+  std::unique_ptr<CaptureRecords> records_;
+  double file_size_ = 0;          // bytes; 0 for a pipe
+  std::uint64_t bytes_read_ = 0;  // of frames, for the progress
+  std::uint64_t other_links_ = 0;
+  int other_link_type_ = 0;
+  bool ended_ = false;
   FragmentJoiner joiner_;
   std::vector<std::uint8_t> joined_;
   CaptureCounters counters_;

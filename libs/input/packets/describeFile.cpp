@@ -37,6 +37,10 @@ constexpr std::array kKinds{
     Kind{"\x89MCAP"sv, "an MCAP file"},
     Kind{"# .PCD"sv, "a PCD cloud"},
     Kind{"ply\n"sv, "a PLY cloud"},
+    Kind{"version https://git-lfs"sv, "a pointer of Git LFS, not the file itself: git lfs pull"},
+    Kind{"\x7f"
+         "ELF"sv,
+         "a program"},
     Kind{"{"sv, "a JSON file (sensor metadata?)"},
 };
 

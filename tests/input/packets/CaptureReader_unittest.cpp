@@ -6,6 +6,10 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+
+#include <functional>
+#include <thread>
 
 namespace scanloom::capture_reader_unittest
 {
@@ -198,18 +202,29 @@ TEST(CaptureReader, countsWhatIsNoUdp)
 
 TEST(CaptureReader, refusesLengthsThatContradictTheBytes)
 {
-  ByteVector udp_too_long = kPacket, udp_too_short = kPacket, ip_too_long = kPacket, header_too_short = kPacket;
+  ByteVector udp_too_long = kPacket, udp_too_short = kPacket, both_too_long = kPacket, header_too_short = kPacket;
   udp_too_long[25] = 200;
   udp_too_short[25] = 7;
-  ip_too_long[3] = 200;
+  both_too_long[3] = both_too_long[25] = 200;
   header_too_short[0] = 0x44;
   HandmadeCapture capture;
-  for (const auto& packet : {udp_too_long, udp_too_short, ip_too_long, header_too_short}) capture.add(ethernet(packet));
+  for (const auto& packet : {udp_too_long, udp_too_short, both_too_long, header_too_short})
+    capture.add(ethernet(packet));
   capture.add(ethernet(0x0800, {0x95})).add({1, 2, 3}).add(ethernet(0x8100, {0}));
   const Contents contents = read(capture.file());
 
   EXPECT_EQ(contents.counters.malformed, 7u);
   EXPECT_TRUE(contents.datagrams.empty());
+}
+
+TEST(CaptureReader, goesByTheLengthOfUdpWhereThatOfIpIsTooLong)
+{
+  ByteVector old_position = kPacket;  // 1234 bytes, as old VLP-16s say
+  old_position[2] = 1234 >> 8;
+  old_position[3] = 1234 & 0xff;
+  HandmadeCapture capture;
+  capture.add(ethernet(old_position));
+  EXPECT_THAT(payloads(read(capture.file())), ElementsAre(kPayload));
 }
 
 TEST(CaptureReader, countsFramesThatTheSnapLengthCut)
@@ -265,26 +280,159 @@ TEST(CaptureReader, saysWhereADamagedFileBreaksAndDeliversWhatWasBefore)
   }
 }
 
+/** A pcapng file block by block; its bytes may be of a machine of the other order. */
+class HandmadePcapng
+{
+ public:
+  explicit HandmadePcapng(bool big_endian = false) : file_(path(), std::ios::binary), big_endian_(big_endian)
+  {
+    block(0x0A0D0D0A, {0x1A2B3C4D, 0x00000001, 0xFFFFFFFF, 0xFFFFFFFF});
+  }
+  HandmadePcapng& interface(std::uint16_t link_type, std::uint32_t snap_length)
+  {
+    return block(1, {big_endian_ ? std::uint32_t{link_type} << 16 : link_type, snap_length});
+  }
+  /** An enhanced packet block at a microsecond. */
+  HandmadePcapng& packet(std::uint32_t interface, std::uint32_t microsecond, ByteVector frame)
+  {
+    const auto length = static_cast<std::uint32_t>(frame.size());
+    frame.resize((frame.size() + 3) / 4 * 4);
+    return block(6, {interface, 0, microsecond, length, length}, frame);
+  }
+  HandmadePcapng& block(std::uint32_t type, const std::vector<std::uint32_t>& body, const ByteVector& bytes = {})
+  {
+    const auto length = static_cast<std::uint32_t>(4 * body.size() + bytes.size() + 12);
+    write(type);
+    write(length);
+    for (const std::uint32_t word : body) write(word);
+    file_.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    write(length);
+    return *this;
+  }
+  Contents contents()
+  {
+    file_.flush();
+    return read(path());
+  }
+  std::filesystem::path path() const { return folder_ / "a.pcapng"; }
+
+ private:
+  void write(std::uint32_t word)
+  {
+    if (big_endian_) word = __builtin_bswap32(word);
+    file_.write(reinterpret_cast<const char*>(&word), sizeof word);
+  }
+
+  TemporaryFolder folder_;
+  std::ofstream file_;
+  bool big_endian_;
+};
+
 TEST(CaptureReader, countsARecordOfNoPossibleTime)
 {
-  const TemporaryFolder folder;
-  std::ofstream file(folder / "a.pcapng", std::ios::binary);
-  const auto block = [&file](std::uint32_t type, const std::vector<std::uint32_t>& body)
-  {
-    const auto length = static_cast<std::uint32_t>(4 * body.size() + 12);
-    std::vector<std::uint32_t> words{type, length};
-    words.insert(words.end(), body.begin(), body.end());
-    words.push_back(length);
-    file.write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(4 * words.size()));
-  };
-  block(0x0A0D0D0A, {0x1A2B3C4D, 1, 0xFFFFFFFF, 0xFFFFFFFF});
-  block(1, {1, 4096, 0x00010009, 0, 0});  // Ethernet, if_tsresol: seconds
-  block(6, {0, 1200, 0, 4, 4, 0});        // second 1200 * 2^32
-  block(6, {0, 0, 0xFFFFFFFF, 4, 4, 0});  // year 2106
-  file.close();
-  const Contents contents = read(folder / "a.pcapng");
+  HandmadePcapng file;
+  file.block(1, {1, 4096, 0x00010009, 0, 0});  // Ethernet, if_tsresol: seconds
+  file.block(6, {0, 1200, 0, 4, 4, 0});        // second 1200 * 2^32
+  file.block(6, {0, 0, 0xFFFFFFFF, 4, 4, 0});  // year 2106
+  const Contents contents = file.contents();
   EXPECT_EQ(contents.counters.records, 2u);
   EXPECT_EQ(contents.counters.malformed, 2u);  // the second one is too short for Ethernet
+}
+
+TEST(CaptureReader, readsInterfacesOfAnyLinkTypeAndSnapLengthAndCountsThoseWithoutIp)
+{
+  constexpr std::uint16_t kEthernet = 1, kCooked = 113, kUsb = 189;
+  const ByteVector cooked = ByteVector(14, 0) + be16(0x0800) + kPacket;
+  for (const bool big_endian : {false, true})
+  {
+    HandmadePcapng file(big_endian);
+    file.interface(kEthernet, 262144).interface(kUsb, 0).interface(kCooked, 65535);
+    file.packet(0, 1, ethernet(kPacket)).packet(1, 2, content(64)).packet(2, 3, cooked);
+    const Contents contents = file.contents();
+    EXPECT_THAT(payloads(contents), ElementsAre(kPayload, kPayload));
+    EXPECT_EQ(contents.datagrams.back().received, Timestamp{3us});
+    EXPECT_EQ(contents.counters.records, 3u);
+    EXPECT_EQ(contents.counters.not_udp, 1u);
+    EXPECT_TRUE(contents.counters.damages.empty());
+  }
+}
+
+TEST(CaptureReader, namesTheLinkTypeIfNoInterfaceCarriesIp)
+{
+  HandmadePcapng file;
+  file.interface(189, 0).packet(0, 1, content(64));
+  try
+  {
+    file.contents();
+    FAIL();
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_THAT(error.what(), HasSubstr("USB_LINUX"));
+  }
+}
+
+TEST(CaptureReader, scalesStampsByTheInterfacesResolutionAndOffset)
+{
+  HandmadePcapng file;
+  file.block(1, {1, 0, 0x00010009, 9, 0x0008000E, 100, 0, 0});  // nanoseconds, 100 s to be added
+  file.block(1, {1, 0, 0x00010009, 0x80 | 20, 0});              // 2^-20 s
+  file.block(1, {1, 0, 0x00010009, 12, 0});                     // picoseconds
+  file.packet(0, 1'234'567'891, ethernet(kPacket)).packet(1, 3u << 19, ethernet(kPacket));
+  file.packet(2, 4'000'001'999, ethernet(kPacket));
+  const Contents contents = file.contents();
+  ASSERT_EQ(contents.datagrams.size(), 3u);
+  EXPECT_EQ(contents.datagrams[0].received, Timestamp{101s + 234'567'891ns});
+  EXPECT_EQ(contents.datagrams[1].received, Timestamp{1500ms});
+  EXPECT_EQ(contents.datagrams[2].received, Timestamp{4'000'001ns});
+}
+
+TEST(CaptureReader, deliversWhatIsBeforeADamageOfPcapng)
+{
+  const auto damageBehind = [](const std::function<void(HandmadePcapng&)>& add)
+  {
+    HandmadePcapng file;
+    file.interface(1, 0).packet(0, 1, ethernet(kPacket));
+    add(file);
+    const Contents contents = file.contents();
+    EXPECT_EQ(contents.datagrams.size(), 1u);
+    return contents.counters.damages.empty() ? "none" : contents.counters.damages.front();
+  };
+  EXPECT_THAT(damageBehind([](auto& file) { file.packet(1, 2, content(64)); }), HasSubstr("not described"));
+  EXPECT_THAT(damageBehind([](auto& file) { file.block(6, {0, 0, 0, 400, 400}); }), HasSubstr("shorter"));
+  EXPECT_THAT(damageBehind([](auto& file) { file.block(1, {1, 0, 0x00010009, 20, 0}); }), HasSubstr("10^-20"));
+  EXPECT_THAT(damageBehind([](auto& file) { file.block(0x0A0D0D0A, {7, 1, 0, 0}); }), HasSubstr("byte order"));
+}
+
+TEST(CaptureReader, takesFractionsOfASecondThatAreTooLargeForMicrosecondsForNanoseconds)
+{
+  HandmadeCapture capture;
+  for (int i = 0; i < 40; ++i) capture.add(ethernet(kPacket), 1750000000s + 25ms * i + 5ms);
+  const auto path = capture.file();
+  const std::string content = contentOf(path);
+  std::ofstream(path, std::ios::binary) << "\xd4\xc3\xb2\xa1" << content.substr(4);  // the magic of microseconds
+  const Contents contents = read(path);
+  ASSERT_EQ(contents.datagrams.size(), 40u);
+  for (std::size_t i = 0; i < 40; ++i)
+    EXPECT_EQ(contents.datagrams[i].received, Timestamp{1750000000s + 25ms * i + 5ms}) << i;
+}
+
+TEST(CaptureReader, readsFromAPipe)
+{
+  HandmadeCapture pcap;
+  pcap.add(ethernet(kPacket));
+  HandmadePcapng pcapng;
+  pcapng.interface(1, 0).packet(0, 1, ethernet(kPacket));
+  ASSERT_EQ(pcapng.contents().datagrams.size(), 1u);
+  for (const auto& file : {pcap.file(), pcapng.path()})
+  {
+    const auto pipe = pcap.folder() / "pipe";
+    std::filesystem::remove(pipe);
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << std::ifstream(file, std::ios::binary).rdbuf(); });
+    EXPECT_THAT(payloads(read(pipe)), ElementsAre(kPayload));
+    writer.join();
+  }
 }
 
 TEST(CaptureReader, progressEndsAtOne)

@@ -8,13 +8,22 @@ namespace
 {
 constexpr std::uint8_t kHopByHop = 0, kRouting = 43, kFragment = 44, kDestinationOptions = 60;  // IPv6 next headers
 
+/** Position packets of old VLP-16s state the length of their lidar packets in IP, and the right one in UDP. */
+bool isOldPosition(Bytes packet, std::size_t header, std::size_t stated)
+{
+  const bool fragment = (loadBigEndian<std::uint16_t>(packet, 6) & 0x3fffu) != 0;
+  if (stated <= packet.size() || fragment || load<std::uint8_t>(packet, 9) != kUdp || packet.size() < header + 8)
+    return false;
+  return header + loadBigEndian<std::uint16_t>(packet, header + 4) <= packet.size();
+}
+
 IpContent contentOfV4(Bytes packet)
 {
   const std::size_t header = 4u * (packet[0] & 0x0fu);
   if (header < 20) throw std::out_of_range("IPv4: header shorter than 20 bytes");
   // If the network card splits datagrams, captured packets have a length of 0.
   const std::size_t stated = loadBigEndian<std::uint16_t>(packet, 2);
-  const std::size_t total = stated == 0 ? packet.size() : stated;
+  const std::size_t total = stated == 0 || isOldPosition(packet, header, stated) ? packet.size() : stated;
   if (total < header) throw std::out_of_range("IPv4: shorter than its header");
   const auto fragment = loadBigEndian<std::uint16_t>(packet, 6);
 

@@ -20,6 +20,9 @@ struct SampledStream
   std::vector<Packet> samples;  // the first ones, and then ever fewer
 };
 
-/** What the first ten seconds of captures hold; by source, then port. Throws what MergedCaptures throws. */
+/**
+ * What the first ten seconds of captures hold, or their first 2000 datagrams; by source, then port. Throws what
+ * MergedCaptures throws, and std::runtime_error with the damages if these leave no datagram.
+ */
 std::vector<SampledStream> streamsOf(const std::vector<std::filesystem::path>& captures);
 }  // namespace scanloom
