@@ -94,6 +94,7 @@ bool CountedArchive::atEnd()
 {
   object_ = 0;
   within_.clear();
+  next_ = Next::Anything;  // versions without a label have fewer counts than the class
   return ahead_taken_ == ahead_.size() && file_.atEnd();
 }
 
@@ -183,6 +184,7 @@ void CountedArchive::followObjects(const char* bytes, std::size_t count)
     if (!within_.empty() && within_.back() == kActions && name != kMovement && name != kMovement3d)
       refuse(fmt::format("is damaged: an action of class '{}'", name));
     within_.push_back(name);
+    if (!classNamed(name)) next_ = Next::Anything;
   }
   name_length_ = 0;
   if (count != 1) return;

@@ -9,6 +9,17 @@
 
 namespace scanloom
 {
+namespace
+{
+/** The class of a map, without its namespace; empty for other objects. */
+std::string mapIn(const mrpt::serialization::CSerializable& object)
+{
+  std::string name = object.GetRuntimeClass()->className;
+  name.erase(0, name.rfind(':') + 1);
+  return name.find("Map") == std::string::npos ? "" : name;
+}
+}  // namespace
+
 mrpt::obs::CObservation::Ptr RawlogObservations::next()
 {
   while (waiting_.empty() && !ended_) readObject();
@@ -30,6 +41,9 @@ void RawlogObservations::readObject()
       waiting_.push_back(observation);
     else if (auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object))
       takeFrame(*frame);
+    else if (const std::string map = objects_ == 1 ? mapIn(*object) : ""; !map.empty())
+      endBecause(
+          fmt::format("a {}, which is a map and no recording: 'scanloom map' and 'view' take a .simplemap", map));
     else
       passed_over_++;
   }

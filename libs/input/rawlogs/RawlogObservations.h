@@ -13,7 +13,7 @@ namespace scanloom
 /**
  * The observations of a rawlog in the file's order: the objects of the observation format, or the contents of the
  * frames in the action/frame format. Reading ends where the file is damaged, cut, or has an object of an unknown class
- * or with more items than the file can hold; damage() then says why.
+ * or with more items than the file can hold, or is a map; damage() then says why.
  */
 class RawlogObservations
 {

@@ -24,6 +24,7 @@
 #include <mrpt/maps/CWeightedPointsMap.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CRawlog.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPosePDFGaussian.h>
@@ -479,6 +480,20 @@ TEST_F(Rawlog, takesNoGigabytesForAFalseLength)
     expectDamage(cloud, "name of the field");
     expectDamage(external, "name of a file");
   }
+}
+
+/** Before comments had labels (version 0: text and stamp): the numbers of what follows are no lengths. */
+TEST_F(Rawlog, readsOnBehindACommentWithoutALabel)
+{
+  mrpt::obs::CObservationRange range;
+  range.maxSensorDistance = 5;
+  const std::string others = serialised(path_, {&range, &range});
+  const std::string name = "mrpt::obs::CObservationComment", text = "of 2011";
+  std::string comment = std::string(1, static_cast<char>(0x80 | name.size())) + name + std::string(1, '\0') +
+                        std::string{static_cast<char>(text.size()), 0, 0, 0} + text + std::string(8, '\1') + "\x88";
+  overwrite(comment + others);
+  EXPECT_EQ(rawlogInfo(path_).damage, "");
+  EXPECT_EQ(rawlogInfo(path_).observations(), 3u);
 }
 
 /** Values are copied into arrays of as many as there are points. */
