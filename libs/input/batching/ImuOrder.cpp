@@ -37,6 +37,19 @@ std::uint64_t ImuOrder::dropAfter(int sensor, Timestamp latest)
   return dropped;
 }
 
+void ImuOrder::shift(int sensor, Duration later)
+{
+  const auto of_others = std::stable_partition(waiting_.begin(), waiting_.end(),
+                                               [&](const SensorImu& imu) { return imu.sensor != sensor; });
+  std::vector<SensorImu> shifted(of_others, waiting_.end());
+  waiting_.erase(of_others, waiting_.end());
+  for (SensorImu& imu : shifted)
+  {
+    imu.sample.stamp += later;
+    add(imu);
+  }
+}
+
 std::vector<SensorImu> ImuOrder::release(Timestamp horizon)
 {
   released_until_ = std::max(released_until_, horizon);

@@ -32,6 +32,9 @@ class ImuOrder
   /** Drops what this sensor has stamped later than `latest`; returns how many samples that were. */
   std::uint64_t dropAfter(int sensor, Timestamp latest);
 
+  /** Moves the stamps of this sensor's samples that wait: its clock turned out to be another. */
+  void shift(int sensor, Duration later);
+
   /** Samples of the body's IMU in time order, however far ahead of the packets. */
   void addBody(const std::vector<ImuSample>& samples) { body_.insert(body_.end(), samples.begin(), samples.end()); }
 

@@ -44,7 +44,7 @@ void RigStream::take(const DatagramView& datagram)
   const LidarIndex lidar = packet->lidar;
   const Timestamp received = packet->received;
   if (packet->of_new_sender) lidar_imus_[lidar].by_lidar = false;
-  std::vector<Scan> scans = batcher_->push(*std::move(packet));
+  std::vector<Scan> scans = onward([&] { return batcher_->push(*std::move(packet)); });
   judgeEarlyImu(lidar, received);
   release(std::move(scans));
 }
@@ -63,6 +63,19 @@ void RigStream::takeImu(const RoutedPacket& packet)
     sample.stamp += batcher_->timeOffset(packet.lidar);
     imu_.add({static_cast<int>(packet.lidar), sample});
   }
+}
+
+/** Before the first scan clocks are compared: the IMU samples that wait are moved with the stamps of their lidars. */
+std::vector<Scan> RigStream::onward(const std::function<std::vector<Scan>()>& step)
+{
+  if (batcher_->horizon()) return step();
+  std::vector<Duration> offsets;
+  for (LidarIndex i = 0; i < lidar_imus_.size(); ++i) offsets.push_back(batcher_->timeOffset(i));
+  std::vector<Scan> scans = step();
+  for (LidarIndex i = 0; i < offsets.size(); ++i)
+    if (const Duration later = batcher_->timeOffset(i) - offsets[i]; later != Duration{0})
+      imu_.shift(static_cast<int>(i), later);
+  return scans;
 }
 
 /** What was ahead of the lidar's clock before the lidar was heard would wait until the end. */
@@ -85,7 +98,7 @@ void RigStream::advance(Timestamp now)
   while (time_ < last)
   {
     time_ += kTick;
-    release(batcher_->advance(time_));
+    release(onward([&] { return batcher_->advance(time_); }));
   }
 }
 

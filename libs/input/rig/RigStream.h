@@ -8,6 +8,7 @@
 #include "input/rig/internal/CaptureClock.h"
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -71,6 +72,7 @@ class RigStream
  private:
   const BatchedLidar& lidar(LidarIndex lidar) const { return batcher_->lidars()[lidar]; }
   void takeImu(const RoutedPacket&);
+  std::vector<Scan> onward(const std::function<std::vector<Scan>()>& step);
   void judgeEarlyImu(LidarIndex, Timestamp received);
   void release(std::vector<Scan> scans);
   void releaseImu(Timestamp horizon);

@@ -37,6 +37,18 @@ TEST(ImuOrder, countsWhatComesAfterItsPlaceWasGivenOut)
   EXPECT_TRUE(order.release(Timestamp{1s}).empty());
 }
 
+TEST(ImuOrder, movesWhatWaitsOfASensorWhoseClockIsAnother)
+{
+  ImuOrder order;
+  for (const SensorImu& s : {imu(0, 10ms), imu(1, 20ms), imu(0, 30ms)}) order.add(s);
+  order.shift(0, 15ms);
+  const auto released = order.release(Timestamp::max());
+  ASSERT_EQ(released.size(), 3u);
+  EXPECT_EQ(released[0].sensor, 1);
+  EXPECT_EQ(released[1].sample.stamp, Timestamp{25ms});
+  EXPECT_EQ(released[2].sample.stamp, Timestamp{45ms});
+}
+
 TEST(ImuOrder, givesTheBodysSamplesAheadWhereThatIsAsked)
 {
   ImuOrder order(25ms);

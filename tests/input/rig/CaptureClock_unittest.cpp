@@ -112,6 +112,38 @@ Streamed stream(const Rig& rig, const std::vector<Datagram>& datagrams)
   return streamed;
 }
 
+/** Of two lidars one shows TAI, the other UTC; the IMU inside the other sends before its lidar does. */
+TEST(RigStream, stampsAnEarlyImuSampleByTheClockThatItsLidarTurnsOutToHave)
+{
+  FakeLidarOptions options;
+  options.has_imu = true;
+  LiveRig lidars(2, LiveRig::Ports::Several, options);
+  lidars.rig.addresses[1].imu_port = lidars.rig.addresses[1].lidar_port;
+  std::vector<Datagram> sent = lidars.drive(2s);
+  std::size_t late = 0;
+  const auto of_utc = lidars.lidar->drive(Timestamp{1000s - 37s}, 2s);
+  for (Datagram& datagram : sent)
+    if (datagram.source == LiveRig::addressOf(1)) datagram.payload = of_utc[late++];
+  sent.insert(sent.begin(), {Timestamp{1000s}, LiveRig::addressOf(1), 0, lidars.rig.addresses[1].imu_port,
+                             FakeLidar::imuPacket(Timestamp{1000s - 37s}, 7)});
+  RigStream stream(lidars.rig, RigStream::ReceiveTimes::OfCapture);
+  std::vector<Timestamp> stamps;
+  const auto collect = [&]
+  {
+    while (const std::optional<SensorEvent> event = stream.next())
+      if (const auto* imu = std::get_if<SensorImu>(&*event)) stamps.push_back(imu->sample.stamp);
+  };
+  for (const Datagram& datagram : sent)
+  {
+    stream.take(datagram);
+    collect();
+  }
+  stream.finish();
+  collect();
+  ASSERT_EQ(stamps.size(), 1u);
+  EXPECT_LT(std::chrono::abs(stamps[0] - Timestamp{1000s}), 100ms);
+}
+
 TEST(RigStream, givesTheSameScansWhenTheClockOfTheCapturingComputerIsSet)
 {
   const LiveRig lidars(2);
