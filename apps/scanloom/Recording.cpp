@@ -1,14 +1,37 @@
 #include "Recording.h"
+#include "warn.h"
 
 #include "base/core/ConfigError.h"
+#include "base/core/printable.h"
 #include "input/rig/RecognisedRig.h"
 #include "input/rig/RigOptions.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace scanloom
 {
+namespace
+{
+/** What could have been meant for the recording is a warning each; the rest is named in one line. */
+void nameUnused(const std::vector<UnusedFile>& files)
+{
+  constexpr std::size_t kNamed = 5;
+  std::vector<std::string> data, others;
+  for (const UnusedFile& file : files)
+    if (file.has_data)
+      data.push_back(fmt::format("{}: {}", printable(file.path.string()), file.why));
+    else
+      others.push_back(printable(file.path.filename().string()));
+  for (std::size_t i = 0; i < std::min(data.size(), kNamed); ++i)
+    fmt::print(stderr, "warning: not used: {}\n", data[i]);
+  if (data.size() > kNamed) fmt::print(stderr, "warning: not used: {} more files\n", data.size() - kNamed);
+  if (!others.empty()) fmt::print(stderr, "not used: {}\n", fmt::join(others, ", "));
+}
+}  // namespace
+
 Option addRecording(CLI::App& app, RecordingArguments& arguments, const std::string& name)
 {
   const Option recording = addOption(
@@ -27,6 +50,7 @@ RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds)
   std::vector<std::filesystem::path> given = arguments.paths;
   given.insert(given.end(), arguments.metadata.begin(), arguments.metadata.end());
   const RecordingFiles files = filesOf(given);
+  nameUnused(files.unused);
   if (!files.captures.empty() && !files.rawlogs.empty())
     throw UsageError(fmt::format("{} is a capture and {} a rawlog: name one of them", files.captures.front().string(),
                                  files.rawlogs.front().string()));
@@ -43,23 +67,28 @@ RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds)
   return files;
 }
 
-bool addCaptures(const RecordingFiles& files, Configuration& configuration, Poses poses)
+RecordedSensors addCaptures(const RecordingFiles& files, Configuration& configuration, Poses poses)
 {
-  if (files.captures.empty()) return true;
+  RecordedSensors sensors;
+  sensors.not_used = static_cast<std::size_t>(
+      std::count_if(files.unused.begin(), files.unused.end(), [](const UnusedFile& file) { return file.is_imu; }));
+  if (files.captures.empty()) return sensors;
   if (hasRigSection(configuration))
   {
     std::vector<std::string> names;
     for (const auto& capture : files.captures) names.push_back(capture.string());
     configuration.set(fmt::format("{}.pcap_input={}", rigSection(configuration), fmt::join(names, ", ")));
-    return true;
+    return sensors;
   }
   RecognisedRig rig = recogniseRig(files);
   for (const std::string& line : rig.found) fmt::print(stderr, "{}\n", line);
-  for (const std::string& note : rig.notes) fmt::print(stderr, "warning: {}\n", note);
+  for (const std::string& note : rig.notes) warn(note);
   if (poses == Poses::TakenAsZero)
     for (const std::string& key : rig.unknown_poses) rig.ini += fmt::format("{} = [0 0 0 0 0 0]\n", key);
   configuration.addDefaults(Configuration::fromText(rig.ini, "recognised"));
-  return rig.poses_known;
+  sensors.poses_known = rig.poses_known;
+  sensors.not_used += rig.lost.size();
+  return sensors;
 }
 
 std::filesystem::path besideRecording(const RecordingArguments& arguments, const std::string& ending)

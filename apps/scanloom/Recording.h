@@ -27,8 +27,8 @@ enum class Clouds
   Taken,
 };
 
-/** What the arguments name. @throws UsageError as filesOf() does, for captures together with rawlogs, and for clouds
- * where they are of no use. */
+/** What the arguments name; files that are not used are named on stderr. @throws UsageError as filesOf() does, for
+ * captures together with rawlogs, and for clouds where they are of no use. */
 RecordingFiles filesOf(const RecordingArguments&, Clouds = Clouds::Refused);
 
 enum class Poses
@@ -37,12 +37,17 @@ enum class Poses
   TakenAsZero,  // where a lidar's pose is not known
 };
 
+struct RecordedSensors
+{
+  bool poses_known = true;   // of all lidars, in a body frame; else their own frames are taken for it
+  std::size_t not_used = 0;  // sensors that belong to the recording and are missing in what is read
+};
+
 /**
  * Adds the captures: to the lidars that the configuration describes, else with the lidars that are recognised, which
  * are printed to stderr.
- * @return whether the lidars' poses in a body frame are known.
  */
-bool addCaptures(const RecordingFiles&, Configuration&, Poses = Poses::Needed);
+RecordedSensors addCaptures(const RecordingFiles&, Configuration&, Poses = Poses::Needed);
 
 /** A name for results beside the recording: drive.pcap.gz and "_slam" give drive_slam, a folder dense/ gives
  * dense_slam. */

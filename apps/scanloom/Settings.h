@@ -12,19 +12,19 @@ struct Loaded
 {
   Configuration configuration;
   Settings settings;
-  bool poses_known = true;  // of the lidars, in a body frame; else their own frames are taken for it
+  RecordedSensors sensors;
 };
 
 /** The settings of a configuration with --set on top. @throws ConfigError as load() does. */
 template <typename Settings>
 Loaded<Settings> loadFrom(Configuration configuration, const std::vector<std::string>& assignments,
-                          bool poses_known = true)
+                          const RecordedSensors& sensors = {})
 {
   for (const std::string& assignment : assignments) configuration.set(assignment);
   for (const SectionDescription& described : knownToAnyVerb()) configuration.makePathsAbsolute(described);
   makeRigPathsAbsolute(configuration);
   Settings settings = readSettings<Settings>(configuration, knownToAnyVerb());
-  return {std::move(configuration), std::move(settings), poses_known};
+  return {std::move(configuration), std::move(settings), sensors};
 }
 
 /**
@@ -36,8 +36,8 @@ Loaded<Settings> load(const ConfigurationArguments& arguments, const RecordingFi
                       Poses poses = Poses::Needed)
 {
   Configuration configuration = Configuration::fromFiles(arguments.files);
-  const bool poses_known = addCaptures(recording, configuration, poses);
-  return loadFrom<Settings>(std::move(configuration), arguments.assignments, poses_known);
+  const RecordedSensors sensors = addCaptures(recording, configuration, poses);
+  return loadFrom<Settings>(std::move(configuration), arguments.assignments, sensors);
 }
 
 /** The INI file that repeats the run: --dry-run prints it, and it is written beside the results. */

@@ -193,7 +193,8 @@ int runDrive(const CalibrateArguments& arguments)
     return contradicted(*calibration.imu);
   if (!isPath(drive)) return noPath(calibration, drive.run.summary.outcome);
 
-  const PoseGiven known = arguments.poses_unknown || !loaded.poses_known ? PoseGiven::No : PoseGiven::Within20Degrees;
+  const PoseGiven known =
+      arguments.poses_unknown || !loaded.sensors.poses_known ? PoseGiven::No : PoseGiven::Within20Degrees;
   const Clock clock = arguments.clocks ? Clock::Estimated : Clock::Kept;
   std::vector<std::vector<MountScene>> scenes(calibration.lidars.size());
   for (std::size_t i = 0; i < calibration.lidars.size(); ++i)

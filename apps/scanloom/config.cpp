@@ -4,6 +4,7 @@
 #include "base/config/Names.h"
 #include "base/core/ConfigError.h"
 #include "input/rig/RecognisedRig.h"
+#include "warn.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -65,7 +66,7 @@ int printRigOf(const std::vector<std::filesystem::path>& recording)
   if (files.captures.empty())
     throw UsageError(fmt::format("{}: only captures need a configuration of their lidars", recording.front().string()));
   const RecognisedRig rig = recogniseRig(files, folderOfOutput());
-  for (const std::string& note : rig.notes) fmt::print(stderr, "warning: {}\n", note);
+  for (const std::string& note : rig.notes) warn(note);
   std::cout << rig.ini;
   return kDone;
 }

@@ -12,6 +12,7 @@
 #include "diagnosis/Listening.h"
 #include "diagnosis/RawlogCheck.h"
 #include "diagnosis/ScanEvidence.h"
+#include "warn.h"
 
 #include <fmt/format.h>
 
@@ -75,7 +76,7 @@ RigEvidence listen(const Rig& rig, bool poses_known, const DoctorArguments& argu
                          progress.update(static_cast<std::uint64_t>(share * static_cast<double>(megabytes)));
                          return !interrupted();
                        });
-  for (const std::string& damage : damages) fmt::print(stderr, "warning: {}\n", damage);
+  for (const std::string& damage : damages) warn(damage);
   return listener.finish();
 }
 
@@ -84,7 +85,7 @@ RigEvidence readClouds(const RecordingFiles& recording, const Configuration& con
 {
   const SlamInput input = openInput(recording, {}, configuration);
   RigEvidence evidence = scanEvidence(*input.sensors, false, [] { return !interrupted(); });
-  for (const std::string& warning : input.sensors->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : input.sensors->takeWarnings()) warn(warning);
   return evidence;
 }
 
@@ -126,9 +127,14 @@ int run(const DoctorArguments& arguments)
 
   catchInterruption();
   if (!recording.rawlogs.empty()) return examineRawlog(recording.rawlogs.front(), loaded.settings, arguments);
-  const RigExamination examination = examine(
-      rig ? listen(*rig, loaded.poses_known, arguments) : readClouds(recording, loaded.configuration), loaded.settings);
-  const Findings findings = findingsOf(examination, loaded.settings);
+  const RigExamination examination =
+      examine(rig ? listen(*rig, loaded.sensors.poses_known, arguments) : readClouds(recording, loaded.configuration),
+              loaded.settings);
+  Findings findings = findingsOf(examination, loaded.settings);
+  if (loaded.sensors.not_used > 0)
+    findings.push_back({"rig", "sensors", Verdict::NotFit,
+                        fmt::format("{} of the recording cannot be used", loaded.sensors.not_used),
+                        "mend what the warnings at the beginning name, or take its file away"});
   return report(findings, toJson(examination, findings), arguments);
 }
 

@@ -55,13 +55,13 @@ decltype(EvaluationInput::reference) referenceOf(const EvaluateArguments& argume
   }
   if (!arguments.reference_topic.empty()) throw UsageError("--reference-topic is for a reference in a bag");
   if (isTotalStation(arguments.reference)) return readTotalStation(arguments.reference);
-  return readTrajectory(arguments.reference);
+  return readTrajectory(arguments.reference, &warn);
 }
 
 std::optional<Trajectory> readIfGiven(const std::filesystem::path& path)
 {
   if (path.empty()) return std::nullopt;
-  return readTrajectory(path);
+  return readTrajectory(path, &warn);
 }
 
 Eigen::Vector3d leverArmOf(const std::string& text)
@@ -102,7 +102,7 @@ int compareFromFirstPose(const EvaluateArguments& arguments)
   if (!std::holds_alternative<Trajectory>(reference))
     throw UsageError("--align first needs a reference with rotations, which points do not have; use yaw or se3");
   const PositionError error =
-      positionErrorFromFirstPose(readTrajectory(arguments.trajectory), std::get<Trajectory>(reference));
+      positionErrorFromFirstPose(readTrajectory(arguments.trajectory, &warn), std::get<Trajectory>(reference));
   print(error, arguments.json);
   return judge(error.largest, error.covered, arguments);
 }
@@ -111,6 +111,22 @@ void plot(const Evaluation& evaluation, const std::filesystem::path& file)
 {
   const std::filesystem::path folder = file.parent_path();
   Gnuplot(folder.empty() ? "." : folder).drawInto(file, figureScript(evaluation));
+}
+
+/** Poses of a camera have z ahead (KITTI's): turning about z alone leaves most of the error. */
+void warnOfOtherUp(const Evaluation& about_z, const EvaluationInput& input, EvaluationOptions options)
+{
+  options.alignment = AlignmentKind::Se3;
+  const Evaluation free = evaluate(input, options);
+  const double up = (free.drift.alignment.reference_T_map.rotation * Eigen::Vector3d::UnitZ()).z();
+  constexpr double kMostTilt = 0.8;        // cosine of 37 deg: of no level reference
+  constexpr double kOfStraightLine = 100;  // the roll about it is arbitrary
+  if (up < kMostTilt && free.drift.alignment.condition < kOfStraightLine &&
+      2 * free.drift.largest < about_z.drift.largest)
+    warn(
+        fmt::format("the reference's z is not up, as in poses of a camera: turned freely, the drift is {:.3f} m "
+                    "(--align se3)",
+                    free.drift.largest));
 }
 
 int run(const EvaluateArguments& arguments)
@@ -125,13 +141,14 @@ int run(const EvaluateArguments& arguments)
   options.delta = arguments.delta;
 
   EvaluationInput input;
-  input.scans = readTrajectory(arguments.trajectory);
+  input.scans = readTrajectory(arguments.trajectory, &warn);
   input.imu_rate = readIfGiven(arguments.imu_trajectory);
   input.truth = readIfGiven(arguments.truth);
   input.reference = referenceOf(arguments);
 
   const Evaluation evaluation = evaluate(input, options);
   print(evaluation, arguments.json);
+  if (arguments.align == Align::Yaw) warnOfOtherUp(evaluation, input, options);
   if (!arguments.plot.empty()) plot(evaluation, arguments.plot);
   return judge(evaluation.drift.largest, evaluation.covered, arguments);
 }

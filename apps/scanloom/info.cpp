@@ -9,6 +9,7 @@
 #include "input/rig/CloudsInput.h"
 #include "input/rig/FoundLidars.h"
 #include "mrpt/edit/RawlogReport.h"
+#include "warn.h"
 
 #include <fmt/format.h>
 
@@ -37,12 +38,13 @@ std::vector<std::string> metadataOf(const RecordingFiles& files, const Recording
     try
     {
       const auto streams = streamsOf(files.captures);
-      for (const FoundLidar& lidar : findLidars(streams, candidatesFrom(files.metadata), files.captures).lidars)
-        metadata.push_back(lidar.metadata.string());
+      const LidarsFound found = findLidars(streams, candidatesFrom(files.metadata), files.captures);
+      for (const FoundLidar& lidar : found.lidars) metadata.push_back(lidar.metadata.string());
+      for (const MetadataCandidate& faulty : found.faulty) warn("not used: " + faulty.fault);
     }
     catch (const UsageError& none)
     {
-      fmt::print(stderr, "warning: {}\n", none.what());
+      warn(none.what());
     }
   return metadata;
 }
@@ -96,10 +98,10 @@ int printCloudsInfo(const RecordingFiles& files, const InfoArguments& arguments)
     if (!first) first = last;
     ++count;
   }
-  fmt::print("{} clouds, {} points, from {:.3f} to {:.3f} s\n", count, points, seconds(first->time_since_epoch()),
-             seconds(last.time_since_epoch()));
+  fmt::print("{} clouds, {} points, from {:.3f} to {:.3f} s\n", count, points,
+             seconds(first.value_or(last).time_since_epoch()), seconds(last.time_since_epoch()));
   for (const std::string& note : clouds.takeWarnings()) fmt::print("  {}\n", note);
-  return kDone;
+  return clouds.account().input.at(kDamagedInputs) == 0 ? kDone : kQualityGate;
 }
 
 int printRawlogInfo(const std::filesystem::path& rawlog, bool json)

@@ -11,7 +11,7 @@
 #include "base/formats/TrajectoryWriter.h"
 #include "mrpt/edit/MapFromRawlog.h"
 #include "mrpt/edit/RawlogHeader.h"
-#include "mrpt/maps/MapFile.h"
+#include "mrpt/maps/MapFiles.h"
 #include "mrpt/maps/OctoMapConversion.h"
 #include "mrpt/maps/OctoMapEstimate.h"
 #include "mrpt/maps/OctoMapFile.h"
@@ -71,14 +71,30 @@ void announce(const MapArguments& arguments, const DriveSize& drive)
                1e-9 * memoryOfTheMachine());
 }
 
+/** For a first pose far from the origin. */
+Eigen::Vector3d announcedOffset(const Rigid& first_pose)
+{
+  const Eigen::Vector3d offset = offsetFor(first_pose);
+  if (!offset.isZero())
+    fmt::print(stderr,
+               "coordinates in the maps are less {:.0f} {:.0f} {:.0f} m, which LAS, PLY and PCD name in their headers; "
+               "a .simplemap keeps them\n",
+               offset.x(), offset.y(), offset.z());
+  return offset;
+}
+
 /** Names the files: what an interruption left does not replace a whole map. */
-int finish(StagedFiles& files, std::size_t keyframes)
+int finish(StagedFiles& files, const MapFiles& maps, std::size_t keyframes)
 {
   const bool partial = interrupted();  // asked once: flushing to the disk gives a signal seconds to arrive
   const auto outputs = files.commit(partial ? Completeness::Partial : Completeness::Whole);
   fmt::print("{} keyframes\n", keyframes);
   for (const Path& output : outputs) fmt::print("{}\n", output.string());
-  return partial ? kInterrupted : kDone;
+  if (maps.leftOut() > 0)
+    fmt::print(stderr, "warning: {} points are beyond the voxels of .bt and .ot: use a coarser --preset, or parts\n",
+               maps.leftOut());
+  if (partial) return kInterrupted;
+  return maps.leftOut() > 0 ? kQualityGate : kDone;
 }
 
 int mapKeyframes(const MapArguments& arguments)
@@ -88,25 +104,27 @@ int mapKeyframes(const MapArguments& arguments)
   if (arguments.dry_run) return kDone;
 
   StagedFiles staged(arguments.outputs);
-  const auto files = makeMapFiles(staged.running(), reader.lidars(), octoMapPreset(arguments.preset));
+  const Eigen::Vector3d offset =
+      reader.size() == 0 ? Eigen::Vector3d::Zero() : announcedOffset(reader.keyframe(0).map_T_body);
+  MapFiles maps(staged.running(), reader.lidars(), octoMapPreset(arguments.preset), offset);
   std::optional<Progress> progress;
   if (!arguments.quiet) progress.emplace("map", reader.size(), "keyframes");
   std::size_t done = 0;
   for (; done < reader.size() && !interrupted(); ++done)
   {
     const Keyframe keyframe = reader.keyframe(done);
-    for (const auto& file : files) file->add(keyframe);
+    maps.add(keyframe);
     if (progress) progress->update(done + 1);
   }
-  for (const auto& file : files) file->close();
-  return finish(staged, done);
+  maps.close();
+  return finish(staged, maps, done);
 }
 
 int mapRawlog(const MapArguments& arguments)
 {
   if (arguments.trajectory.empty())
     throw UsageError("a rawlog needs --trajectory FILE.tum, such as 'scanloom slam' writes");
-  const KeyframeOptions options{readTrajectory(arguments.trajectory), arguments.keyframe_distance};
+  const KeyframeOptions options{readTrajectory(arguments.trajectory, &warn), arguments.keyframe_distance};
   const RecordingHeader header = required(headerOf(arguments.input));
   announce(arguments, driveSizeOf(options.trajectory, options.distance, header));
   if (arguments.dry_run) return kDone;
@@ -115,15 +133,18 @@ int mapRawlog(const MapArguments& arguments)
   if (!arguments.quiet) progress.emplace("map", megabytesOf({arguments.input}), "MB");
   std::size_t keyframes = 0;
   StagedFiles staged(arguments.outputs);
-  const RawlogOperation operation =
-      toMaps(staged.running(), octoMapPreset(arguments.preset), options, header, [&] { ++keyframes; });
+  const Eigen::Vector3d offset =
+      options.trajectory.empty() ? Eigen::Vector3d::Zero() : announcedOffset(options.trajectory.front().map_T_body);
+  const auto maps = std::make_shared<MapFiles>(staged.running(), mountedLidars(header.lidars),
+                                               octoMapPreset(arguments.preset), offset);
+  const RawlogOperation operation = toMaps(maps, options, header, [&] { ++keyframes; });
   const RawlogEdited read = readRawlog(arguments.input, operation,
                                        [&](std::uint64_t bytes)
                                        {
                                          if (progress) progress->update(bytes / 1000000);
                                          return !interrupted();
                                        });
-  const int status = finish(staged, keyframes);
+  const int status = finish(staged, *maps, keyframes);
   if (read.damage.empty()) return status;
   fmt::print(stderr, "damaged: {}: mapped up to there\n", read.damage);
   return kQualityGate;
@@ -148,7 +169,7 @@ int convertTrajectory(const MapArguments& arguments)
     refuseExisting(trajectoryFiles(output), arguments.overwrite);
     refuseInputsAsOutputs(trajectoryFiles(arguments.input), trajectoryFiles(output));
   }
-  const Trajectory trajectory = readTrajectory(arguments.input);
+  const Trajectory trajectory = readTrajectory(arguments.input, &warn);
   if (trajectory.empty()) throw std::runtime_error(arguments.input.string() + ": holds no pose");
   if (arguments.dry_run) return kDone;
   for (const Path& output : arguments.outputs)
@@ -175,7 +196,7 @@ int run(const MapArguments& arguments)
     jobs.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.jobs));
   catchInterruption();
   if (ending == ".rawlog") return mapRawlog(arguments);
-  if (ending == ".simplemap") return mapKeyframes(arguments);
+  if (isSimpleMap(arguments.input)) return mapKeyframes(arguments);
   if (isOctoMap(arguments.input)) return mapOctoMap(arguments);
   throw UsageError(
       fmt::format("-i {}: must be a .rawlog, .simplemap, .bt, .ot or a trajectory", arguments.input.string()));

@@ -15,6 +15,7 @@
 #include "mrpt/observations/RawlogWriter.h"
 #include "mrpt/observations/RigObservations.h"
 #include "mrpt/observations/RigRecording.h"
+#include "warn.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -102,8 +103,6 @@ Recorded record(SensorInput& input, const Source& source, const RecordArguments&
   if (web) web->feed().end();
   return recorded;
 }
-
-void warn(const std::string& warning) { fmt::print(stderr, "warning: {}\n", warning); }
 
 /** A capture that -w replaces, out of the way until the new one is whole. */
 class ReplacedCapture
@@ -260,7 +259,7 @@ int run(RecordArguments arguments)
         "ports, and that no firewall is in between ('scanloom doctor' tells more)");
   const auto damaged = account.input.find(kDamagedInputs);
   const bool whole = damaged == account.input.end() || damaged->second == 0;
-  return whole && silent.empty() ? kDone : kQualityGate;
+  return whole && silent.empty() && loaded.sensors.not_used == 0 ? kDone : kQualityGate;
 }
 
 std::function<int()> addRecordOptions(CLI::App& app)

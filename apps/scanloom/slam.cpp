@@ -13,6 +13,7 @@
 #include "input/rig/RigOptions.h"
 #include "run/run/SlamFiles.h"
 #include "run/run/SlamRun.h"
+#include "warn.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -133,13 +134,13 @@ Completeness completenessOf(const SlamRunResult& result, const SlamInput& input)
   return stopped || !result.summary.error.empty() ? Completeness::Partial : Completeness::Whole;
 }
 
-int statusOf(const SlamRunResult& result)
+int statusOf(const SlamRunResult& result, std::size_t sensors_not_used)
 {
   if (!result.summary.error.empty()) return kFailed;
   if (interrupted()) return kInterrupted;
   const auto damaged = result.summary.counts.find(kDamagedInputs);
   const bool read_whole = damaged == result.summary.counts.end() || damaged->second == 0;
-  return result.passed && read_whole ? kDone : kQualityGate;
+  return result.passed && read_whole && sensors_not_used == 0 ? kDone : kQualityGate;
 }
 
 int process(const SlamInput& input, const SlamArguments& arguments, const Loaded<SlamVerbSettings>& loaded,
@@ -151,6 +152,8 @@ int process(const SlamInput& input, const SlamArguments& arguments, const Loaded
   SlamFiles files(folder.running(), input.sensors->setup().header.lidars, settings.output, settings.octomap);
   SlamRunResult result = runShowingProgress(input, settings, files, arguments);
   result.summary.command = commandOf(arguments);
+  result.summary.counts["sensors_not_used"] = loaded.sensors.not_used;
+  if (loaded.sensors.not_used > 0 && result.summary.outcome == "OK") result.summary.outcome = "SENSOR MISSING";
   if (input.live) result.summary.waited = 1e-3 * result.summary.stages.at("input").total_ms;
   result.summary.versions = {{"scanloom", programVersion()}};
   try
@@ -166,11 +169,11 @@ int process(const SlamInput& input, const SlamArguments& arguments, const Loaded
 
   report(result, kept);
   warnOfDroppedScans(result.summary);
-  for (const std::string& warning : input.sensors->takeWarnings()) fmt::print(stderr, "warning: {}\n", warning);
+  for (const std::string& warning : input.sensors->takeWarnings()) warn(warning);
   if (!result.summary.error.empty()) fmt::print(stderr, "scanloom slam: {}\n", result.summary.error);
   if (kept != arguments.output.folder)
     fmt::print(stderr, "the results are not whole: they are in {} and replace none of an earlier run\n", kept.string());
-  return statusOf(result);
+  return statusOf(result, loaded.sensors.not_used);
 }
 
 std::filesystem::path defaultFolder(const RecordingArguments& recording)

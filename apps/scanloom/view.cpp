@@ -121,12 +121,12 @@ SceneBuilder sceneOf(const ViewArguments& arguments)
     addRecordedScan(scene, arguments.file, arguments.scan.value_or(0));
   else if (ending == ".rawlog")
     addScan(scene, arguments.file, arguments.scan.value_or(0));
-  else if (ending == ".simplemap")
+  else if (isSimpleMap(arguments.file))
     addKeyframes(scene, arguments.file);
   else if (ending == ".bt" || ending == ".ot")
     scene.addOccupied(*readOctoMap(arguments.file));
   else if (isTrajectoryName(arguments.file))
-    scene.addPath(readTrajectory(arguments.file));
+    scene.addPath(readTrajectory(arguments.file, &warn));
   else if (ending == ".ply" || ending == ".pcd" || ending == ".bin" || ending == ".gz")
     scene.addPoints(readCloud(arguments.file).points);
   else
@@ -157,7 +157,7 @@ bool isRecording(const Path& file) { return file.extension() == ".rawlog" || isO
 int play(const ViewArguments& arguments)
 {
   Trajectory poses;
-  if (!arguments.trajectory.empty()) poses = readTrajectory(arguments.trajectory);
+  if (!arguments.trajectory.empty()) poses = readTrajectory(arguments.trajectory, &warn);
   LiveExchange exchange;
   Player player(openerOf(arguments.file), std::move(poses), exchange);
   if (!arguments.web.given())

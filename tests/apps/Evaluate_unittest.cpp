@@ -1,6 +1,7 @@
 /** `scanloom evaluate` as a person or a script meets it. */
 #include "support/runProgram.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -132,6 +133,23 @@ TEST_F(EvaluateVerb, saysThatAFullAlignmentRestsOnAStraightLine)
   EXPECT_THAT(evaluate("--reference truth.tum --align se3").output,
               HasSubstr("aligned on                2 of 11 samples, 0.00 m from the axis of the least certain rotation "
                         "(rms), condition inf"));
+}
+
+TEST_F(EvaluateVerb, saysThatAReferenceIsOfACamera)
+{
+  std::ofstream camera(folder_ / "camera.tum"), level(folder_ / "level.tum"), estimate(folder_ / "estimate.tum");
+  for (int t = 0; t <= 100; ++t)  // circles of 5 m
+  {
+    const double x = 5 * std::cos(0.5 * t), y = 5 * std::sin(0.5 * t);
+    estimate << fmt::format("{} {} {} 0 0 0 0 1\n", t, x, y);
+    level << fmt::format("{} {} {} 0 0 0 0 1\n", t, x, y);
+    camera << fmt::format("{} {} 0 {} 0 0 0 1\n", t, -y, x);  // x to the right, z ahead
+  }
+  camera.close();
+  level.close();
+  estimate.close();
+  EXPECT_THAT(evaluate("--reference camera.tum").output, HasSubstr("--align se3"));
+  EXPECT_THAT(evaluate("--reference level.tum").output, testing::Not(HasSubstr("--align se3")));
 }
 
 TEST_F(EvaluateVerb, namesWhatIsWrong)

@@ -1,5 +1,5 @@
 /** Our maps in the programs that people open them with. */
-#include "mrpt/maps/MapFile.h"
+#include "mrpt/maps/MapFiles.h"
 #include "screen.h"
 #include "stockTool.h"
 
@@ -42,13 +42,10 @@ struct StockMaps : testing::Test
   {
     const std::vector<MountedLidar> lidars{{"left", Rigid::fromXyzYawPitchRoll(0, 1, 1, 0, 0, 0)},
                                            {"right", Rigid::fromXyzYawPitchRoll(0, -1, 1, 0, 0, 0)}};
-    const auto files = makeMapFiles({folder / "m.bt", folder / "m.ot", folder / "m.simplemap", folder / "m.3Dscene"},
-                                    lidars, octoMapPreset("preview"));
-    for (const auto& file : files)
-    {
-      for (int i = 0; i < 3; ++i) file->add(someKeyframe(i));
-      file->close();
-    }
+    MapFiles files({folder / "m.bt", folder / "m.ot", folder / "m.simplemap", folder / "m.3Dscene"}, lidars,
+                   octoMapPreset("preview"));
+    for (int i = 0; i < 3; ++i) files.add(someKeyframe(i));
+    files.close();
   }
   std::string in(const std::string& command) const
   {

@@ -2,7 +2,7 @@
 
 #include "base/core/Bytes.h"
 #include "base/formats/CompressedFile.h"
-#include "base/formats/internal/KittiReader.h"
+#include "base/formats/internal/FloatsReader.h"
 #include "base/formats/internal/PcdReader.h"
 #include "base/formats/internal/PlyReader.h"
 
@@ -11,9 +11,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -23,25 +20,14 @@ namespace
 {
 constexpr std::size_t kLargestUnpacked = std::size_t{4} << 30;  // bytes
 
-/** Unpacked twice, first only to be measured: no memory is taken for a file that is refused. */
-std::vector<std::uint8_t> unpackedContent(const std::filesystem::path& path)
+/** A compressed file is unpacked twice, first only to be measured: no memory is taken for a file that is refused. */
+std::vector<std::uint8_t> contentOf(const std::filesystem::path& path)
 {
-  if (!std::filesystem::is_regular_file(path)) throw std::invalid_argument("cannot be read");
-  if (!isCompressed(path)) throw std::invalid_argument("is not compressed, but its name ends in .gz");
-  const std::uint64_t size = uncompressedBytes(path);
-  if (size > kLargestUnpacked)
-    throw std::invalid_argument(fmt::format("unpacks to {} bytes: at most 4 GB are read", size));
+  if (!std::filesystem::is_regular_file(path)) throw std::invalid_argument("is no file");
+  const std::uint64_t size = isCompressed(path) ? uncompressedBytes(path) : std::filesystem::file_size(path);
+  if (size > kLargestUnpacked) throw std::invalid_argument(fmt::format("has {} bytes: at most 4 GB are read", size));
   std::vector<std::uint8_t> content(size);
   CompressedFile(path).read(content.data(), content.size());
-  return content;
-}
-
-std::vector<std::uint8_t> plainContent(const std::filesystem::path& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  std::vector<std::uint8_t> content(std::filesystem::file_size(path));
-  if (!file.read(reinterpret_cast<char*>(content.data()), static_cast<std::streamsize>(content.size())))
-    throw std::invalid_argument("cannot be read");
   return content;
 }
 
@@ -52,23 +38,41 @@ std::string endingOf(const std::filesystem::path& path)
   return ending;
 }
 
+bool beginsWith(std::string_view bytes, std::string_view beginning)
+{
+  return bytes.substr(0, beginning.size()) == beginning;
+}
+
+/** "ply" and the end of the line, or blanks that an editor has left before it. */
+bool beginsLikePly(std::string_view bytes)
+{
+  return beginsWith(bytes, "ply") && bytes.size() > 3 && std::isspace(static_cast<unsigned char>(bytes[3]));
+}
+
+/** The comment in the first line is the library's habit, not a rule. */
+bool beginsLikePcd(std::string_view bytes)
+{
+  return beginsWith(bytes, "# .PCD") || beginsWith(bytes, "VERSION .") || beginsWith(bytes, "FIELDS ");
+}
+
+/** The name says what a file was meant to be where its first bytes say nothing. */
 CloudPoints pointsIn(const std::filesystem::path& path)
 {
-  const bool packed = endingOf(path) == ".gz";
-  const std::string ending = endingOf(packed ? path.stem() : path);
-  const auto pointsOf = ending == ".ply"   ? &plyPoints
-                        : ending == ".pcd" ? &pcdPoints
-                        : ending == ".bin" ? &kittiPoints
-                                           : nullptr;
-  if (!pointsOf)
-    throw std::invalid_argument("is no cloud by its name: .ply, .pcd or .bin (KITTI) can be read, each also with .gz");
-  if (!std::filesystem::is_regular_file(path)) throw std::invalid_argument("is no file");
-  return pointsOf(packed ? unpackedContent(path) : plainContent(path));
+  const std::vector<std::uint8_t> content = contentOf(path);
+  const std::string_view bytes(reinterpret_cast<const char*>(content.data()), content.size());
+  const std::string packing = endingOf(path);
+  const std::string ending = packing == ".gz" || packing == ".zst" ? endingOf(path.stem()) : packing;
+  if (beginsWith(bytes, "version https://git-lfs"))
+    throw std::invalid_argument("is a pointer of Git LFS, not the file itself: git lfs pull");
+  if (beginsLikePly(bytes) || ending == ".ply") return plyPoints(content);
+  if (beginsLikePcd(bytes) || ending == ".pcd") return pcdPoints(content);
+  if (ending == ".bin") return pointsOfFloats(content);
+  throw std::invalid_argument("is no cloud by its name or its first bytes: PLY, PCD and .bin (KITTI) are read");
 }
 
 CloudFile finiteOf(CloudPoints read)
 {
-  CloudFile cloud{std::move(read.positions), std::move(read.times)};
+  CloudFile cloud{std::move(read.positions), std::move(read.times), 0, std::move(read.note)};
   std::size_t kept = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
   {
@@ -84,6 +88,8 @@ CloudFile finiteOf(CloudPoints read)
   return cloud;
 }
 }  // namespace
+
+bool beginsLikeCloud(std::string_view bytes) { return beginsLikePly(bytes) || beginsLikePcd(bytes); }
 
 CloudFile readCloud(const std::filesystem::path& path)
 {

@@ -13,7 +13,7 @@ namespace scanloom
 struct CloudWriter::Format
 {
   std::string ending;
-  std::unique_ptr<CloudEncoding> (*encoding)(Timestamp origin);
+  std::unique_ptr<CloudEncoding> (*encoding)(Timestamp origin, const Eigen::Vector3d& offset);
   OutputFile::Convert finish = nullptr;  // of the encoded file
 };
 
@@ -49,21 +49,25 @@ const CloudWriter::Format& CloudWriter::formatOf(const std::filesystem::path& pa
       fmt::format("{}: a cloud's file must end in one of {}", path.string(), fmt::join(endings(), ", ")));
 }
 
-CloudWriter::CloudWriter(const std::filesystem::path& path) : format_(formatOf(path)), file_(path) {}
+CloudWriter::CloudWriter(const std::filesystem::path& path, const Eigen::Vector3d& offset)
+  : format_(formatOf(path)), file_(path), offset_(offset)
+{
+}
 
 void CloudWriter::begin(Timestamp origin)
 {
   origin_ = origin;
-  encoding_ = format_.encoding(origin);
+  encoding_ = format_.encoding(origin, offset_);
   file_.stream() << encoding_->header(0);
 }
 
 void CloudWriter::add(const PointCloud& points, Timestamp stamp, const Rigid& frame_T_points)
 {
   if (!encoding_) begin(stamp);
+  const Rigid file_T_points{frame_T_points.rotation, frame_T_points.translation - offset_};
   LittleEndianBuffer buffer;
   for (std::size_t i = 0; i < points.size(); ++i)
-    encoding_->put(buffer, frame_T_points * points.position(i).cast<double>().eval(),
+    encoding_->put(buffer, file_T_points * points.position(i).cast<double>().eval(),
                    stamp - origin_ + Duration{points.t[i]}, points, i);
   buffer.writeTo(file_.stream());
   size_ += points.size();

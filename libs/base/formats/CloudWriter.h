@@ -10,7 +10,8 @@ namespace scanloom
 {
 /**
  * Binary little-endian points, each cloud written at once: memory does not grow with the file. The time of a point is
- * in s after the stamp of the first cloud.
+ * in s after the stamp of the first cloud. Floats and steps of 1 mm hold no coordinates of a country: what is to be
+ * added to those in the file is the `offset` in LAS's own field, and in a comment "offset x y z" of PLY and PCD.
  * - .ply: float x y z, float intensity, double time, ushort ring, uchar sensor_id; the first stamp is in the header's
  *   "comment time_origin_ns N".
  * - .pcd: float x y z, float intensity, double t, uint16 ring and column, uint8 sensor_id; the first stamp is in the
@@ -28,7 +29,7 @@ class CloudWriter
    * Throws std::invalid_argument for another ending, UsageError for .laz without LASzip, and std::runtime_error if the
    * file cannot be written.
    */
-  explicit CloudWriter(const std::filesystem::path&);
+  explicit CloudWriter(const std::filesystem::path&, const Eigen::Vector3d& offset = Eigen::Vector3d::Zero());
 
   /**
    * Appends the points, transformed by frame_T_points. Their t is relative to `stamp`. Throws std::runtime_error if the
@@ -49,6 +50,7 @@ class CloudWriter
 
   const Format& format_;
   OutputFile file_;
+  Eigen::Vector3d offset_;
   std::unique_ptr<CloudEncoding> encoding_;  // none before the first cloud
   Timestamp origin_;
   std::size_t size_ = 0;

@@ -38,7 +38,7 @@ void putZeros(LittleEndianBuffer& buffer, std::size_t count)
 class LasEncoding : public CloudEncoding
 {
  public:
-  explicit LasEncoding(Timestamp origin) : origin_(origin) {}
+  LasEncoding(Timestamp origin, const Eigen::Vector3d& offset) : origin_(origin), offset_(offset) {}
 
   /** Table 3 of the specification. No date of the file's making: the same input gives the same bits. */
   std::string header(std::size_t points) const override
@@ -61,11 +61,11 @@ class LasEncoding : public CloudEncoding
     buffer.put(kPointSize);
     putZeros<std::uint32_t>(buffer, 6);  // the counts of earlier versions
     for (int axis = 0; axis < 3; ++axis) buffer.put(kStep);
-    putZeros<double>(buffer, 3);  // offsets
+    for (const double coordinate : offset_) buffer.put(coordinate);
     for (int axis = 0; axis < 3; ++axis)
     {
-      buffer.put(points > 0 ? kStep * highest_[axis] : 0.0);
-      buffer.put(points > 0 ? kStep * lowest_[axis] : 0.0);
+      buffer.put(points > 0 ? offset_[axis] + kStep * highest_[axis] : 0.0);
+      buffer.put(points > 0 ? offset_[axis] + kStep * lowest_[axis] : 0.0);
     }
     putZeros<std::uint64_t>(buffer, 2);  // waveforms, extended records
     buffer.put(std::uint32_t{0});
@@ -99,18 +99,22 @@ class LasEncoding : public CloudEncoding
   {
     const double count = std::round(coordinate / kStep);
     if (!(std::abs(count) <= std::numeric_limits<std::int32_t>::max()))
-      throw std::runtime_error(
-          fmt::format("a coordinate of {} m: a LAS file of millimetres reaches to 2147 km", coordinate));
+      throw std::runtime_error(fmt::format(
+          "a coordinate of {} m: a LAS file of millimetres reaches 2147 km from its first keyframe", coordinate));
     lowest_[axis] = std::min(lowest_[axis], count);
     highest_[axis] = std::max(highest_[axis], count);
     return static_cast<std::int32_t>(count);
   }
 
   Timestamp origin_;
+  Eigen::Vector3d offset_;
   Eigen::Array3d lowest_ = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Array3d highest_ = Eigen::Array3d::Constant(-std::numeric_limits<double>::infinity());
 };
 }  // namespace
 
-std::unique_ptr<CloudEncoding> lasEncoding(Timestamp origin) { return std::make_unique<LasEncoding>(origin); }
+std::unique_ptr<CloudEncoding> lasEncoding(Timestamp origin, const Eigen::Vector3d& offset)
+{
+  return std::make_unique<LasEncoding>(origin, offset);
+}
 }  // namespace scanloom

@@ -9,17 +9,17 @@ namespace
 class PcdEncoding : public CloudEncoding
 {
  public:
-  explicit PcdEncoding(Timestamp origin) : origin_(origin) {}
+  PcdEncoding(Timestamp origin, const Eigen::Vector3d& offset) : origin_(origin), offset_(offset) {}
 
   std::string header(std::size_t points) const override
   {
     constexpr std::size_t kLongestCounts = 40;  // digits of the two counts
     const std::string count = std::to_string(points);
     return fmt::format(
-        "# .PCD v0.7 - Point Cloud Data file format{0}\n# time_origin_ns {1}\nVERSION 0.7\n"
+        "# .PCD v0.7 - Point Cloud Data file format{0}\n# time_origin_ns {1}\n{3}VERSION 0.7\n"
         "FIELDS x y z intensity t ring column sensor_id\nSIZE 4 4 4 4 8 2 2 1\nTYPE F F F F F U U U\n"
         "COUNT 1 1 1 1 1 1 1 1\nWIDTH {2}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {2}\nDATA binary\n",
-        std::string(kLongestCounts - 2 * count.size(), ' '), nanoseconds(origin_), count);
+        std::string(kLongestCounts - 2 * count.size(), ' '), nanoseconds(origin_), count, offsetLine("#", offset_));
   }
 
   void put(LittleEndianBuffer& buffer, const Eigen::Vector3d& position, Duration since_origin, const PointCloud& cloud,
@@ -35,8 +35,12 @@ class PcdEncoding : public CloudEncoding
 
  private:
   Timestamp origin_;
+  Eigen::Vector3d offset_;
 };
 }  // namespace
 
-std::unique_ptr<CloudEncoding> pcdEncoding(Timestamp origin) { return std::make_unique<PcdEncoding>(origin); }
+std::unique_ptr<CloudEncoding> pcdEncoding(Timestamp origin, const Eigen::Vector3d& offset)
+{
+  return std::make_unique<PcdEncoding>(origin, offset);
+}
 }  // namespace scanloom

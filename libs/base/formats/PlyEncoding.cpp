@@ -9,17 +9,17 @@ namespace
 class PlyEncoding : public CloudEncoding
 {
  public:
-  explicit PlyEncoding(Timestamp origin) : origin_(origin) {}
+  PlyEncoding(Timestamp origin, const Eigen::Vector3d& offset) : origin_(origin), offset_(offset) {}
 
   std::string header(std::size_t points) const override
   {
     constexpr std::size_t kLongestCount = 20;  // digits of the largest 64-bit number
     const std::string count = std::to_string(points);
     return fmt::format(
-        "ply\nformat binary_little_endian 1.0\ncomment scanloom{}\ncomment time_origin_ns {}\n"
+        "ply\nformat binary_little_endian 1.0\ncomment scanloom{}\ncomment time_origin_ns {}\n{}"
         "element vertex {}\nproperty float x\nproperty float y\nproperty float z\nproperty float intensity\n"
         "property double time\nproperty ushort ring\nproperty uchar sensor_id\nend_header\n",
-        std::string(kLongestCount - count.size(), ' '), nanoseconds(origin_), count);
+        std::string(kLongestCount - count.size(), ' '), nanoseconds(origin_), offsetLine("comment", offset_), count);
   }
 
   void put(LittleEndianBuffer& buffer, const Eigen::Vector3d& position, Duration since_origin, const PointCloud& cloud,
@@ -34,8 +34,12 @@ class PlyEncoding : public CloudEncoding
 
  private:
   Timestamp origin_;
+  Eigen::Vector3d offset_;
 };
 }  // namespace
 
-std::unique_ptr<CloudEncoding> plyEncoding(Timestamp origin) { return std::make_unique<PlyEncoding>(origin); }
+std::unique_ptr<CloudEncoding> plyEncoding(Timestamp origin, const Eigen::Vector3d& offset)
+{
+  return std::make_unique<PlyEncoding>(origin, offset);
+}
 }  // namespace scanloom

@@ -15,20 +15,6 @@ namespace
 {
 /** Of the two quaternions of a rotation the one with w >= 0, so that equal poses are equal text. */
 Eigen::Quaterniond canonical(const Eigen::Quaterniond& q) { return q.w() < 0 ? Eigen::Quaterniond(-q.coeffs()) : q; }
-
-std::optional<StampedPose> parseTumLine(const std::string& line)
-{
-  std::istringstream words(line);
-  std::string stamp, surplus;
-  Eigen::Vector3d t;
-  Eigen::Quaterniond q;
-  if (!(words >> stamp >> t.x() >> t.y() >> t.z() >> q.x() >> q.y() >> q.z() >> q.w()) || words >> surplus)
-    return std::nullopt;
-  const bool is_rotation = std::abs(q.norm() - 1.0) < 1e-3 && t.allFinite();
-  const auto time = parseSeconds(stamp);
-  if (!is_rotation || !time) return std::nullopt;
-  return StampedPose{*time, Rigid{q.normalized(), t}};
-}
 }  // namespace
 
 void TumWriter::add(const StampedPose& pose)
@@ -46,6 +32,19 @@ void writeTum(const std::filesystem::path& path, const Trajectory& trajectory)
   writer.close();
 }
 
+std::optional<StampedPose> parseTum(const std::string& line)
+{
+  std::istringstream words(line);
+  std::string stamp, surplus;
+  Eigen::Vector3d t;
+  Eigen::Quaterniond q;
+  if (!(words >> stamp >> t.x() >> t.y() >> t.z() >> q.x() >> q.y() >> q.z() >> q.w()) || words >> surplus)
+    return std::nullopt;
+  const bool is_rotation = std::abs(q.norm() - 1.0) < 1e-3 && t.allFinite();
+  const auto time = parseSeconds(stamp);
+  if (!is_rotation || !time) return std::nullopt;
+  return StampedPose{*time, Rigid{q.normalized(), t}};
+}
 Trajectory readTum(const std::filesystem::path& path)
 {
   std::ifstream file(path);
@@ -57,7 +56,7 @@ Trajectory readTum(const std::filesystem::path& path)
   {
     const auto first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
-    const auto pose = parseTumLine(line);
+    const auto pose = parseTum(line);
     if (!pose)
       throw std::invalid_argument(fmt::format(
           "{}:{}: expected 't x y z qx qy qz qw' with a unit quaternion, found '{}'", path.string(), number, line));

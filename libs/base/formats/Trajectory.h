@@ -3,6 +3,8 @@
 #include "base/core/OutputFile.h"
 #include "base/core/StampedPose.h"
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace scanloom
@@ -23,6 +25,9 @@ class TumWriter
 };
 
 void writeTum(const std::filesystem::path&, const Trajectory&);
+
+/** A line of such a file; nothing if it is none, or its quaternion no rotation. */
+std::optional<StampedPose> parseTum(const std::string& line);
 
 /** Skips comments (#) and empty lines. Throws std::invalid_argument with file and line if another line is no pose or
  * not later than the one before. */

@@ -6,17 +6,21 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace scanloom
 {
 namespace
 {
 using Path = std::filesystem::path;
+using Note = std::function<void(const std::string&)>;
 constexpr std::size_t kKittiNumbers = 12;
 
 bool holdsData(const std::string& line)
@@ -50,13 +54,35 @@ std::string firstLine(const Path& path)
   return {};
 }
 
-void append(Trajectory& trajectory, const StampedPose& pose)
+/** Poses in order; of those with one stamp the first. */
+class OrderedPoses
 {
-  if (!trajectory.empty() && pose.stamp <= trajectory.back().stamp)
-    throw std::invalid_argument(fmt::format("stamp {} is not after {}: sort the file by time", secondsText(pose.stamp),
-                                            secondsText(trajectory.back().stamp)));
-  trajectory.push_back(pose);
-}
+ public:
+  /** Throws std::invalid_argument if it is before the one before. */
+  void add(const StampedPose& pose)
+  {
+    if (!poses_.empty() && pose.stamp < poses_.back().stamp)
+      throw std::invalid_argument(fmt::format("stamp {} is not after {}: sort the file by time",
+                                              secondsText(pose.stamp), secondsText(poses_.back().stamp)));
+    if (poses_.empty() || pose.stamp != poses_.back().stamp)
+      poses_.push_back(pose);
+    else
+      ++repeated_;
+  }
+
+  std::size_t seen() const { return poses_.size() + repeated_; }
+
+  Trajectory finish(const Path& path, const Note& note)
+  {
+    if (repeated_ > 0 && note)
+      note(fmt::format("{}: {} poses have the stamp of the one before: left out", path.string(), repeated_));
+    return std::move(poses_);
+  }
+
+ private:
+  Trajectory poses_;
+  std::size_t repeated_ = 0;
+};
 
 StampedPose parseEuroc(std::string line)
 {
@@ -112,32 +138,83 @@ std::size_t wordsOf(const std::string& line)
   while (words >> word) ++count;
   return count;
 }
-}  // namespace
-
-Trajectory readEuroc(const Path& path)
+struct StampUnit
 {
-  Trajectory trajectory;
-  forEachLine(path, [&](const std::string& line) { append(trajectory, parseEuroc(line)); });
-  return trajectory;
+  const char* name;
+  std::int64_t nanoseconds;
+};
+
+/** In which an integer stamp is a date; nothing for seconds, and for a number that is a date in no unit. */
+std::optional<StampUnit> unitOfInteger(const std::string& stamp)
+{
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), number);
+  if (error != std::errc() || end != stamp.data() + stamp.size()) return std::nullopt;
+  constexpr Duration kYear1980 = 315'532'800s;
+  for (const StampUnit unit : {StampUnit{"ns", 1}, StampUnit{"us", 1'000}, StampUnit{"ms", 1'000'000}})
+    if (number >= kYear1980.count() / unit.nanoseconds && number < kFarthestStamp.count() / unit.nanoseconds)
+      return unit;
+  return std::nullopt;
 }
 
-Trajectory readKitti(const Path& poses, const Path& times)
+/** The line with its stamp as seconds. */
+std::string inSeconds(const std::string& line, const StampUnit& unit)
+{
+  std::istringstream words(line);
+  std::int64_t stamp = 0;
+  std::string rest;
+  words >> stamp;
+  std::getline(words, rest);
+  if (stamp >= kFarthestStamp.count() / unit.nanoseconds || stamp < 0) return line;
+  return secondsText(fromNanoseconds(stamp * unit.nanoseconds)) + rest;
+}
+
+Trajectory readEuroc(const Path& path, const Note& note)
+{
+  OrderedPoses poses;
+  forEachLine(path, [&](const std::string& line) { poses.add(parseEuroc(line)); });
+  return poses.finish(path, note);
+}
+
+Trajectory readKitti(const Path& path, const Path& times, const Note& note)
 {
   std::vector<Timestamp> stamps;
   forEachLine(times, [&](const std::string& line) { stamps.push_back(parseStamp(line)); });
-  Trajectory trajectory;
-  forEachLine(poses,
+  OrderedPoses poses;
+  forEachLine(path,
               [&](const std::string& line)
               {
-                if (trajectory.size() == stamps.size())
+                if (poses.seen() == stamps.size())
                   throw std::invalid_argument(fmt::format("{} has only {} stamps", times.string(), stamps.size()));
-                append(trajectory, {stamps[trajectory.size()], parseKitti(line)});
+                poses.add({stamps[poses.seen()], parseKitti(line)});
               });
-  if (trajectory.size() != stamps.size())
-    throw std::invalid_argument(fmt::format("{}: {} poses, but {} stamps in {}", poses.string(), trajectory.size(),
-                                            stamps.size(), times.string()));
-  return trajectory;
+  if (poses.seen() != stamps.size())
+    throw std::invalid_argument(
+        fmt::format("{}: {} poses, but {} stamps in {}", path.string(), poses.seen(), stamps.size(), times.string()));
+  return poses.finish(path, note);
 }
+
+Trajectory readTum(const Path& path, const Note& note)
+{
+  const std::string first = firstLine(path);
+  const std::size_t begin = first.find_first_not_of(" \t");
+  const auto unit = begin == std::string::npos
+                        ? std::nullopt
+                        : unitOfInteger(first.substr(begin, first.find_first_of(" \t", begin) - begin));
+  if (unit && note) note(fmt::format("{}: stamps are no dates in s: taken as {}", path.string(), unit->name));
+  OrderedPoses poses;
+  forEachLine(path,
+              [&](const std::string& line)
+              {
+                const auto pose = parseTum(unit ? inSeconds(line, *unit) : line);
+                if (!pose)
+                  throw std::invalid_argument(
+                      fmt::format("expected 't x y z qx qy qz qw', t in s and a unit quaternion, found '{}'", line));
+                poses.add(*pose);
+              });
+  return poses.finish(path, note);
+}
+}  // namespace
 
 bool isEuroc(const Path& path)
 {
@@ -148,10 +225,10 @@ bool isEuroc(const Path& path)
          line.substr(0, comma).find_first_not_of("0123456789") == std::string::npos;
 }
 
-Trajectory readTrajectory(const Path& path)
+Trajectory readTrajectory(const Path& path, const Note& note)
 {
-  if (isEuroc(path)) return readEuroc(path);
-  if (wordsOf(firstLine(path)) == kKittiNumbers) return readKitti(path, timesBeside(path));
-  return readTum(path);
+  if (isEuroc(path)) return readEuroc(path, note);
+  if (wordsOf(firstLine(path)) == kKittiNumbers) return readKitti(path, timesBeside(path), note);
+  return readTum(path, note);
 }
 }  // namespace scanloom

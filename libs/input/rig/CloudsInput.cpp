@@ -1,6 +1,5 @@
 #include "input/rig/CloudsInput.h"
 
-#include "base/formats/CloudFile.h"
 #include "base/formats/SecondsText.h"
 
 #include <fmt/format.h>
@@ -19,6 +18,7 @@ namespace
 constexpr Duration kIntervalOfOne = 100ms;
 constexpr Duration kLongestScan = 2s;  // the points' t has 32 bits
 constexpr double kAbsoluteFrom = 1e8;  // s: a time after 1973
+constexpr std::uint64_t kNamed = 5;    // clouds that are left out, each in a line
 
 Duration medianInterval(const std::vector<Timestamp>& stamps)
 {
@@ -117,28 +117,46 @@ Scan scanOfTimed(const CloudFile& cloud, Timestamp stamp, Duration interval, dou
 CloudsInput::CloudsInput(std::vector<std::filesystem::path> clouds)
   : clouds_(std::move(clouds)), times_(cloudTimes(clouds_)), interval_(medianInterval(times_.stamps))
 {
-  const CloudFile first = readCloud(clouds_.front());
+  const CloudFile first = firstReadable();
   unit_ = unitOf(first.times);
-  note_ = fmt::format("{} clouds, {}; their stamps: {}", clouds_.size(),
-                      first.times.empty() ? "without times of points: each is taken for one instant"
-                                          : fmt::format("with times of points in units of {:g} s", unit_),
-                      times_.source);
+  warnings_.push_back(fmt::format("{} clouds, {}{}; their stamps: {}", clouds_.size(),
+                                  first.times.empty() ? "without times of points: each is taken for one instant"
+                                                      : fmt::format("with times of points in units of {:g} s", unit_),
+                                  first.note.empty() ? "" : ", " + first.note, times_.source));
+}
+
+/** Throws what reading the first one throws if there is none. */
+CloudFile CloudsInput::firstReadable() const
+{
+  for (const auto& cloud : clouds_) try
+    {
+      return readCloud(cloud);
+    }
+    catch (const std::runtime_error&)
+    {
+      continue;
+    }
+  return readCloud(clouds_.front());
 }
 
 std::optional<SensorEvent> CloudsInput::next(Duration)
 {
-  if (stop_ || next_ == clouds_.size())
-  {
-    ended_ = true;
-    return std::nullopt;
-  }
-  Scan scan = read(next_);
-  if (scan.end() <= last_end_)
-    throw std::runtime_error(
-        fmt::format("{}: its points are not after those of {}", clouds_[next_].string(), clouds_[next_ - 1].string()));
-  last_end_ = scan.end();
-  ++next_;
-  return scan;
+  while (!stop_ && next_ < clouds_.size()) try
+    {
+      Scan scan = read(next_++);
+      if (scan.end() <= last_end_)
+        throw std::runtime_error(
+            fmt::format("{}: its points are not after those of the clouds before", clouds_[next_ - 1].string()));
+      last_end_ = scan.end();
+      return scan;
+    }
+    catch (const std::runtime_error& fault)
+    {
+      if (++left_out_ <= kNamed) warnings_.push_back(fmt::format("left out: {}", fault.what()));
+    }
+  if (!std::exchange(ended_, true) && left_out_ > kNamed)
+    warnings_.push_back(fmt::format("left out: {} clouds in all", left_out_));
+  return std::nullopt;
 }
 
 Scan CloudsInput::read(std::size_t i) const
@@ -167,13 +185,9 @@ double CloudsInput::progress() const { return static_cast<double>(next_) / stati
 RigAccount CloudsInput::account() const
 {
   RigAccount account;
-  account.input = {{"clouds", next_}};
+  account.input = {{"clouds", next_ - left_out_}, {kDamagedInputs, left_out_}};
   return account;
 }
 
-std::vector<std::string> CloudsInput::takeWarnings()
-{
-  if (note_.empty()) return {};
-  return {std::exchange(note_, "")};
-}
+std::vector<std::string> CloudsInput::takeWarnings() { return std::exchange(warnings_, {}); }
 }  // namespace scanloom

@@ -1,6 +1,8 @@
 #include "input/rig/FileKind.h"
 
+#include "base/formats/CloudFile.h"
 #include "base/formats/CompressedFile.h"
+#include "base/formats/ImuCsv.h"
 #include "input/bags/BagReader.h"
 #include "input/lidar/LidarModels.h"
 #include "input/lidar/MetadataKeys.h"
@@ -35,9 +37,8 @@ bool beginsWith(std::string_view bytes, std::string_view beginning)
 /** KITTI's scans have nothing but points in them: they are told by their ending. */
 bool isCloud(std::filesystem::path path, std::string_view bytes)
 {
-  if (path.extension() == ".gz") path = path.stem();
-  return beginsWith(bytes, "ply\n") || beginsWith(bytes, "ply\r") || beginsWith(bytes, "# .PCD") ||
-         path.extension() == ".pcd" || path.extension() == ".bin";
+  if (path.extension() == ".gz" || path.extension() == ".zst") path = path.stem();
+  return beginsLikeCloud(bytes) || path.extension() == ".bin";
 }
 
 bool isText(std::string_view bytes)
@@ -58,18 +59,11 @@ std::string firstLine(const std::string& text)
   return "";
 }
 
-/** An integer stamp in ns and six numbers. */
-bool isImuLine(const std::string& line)
-{
-  const std::size_t stamp = line.find_first_not_of("0123456789");
-  return stamp >= 10 && stamp < line.size() && line[stamp] == ',' && std::count(line.begin(), line.end(), ',') == 6;
-}
-
 FileKind kindOfText(const std::filesystem::path& path, const std::string& text)
 {
   const std::string first = firstLine(text);
   if (beginsWith(first, "T_body_")) return FileKind::Extrinsics;
-  if (isImuLine(first)) return FileKind::BodyImu;
+  if (beginsLikeImuCsv(text)) return FileKind::BodyImu;
   if (beginsWith(first, "{") && isLidarMetadata(readMetadataText(path.string()))) return FileKind::LidarMetadata;
   return FileKind::Other;
 }

@@ -10,7 +10,7 @@ enum class FileKind
   Rawlog,         // of MRPT, other
   Cloud,          // PLY, PCD, KITTI
   LidarMetadata,  // of any known brand
-  BodyImu,        // EuRoC csv
+  BodyImu,        // csv
   Extrinsics,     // lines "T_body_<name> x y z yaw pitch roll"
   Other,
 };

@@ -375,14 +375,15 @@ LidarsFound findLidars(const std::vector<SampledStream>& streams, std::vector<Me
   addBuiltInModels(streams, candidates);
   LidarsFound found = Search(streams, candidates, captures).result();
   if (found.lidars.empty()) refuseNone(streams, candidates, captures);
-  const std::size_t notes = found.notes.size();
   for (const SampledStream& stream : streams)
     if (stream.datagrams >= kWorthANote && !isOfALidar(stream, found.lidars, candidates))
+    {
+      found.left_streams_out = true;
       found.notes.push_back(
           fmt::format("{} are of no lidar with known metadata: left out{}", describe(stream), wayOut(stream)));
-  if (found.notes.size() > notes)
-    for (const MetadataCandidate& candidate : candidates)
-      if (!candidate.decoder) found.notes.push_back("not used: " + candidate.fault);
+    }
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(found.faulty),
+               [](const MetadataCandidate& candidate) { return !candidate.decoder; });
   return found;
 }
 }  // namespace scanloom

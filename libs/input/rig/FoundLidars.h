@@ -44,6 +44,8 @@ struct LidarsFound
 {
   std::vector<FoundLidar> lidars;          // by port, then source
   std::vector<MetadataCandidate> unheard;  // of sensors that none of the packets are of
+  std::vector<MetadataCandidate> faulty;   // that cannot be read
+  bool left_streams_out = false;           // that may be lidars': notes say which
   std::vector<std::string> notes;          // what is left out, and why
 };
 

@@ -176,10 +176,11 @@ void addImu(const std::string& key, const std::string& imu, const Poses& poses, 
     return;
   }
   ini.leave(key, value, "imu_pose, the IMU's pose in the body frame, x y z (m) yaw pitch roll (deg)");
-  rig.notes.push_back(
+  rig.lost.push_back(
       fmt::format("{} is not used: its pose in the body frame is not known (imu_pose, or T_body_imu in an "
                   "extrinsics file)",
                   imu));
+  rig.notes.push_back(rig.lost.back());
 }
 
 /** So that one scan is one turn, where all lidars turn alike; with one lidar, from the recording's first column on. */
@@ -231,6 +232,17 @@ void addUnheard(LidarsFound& found, const Poses& poses)
   if (!others.empty()) found.notes.push_back(fmt::format("no packet is of {}{}", fmt::join(others, ", "), more));
 }
 
+/** A lidar is lost by it if its pose is given, or if packets are of no other metadata. */
+void addFaulty(const LidarsFound& found, const Poses& poses, RecognisedRig& rig)
+{
+  for (const MetadataCandidate& candidate : found.faulty)
+  {
+    rig.notes.push_back("not used: " + candidate.fault);
+    if (found.left_streams_out || poses.count("T_body_" + candidate.file.stem().string()) > 0)
+      rig.lost.push_back(rig.notes.back());
+  }
+}
+
 /** A bag whose topics are of other kinds should at least tell them. */
 LidarsFound foundIn(const Paths& captures, std::vector<MetadataCandidate> candidates, const BagContents& bags)
 try
@@ -264,6 +276,7 @@ RecognisedRig recogniseRig(const RecordingFiles& files, const std::filesystem::p
 
   RecognisedRig rig;
   rig.notes = found.notes;
+  addFaulty(found, extrinsics.empty() ? Poses{} : readExtrinsics(extrinsics), rig);
   for (const TopicContents& topic : bags.topics)
     if (topic.one_instant)
       rig.notes.push_back(printable(

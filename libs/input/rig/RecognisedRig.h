@@ -15,6 +15,7 @@ struct RecognisedRig
   std::string ini;                         // a section [lidars] with a comment for each lidar
   std::vector<std::string> found;          // what was recognised, a line each
   std::vector<std::string> notes;          // what was left out, or must be filled in, and why
+  std::vector<std::string> lost;           // of the notes, those of sensors of the rig that cannot be used
   std::vector<std::string> unknown_poses;  // keys of lidars whose pose must be filled in: "lidar2_pose"
   bool poses_from_bag = false;             // by its static transforms, as there is no extrinsics file
   bool poses_known = false;                // of all lidars, in a body frame that is not just a lidar's own

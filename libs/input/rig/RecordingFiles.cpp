@@ -8,12 +8,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace scanloom
 {
 namespace
 {
 using Paths = RecordingFiles::Paths;
+
+constexpr std::string_view kNoImu =
+    "no table of an IMU: a heading must name a stamp, gyro x y z and accel x y z, or the columns be EuRoC's: "
+    "ns,gyro x,y,z (rad/s),accel x,y,z (m/s2)";
 
 Paths* listFor(FileKind kind, RecordingFiles& files)
 {
@@ -37,24 +43,65 @@ Paths* listFor(FileKind kind, RecordingFiles& files)
   return nullptr;
 }
 
-/** A folder holds what else a person put there: a file that can't be read is not of the recording. */
-FileKind kindIfReadable(const std::filesystem::path& file)
-try
+/** By the endings of what recordings are made of. Tables and JSON of other kinds are results and references. */
+bool isNamedLikeData(const std::filesystem::path& file)
 {
-  return kindOf(file);
+  static constexpr std::array kEndings{".pcap", ".pcapng", ".bag", ".db3", ".mcap", ".rawlog",
+                                       ".ply",  ".pcd",    ".bin", ".gz",  ".zst",  ".zstd"};
+  return std::find(kEndings.begin(), kEndings.end(), file.extension().string()) != kEndings.end();
 }
-catch (const std::exception&)
+
+bool isNamedLikeImu(const std::filesystem::path& file)
 {
-  return FileKind::Other;
+  const std::string stem = file.stem().string();
+  return file.extension() == ".csv" && (stem.find("imu") != std::string::npos || stem.find("IMU") != std::string::npos);
+}
+
+/** A folder holds what else a person put there: a file that can't be read is not of the recording. */
+void addFound(const std::filesystem::path& file, RecordingFiles& files)
+{
+  try
+  {
+    if (Paths* list = listFor(kindOf(file), files))
+      list->push_back(file);
+    else if (isNamedLikeImu(file))
+      files.unused.push_back({file, std::string(kNoImu), true, true});
+    else
+      files.unused.push_back({file, describeFile(file), isNamedLikeData(file), false});
+  }
+  catch (const std::exception& fault)
+  {
+    files.unused.push_back({file, fault.what(), true, false});
+  }
 }
 
 RecordingFiles filesIn(const std::filesystem::path& folder)
 {
   RecordingFiles files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_regular_file())
-      if (Paths* list = listFor(kindIfReadable(entry.path()), files)) list->push_back(entry.path().lexically_normal());
+    if (entry.is_regular_file() && entry.path().filename().string().front() != '.')
+      addFound(entry.path().lexically_normal(), files);
   return files;
+}
+
+/** Moves them to those that are not used. */
+void putAside(Paths& paths, const UnusedFile& as, RecordingFiles& files)
+{
+  for (const auto& path : paths) files.unused.push_back({path, as.why, as.has_data, as.is_imu});
+  paths.clear();
+}
+
+/** A rawlog holds what it was recorded with. */
+void putAsideWhatIsOfNoUse(RecordingFiles& files)
+{
+  if (!files.captures.empty() || !files.rawlogs.empty())
+    putAside(files.clouds, {"", "a cloud, taken for a result beside the recording: name clouds to use them"}, files);
+  if (!files.captures.empty()) return;
+  const bool clouds = files.rawlogs.empty();
+  const std::string use = clouds ? "of no use with clouds" : "a rawlog holds its own";
+  putAside(files.metadata, {"", "metadata of a lidar: " + use, clouds}, files);
+  putAside(files.extrinsics, {"", "poses of sensors: " + use, clouds}, files);
+  putAside(files.imus, {"", "IMU samples: " + use, clouds, clouds}, files);
 }
 
 void append(Paths& to, const Paths& from) { to.insert(to.end(), from.begin(), from.end()); }
@@ -67,6 +114,7 @@ void append(RecordingFiles& to, const RecordingFiles& from)
   append(to.metadata, from.metadata);
   append(to.imus, from.imus);
   append(to.extrinsics, from.extrinsics);
+  to.unused.insert(to.unused.end(), from.unused.begin(), from.unused.end());
 }
 
 void addGiven(const std::filesystem::path& path, RecordingFiles& files)
@@ -90,6 +138,14 @@ void addWhatLiesBeside(const std::filesystem::path& given, RecordingFiles& files
   if (files.metadata.empty()) files.metadata = beside.metadata;
   if (files.imus.empty()) files.imus = beside.imus;
   if (files.extrinsics.empty()) files.extrinsics = beside.extrinsics;
+}
+
+std::string dataIn(const std::vector<UnusedFile>& files)
+{
+  std::string lines;
+  for (const UnusedFile& file : files)
+    if (file.has_data) lines += fmt::format("\n  {}: {}", file.path.string(), file.why);
+  return lines;
 }
 
 /** Those that a person may have meant; empty for none. */
@@ -117,10 +173,12 @@ RecordingFiles filesOf(const std::vector<std::filesystem::path>& given)
   if (files.empty())
     throw UsageError(
         fmt::format("{}: holds no recording: expected captures (pcap, pcapng), bags (.db3, .mcap, .bag), a rawlog or "
-                    "clouds (PLY, PCD, KITTI){}",
-                    given.empty() ? "" : given.front().string(), given.empty() ? "" : foldersIn(given.front())));
-  if (!std::filesystem::is_directory(given.front())) addWhatLiesBeside(given.front(), files);
-  if (!files.captures.empty() || !files.rawlogs.empty()) files.clouds.clear();
+                    "clouds (PLY, PCD, KITTI){}{}",
+                    given.empty() ? "" : given.front().string(), given.empty() ? "" : foldersIn(given.front()),
+                    dataIn(files.unused)));
+  if (!files.captures.empty() && !std::filesystem::is_directory(given.front())) addWhatLiesBeside(given.front(), files);
+  putAsideWhatIsOfNoUse(files);
+  std::sort(files.unused.begin(), files.unused.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
   for (Paths* list : {&files.captures, &files.rawlogs, &files.clouds, &files.metadata, &files.imus, &files.extrinsics})
     sort(*list);
   return files;

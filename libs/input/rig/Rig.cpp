@@ -66,13 +66,13 @@ bool isWholeBody(const RigSettings& settings)
          settings.rig.imu_csv.empty() && settings.rig.imu_topic.empty();
 }
 
-std::vector<ImuSample> bodyImuOf(const RigOptions& options, const std::vector<std::filesystem::path>& recordings)
+ImuCsv bodyImuOf(const RigOptions& options, const std::vector<std::filesystem::path>& recordings)
 {
-  if (options.imu_topic.empty()) return readEurocImu(options.imu_csv);
+  if (options.imu_topic.empty()) return readImuCsv(options.imu_csv);
   if (!options.imu_csv.empty())
     throw ConfigError(fmt::format("imu_csv = {} and imu_topic = {}: two IMUs of the body: give one", options.imu_csv,
                                   options.imu_topic));
-  return imuOfTopic(recordings, options.imu_topic);
+  return {imuOfTopic(recordings, options.imu_topic), {}};
 }
 
 LiveOptions liveOptions(const RigOptions& options)
@@ -135,7 +135,9 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
   if (!settings.rig.imu_csv.empty() || !settings.rig.imu_topic.empty())
   {
     rig.body_T_imu = poseOf("imu_pose", settings.rig.imu_pose, "imu", settings.rig, poses);
-    rig.body_imu = bodyImuOf(settings.rig, rig.captures);
+    ImuCsv imu = bodyImuOf(settings.rig, rig.captures);
+    rig.body_imu = std::move(imu.samples);
+    rig.notes = std::move(imu.notes);
   }
   return rig;
 }

@@ -1,6 +1,6 @@
 /** The sensors of a machine, with metadata and poses, ready to be read. */
 #pragma once
-#include "base/formats/EurocImu.h"
+#include "base/formats/ImuCsv.h"
 #include "input/batching/TimeBatcher.h"
 #include "input/rig/PacketRouter.h"
 #include "input/rig/RigOptions.h"
@@ -33,6 +33,7 @@ struct Rig
   std::optional<Rigid> body_T_imu;  // none if the body has no IMU of its own
   BatcherOptions batcher;
   LiveOptions live;
+  std::vector<std::string> notes;  // what was concluded about its files
 };
 
 /** For a PacketRouter; the rig must outlive it, or its decoders. */

@@ -99,7 +99,9 @@ struct RigOptions
                 atLeast(1)});
     visit(o.extrinsics, Field{"extrinsics", "", "file of lines 'T_body_<name> x y z yaw pitch roll' (m, deg)",
                               unbounded(), pathFrom});
-    visit(o.imu_csv, Field{"imu_csv", "", "the body's own IMU, as EuRoC csv; empty: none", unbounded(), pathFrom});
+    visit(o.imu_csv, Field{"imu_csv", "",
+                           "the body's own IMU, as csv: EuRoC's columns, or those that a heading names; empty: none",
+                           unbounded(), pathFrom});
     visit(o.imu_topic, Field{"imu_topic", "", "the body's own IMU, a topic of a bag; empty: none"});
     visit(o.imu_pose,
           Field{"imu_pose", "m, deg",

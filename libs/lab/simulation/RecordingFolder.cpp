@@ -1,7 +1,7 @@
 #include "lab/simulation/RecordingFolder.h"
 
 #include "base/core/OutputFile.h"
-#include "base/formats/EurocImu.h"
+#include "base/formats/ImuCsv.h"
 #include "base/formats/SecondsText.h"
 #include "base/formats/Trajectory.h"
 #include "input/packets/CaptureWriter.h"
@@ -50,7 +50,7 @@ std::vector<PacketCounts> writeCapture(const Scene& scene, const std::filesystem
 TurnOnBias writeImu(const Scene& scene, const std::filesystem::path& path)
 {
   constexpr Duration kSlice = 10s;
-  EurocImuWriter writer(path);
+  ImuCsvWriter writer(path);
   ImuStream imu(scene.scenery.drive(), scene.span, scene.body_imu, scene.seed);
   for (Timestamp until = scene.span.start; until < scene.span.end();)
   {

@@ -74,8 +74,10 @@ void addStation(const std::filesystem::path& file, const Paths& beside, RunRefer
 
 void addPoses(const std::filesystem::path& file, RunReference& reference)
 {
-  reference.poses = readTrajectory(file);
-  reference.description += fmt::format("{}{}", reference.description.empty() ? "" : ", ", file.filename().string());
+  const auto describe = [&](const std::string& text)
+  { reference.description += fmt::format("{}{}", reference.description.empty() ? "" : ", ", text); };
+  describe(file.filename().string());
+  reference.poses = readTrajectory(file, describe);
 }
 }  // namespace
 

@@ -122,7 +122,7 @@ std::function<RawlogOperation(const Header&)> deskewing(const EditOptions& optio
   if (options.deskew == "imu")
     return [input, label = options.imu.empty() ? kImuLabel : options.imu,
             notice = std::move(notice)](const Header& header) { return deskewingByGyro(input, label, header, notice); };
-  return [trajectory = readTrajectory(options.deskew)](const Header& header)
+  return [trajectory = readTrajectory(options.deskew, notice)](const Header& header)
   { return deskewClouds(trajectory, header); };
 }
 
@@ -180,7 +180,7 @@ void choosePoints(const EditOptions& o, const Path& input, const Notify& notice,
   if (!o.deskew.empty()) add(chosen, "--deskew", deskewing(o, input, notice), {o.deskew});
 }
 
-void chooseExports(const EditOptions& o, Chosen& chosen)
+void chooseExports(const EditOptions& o, const Notify& notice, Chosen& chosen)
 {
   using Make = std::function<RawlogOperation(const Header&, const EditOutputs&)>;
   const auto addFolder = [&](const std::string& option, const Path& folder, Make make)
@@ -206,7 +206,7 @@ void chooseExports(const EditOptions& o, Chosen& chosen)
     chosen.push_back({"--to-mcap",
                       {{o.to_mcap}, {}},
                       o.trajectory.empty() ? std::vector<Path>() : std::vector<Path>{o.trajectory},
-                      [poses = o.trajectory.empty() ? Trajectory() : readTrajectory(o.trajectory)](
+                      [poses = o.trajectory.empty() ? Trajectory() : readTrajectory(o.trajectory, notice)](
                           const Header& header, const EditOutputs& outputs)
                       { return toMcap(outputs.files.front(), poses, header); }});
 }
@@ -217,7 +217,7 @@ std::vector<EditOperation> editOperations(const EditOptions& options, const Path
   Chosen chosen;
   chooseObservations(options, chosen);
   choosePoints(options, input, notice, chosen);
-  chooseExports(options, chosen);
+  chooseExports(options, notice, chosen);
   return chosen;
 }
 

@@ -3,7 +3,6 @@
 #include "input/rawlogs/Conversions.h"
 #include "mrpt/edit/CloudObservation.h"
 #include "mrpt/edit/internal/DeskewClouds.h"
-#include "mrpt/maps/MapFile.h"
 #include "mrpt/observations/Observations.h"
 
 #include <memory>
@@ -49,23 +48,21 @@ class KeyframeChoice
 };
 }  // namespace
 
-RawlogOperation toMaps(const std::vector<std::filesystem::path>& paths, const OctoMapOptions& octomap,
-                       const KeyframeOptions& options, const RecordingHeader& header, std::function<void()> onKeyframe)
+RawlogOperation toMaps(std::shared_ptr<MapFiles> files, const KeyframeOptions& options, const RecordingHeader& header,
+                       std::function<void()> onKeyframe)
 {
   auto choice = std::make_shared<KeyframeChoice>(options, header);
-  auto files = std::make_shared<std::vector<std::unique_ptr<MapFile>>>(
-      makeMapFiles(paths, mountedLidars(header.lidars), octomap));
   const auto add = [choice, files, onKeyframe = std::move(onKeyframe)](const ObservationPtr& observation)
   {
     const std::optional<Keyframe> keyframe = choice->keyframeOf(observation);
     if (!keyframe) return;
-    for (const auto& file : *files) file->add(*keyframe);
+    files->add(*keyframe);
     onKeyframe();
   };
   const auto close = [choice, files]
   {
     choice->requireSome();
-    for (const auto& file : *files) file->close();
+    files->close();
   };
   return readOnly(add, close);
 }

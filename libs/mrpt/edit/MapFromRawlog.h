@@ -3,11 +3,10 @@
 #include "base/core/StampedPose.h"
 #include "input/rig/RecordingHeader.h"
 #include "mrpt/edit/RawlogEdit.h"
-#include "mrpt/maps/OctoMapExport.h"
+#include "mrpt/maps/MapFiles.h"
 
-#include <filesystem>
 #include <functional>
-#include <vector>
+#include <memory>
 
 namespace scanloom
 {
@@ -18,11 +17,10 @@ struct KeyframeOptions
 };
 
 /**
- * Writes maps, one for each path, in the format of its ending (requireMapEndings). A scan becomes a keyframe, deskewed,
- * each time the body has travelled `distance`; `onKeyframe` is called after each. Throws std::runtime_error at the end
- * of input if there was none.
+ * Fills and closes the maps. A scan becomes a keyframe, deskewed, each time the body has travelled `distance`;
+ * `onKeyframe` is called after each. Throws std::runtime_error at the end of input if there was none.
  */
 RawlogOperation toMaps(
-    const std::vector<std::filesystem::path>&, const OctoMapOptions&, const KeyframeOptions&, const RecordingHeader&,
+    std::shared_ptr<MapFiles>, const KeyframeOptions&, const RecordingHeader&,
     std::function<void()> onKeyframe = [] {});
 }  // namespace scanloom

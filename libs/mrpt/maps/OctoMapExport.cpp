@@ -68,6 +68,8 @@ void OctoMapBuilder::add(const Keyframe& keyframe)
   for (std::size_t lidar = 0; lidar < clouds.size(); ++lidar)
   {
     const Rigid map_T_sensor = keyframe.map_T_body * body_T_sensor_[lidar];
+    for (const octomap::point3d& point : clouds[lidar])
+      if (octomap::OcTreeKey key; !tree_->coordToKeyChecked(point, key)) ++left_out_;
     insertRays(*tree_, clouds[lidar], toOctomap(map_T_sensor.translation), options_.max_range);
   }
 }

@@ -6,6 +6,7 @@
 #include "base/core/Field.h"
 #include "base/core/Keyframe.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -50,11 +51,14 @@ class OctoMapBuilder
   ~OctoMapBuilder();
 
   /**
-   * Points farther from the map's origin than 32768 voxels, the size of the tree, are left out. A keyframe of full
-   * scans takes seconds and hundreds of MB (OctoMapEstimate.h). Throws std::invalid_argument for a sensor_id without a
-   * pose.
+   * Points farther from the map's origin than 32768 voxels, the size of the tree, are left out and counted. A keyframe
+   * of full scans takes seconds and hundreds of MB (OctoMapEstimate.h). Throws std::invalid_argument for a sensor_id
+   * without a pose.
    */
   void add(const Keyframe&);
+
+  /** Points that were left out. */
+  std::uint64_t leftOut() const { return left_out_; }
 
   /** Its leaves are up to date; its inner nodes only after write(). */
   const octomap::OcTree& tree() const { return *tree_; }
@@ -69,5 +73,6 @@ class OctoMapBuilder
   OctoMapOptions options_;
   std::vector<Rigid> body_T_sensor_;
   std::unique_ptr<octomap::OcTree> tree_;
+  std::uint64_t left_out_ = 0;
 };
 }  // namespace scanloom

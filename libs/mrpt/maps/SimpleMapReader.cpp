@@ -24,7 +24,7 @@ namespace
 using mrpt::obs::CObservationPointCloud;
 
 constexpr double kSamePose = 1e-6;
-constexpr double kFarthest = 1e6;  // m, from the origin of a map
+constexpr double kFarthest = 1e8;  // m, from the origin of a map: any coordinates of a country are nearer
 
 void forEachCloud(const mrpt::obs::CSensoryFrame& frame, const std::function<void(CObservationPointCloud&)>& visit)
 {
@@ -104,6 +104,11 @@ Rigid poseOf(const std::string& what, const mrpt::poses::CPose3D& pose)
   }
 }
 }  // namespace
+
+bool isSimpleMap(const std::filesystem::path& path)
+{
+  return (path.extension() == ".gz" ? path.stem() : path).extension() == ".simplemap";
+}
 
 SimpleMapReader::SimpleMapReader(const std::filesystem::path& path) : map_(load(path))
 {

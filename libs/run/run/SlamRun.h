@@ -31,11 +31,11 @@ struct SlamRunResult
   /**
    * Counts, stages, and the outcome: OK, LIDAR MISSING (OK, but a lidar is in no scan), IMU MISSING (OK,
    * but the samples of an IMU are of another time than all scans), INITIALISING, DEGENERATE, LOST,
-   * NOTHING, INTERRUPTED or FAILED.
+   * NOTHING (no pose was measured), INTERRUPTED or FAILED.
    */
   RunSummary summary;
   /**
-   * False if there is no pose, if the state was LOST at the end or for more than 5 % of the poses, if the local map was
+   * False if no pose was measured, if the state was LOST at the end or for more than 5 % of the poses, if the local map was
    * started anew (the trajectory has a break), if a lidar is in no scan, or if a lidar or the IMU is at fault
    * (RigCheck).
    */

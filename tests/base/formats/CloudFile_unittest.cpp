@@ -9,7 +9,9 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
 
 namespace scanloom::cloud_file_unittest
@@ -139,6 +141,63 @@ TEST_F(CloudFiles, areScansOfKittiWithoutWhatIsNotFinite)
   EXPECT_EQ(cloud.dropped, 1U);
 }
 
+/** A scan of floats in the order of a lidar: azimuth by azimuth, some beams on a wall and some on the ground. */
+std::string floatsOfScan(std::size_t count, const std::function<float(std::size_t)>& further)
+{
+  std::string content;
+  for (std::size_t i = 0; i < 1200; ++i)
+  {
+    const float azimuth = 6.28F * static_cast<float>(i / 8) / 150;
+    const Eigen::Vector3f p(10 * std::cos(azimuth), 10 * std::sin(azimuth), -2 + 0.3F * static_cast<float>(i % 8));
+    for (std::size_t k = 0; k < count; ++k) content += bytes(k < 3 ? p[static_cast<Eigen::Index>(k)] : further(k * i));
+  }
+  return content;
+}
+
+TEST_F(CloudFiles, ofFloatsTellByTheirNumbersHowManyMakeAPoint)
+{
+  const auto small = [](std::size_t n) { return 0.01F * static_cast<float>(n % 100); };
+  const auto large = [](std::size_t n) { return static_cast<float>(n % 255); };
+  for (std::size_t count = 3; count <= 7; ++count)
+    for (const auto& further : {std::function<float(std::size_t)>(small), std::function<float(std::size_t)>(large)})
+    {
+      const CloudFile cloud = read("a.bin", floatsOfScan(count, further));
+      ASSERT_EQ(cloud.points.size(), 1200U) << count;
+      EXPECT_NEAR(cloud.points[700].head<2>().norm(), 10, 1e-5) << count;
+      EXPECT_EQ(cloud.note.empty(), count == 4) << cloud.note;
+    }
+}
+
+TEST_F(CloudFiles, ofNumbersThatAreNoCoordinatesAreRefused)
+{
+  std::string nclt;  // three uint16 in 5 mm from -100 m, intensity, laser
+  for (int i = 0; i < 400; ++i)
+    nclt += bytes(static_cast<std::uint16_t>(20000 + i)) + bytes(std::uint16_t{20500}) + bytes(std::uint16_t{19900}) +
+            bytes(static_cast<std::uint8_t>(i)) + "\x07";
+  refuses("a.bin", nclt, "no scan of floats");
+  refuses("a.bin", std::string(1600, 'x'), "no scan of floats");
+  refuses("a.ply", "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n", "git lfs pull");
+}
+
+TEST_F(CloudFiles, areRecognisedByTheirFirstBytes)
+{
+  EXPECT_THAT(read("scan", plyHeader("ascii", "1", "float") + "9 1 -2 3.5\n").points, ElementsAre(kFirst));
+  EXPECT_THAT(read("a.bin", "ply  \n" + plyHeader("ascii", "1", "float").substr(4) + "9 1 -2 3.5\n").points,
+              ElementsAre(kFirst));
+}
+
+TEST_F(CloudFiles, ofMeshesHaveNoTimesInTheirTextures)
+{
+  const auto textured = [&](const char* first)
+  {
+    return read("a.ply", std::string("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                                     "property float z\nproperty float ") +
+                             first + "\nproperty float t\nend_header\n1 -2 3.5 0.5 0.25\n");
+  };
+  EXPECT_THAT(textured("s").times, ElementsAre());
+  EXPECT_THAT(textured("intensity").times, ElementsAre(0.25));
+}
+
 TEST_F(CloudFiles, mayBeGzipped)
 {
   read("a.ply", plyHeader("ascii", "1", "float") + "9 1 -2 3.5\n");
@@ -152,7 +211,7 @@ TEST_F(CloudFiles, areRefusedByNameWhenNoFormatFits)
 {
   refuses("a.xyz", "1 2 3\n", "no cloud by its name");
   refuses("a.gz", "", "no cloud by its name");
-  refuses("a.ply.gz", "ply\n", "not compressed");
+  refuses("a.ply.gz", "ply\n", "its header has no end");
   EXPECT_THAT([&] { readCloud(folder / "missing.ply"); }, ThrowsMessage<std::runtime_error>(HasSubstr("is no file")));
 }
 
@@ -165,10 +224,10 @@ TEST_F(CloudFiles, areRefusedWhenCutShort)
   refuses("a.pcd", pcdHeader("1", "binary") + "123", "ends before its last");
   refuses("a.pcd", pcdHeader("1", "binary_compressed") + "123", "ends before its last");
   refuses("a.bin", "123456789012345", "15 bytes");
-  read("a.bin", std::string(1600, 'x'));
+  read("a.bin", floatsOfScan(4, [](std::size_t n) { return static_cast<float>(n % 7); }));
   const std::string packed = contentOf(gzip(folder / "a.bin"));
   refuses("b.bin.gz", packed.substr(0, packed.size() - 9), "cut short");
-  refuses("b.bin.gz", packed.substr(0, 12) + "damage" + packed.substr(18), "damaged");
+  refuses("b.bin.gz", packed.substr(0, 200) + "damage" + packed.substr(206), "damaged");
 }
 
 TEST_F(CloudFiles, thatUnpackToNothingButZerosAreRefusedWithoutTheirMemory)

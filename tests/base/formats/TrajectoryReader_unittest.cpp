@@ -91,7 +91,7 @@ catch (const std::invalid_argument& error)
 
 TEST_F(ForeignTrajectories, nameFileAndLineOfWhatIsWrong)
 {
-  const auto euroc = write("bad.csv", "1403636579763555584,1,2,3,1,0,0,0\n1403636579763555584,1,2,3,1,0,0,0\n");
+  const auto euroc = write("bad.csv", "1403636579763555584,1,2,3,1,0,0,0\n1403636579763555583,1,2,3,1,0,0,0\n");
   EXPECT_THAT(messageOf([&] { readTrajectory(euroc); }), testing::HasSubstr("bad.csv:2: stamp"));
   const auto kitti = write("01.txt", "1 0 0 4 0 1 0 5 0 0 1 6\n1 0 0 4 0 1 0 5 0 0 1 x\n");
   EXPECT_THAT(messageOf([&] { readTrajectory(kitti); }), testing::HasSubstr("have no stamps"));
@@ -101,12 +101,38 @@ TEST_F(ForeignTrajectories, nameFileAndLineOfWhatIsWrong)
   EXPECT_THAT(messageOf([&] { readTrajectory(kitti); }), testing::HasSubstr("1 poses, but 2 stamps"));
 }
 
+TEST_F(ForeignTrajectories, withAStampTwiceKeepTheFirstPoseAndSaySo)
+{
+  std::vector<std::string> notes;
+  const auto note = [&](const std::string& text) { notes.push_back(text); };
+  const Trajectory read =
+      readTrajectory(write("twice.tum", "10 1 2 3 0 0 0 1\n11 1 2 3 0 0 0 1\n11 4 5 6 0 0 0 1\n"), note);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[1].map_T_body.translation, Eigen::Vector3d(1, 2, 3));
+  EXPECT_THAT(notes, testing::ElementsAre(testing::HasSubstr("1 poses have the stamp of the one before")));
+}
+
+TEST_F(ForeignTrajectories, ofTumWithIntegersAreTakenInTheUnitInWhichTheyAreDates)
+{
+  for (const auto& [text, unit] :
+       {std::pair("1750000000123456789", "ns"), std::pair("1750000000123456", "us"), std::pair("1750000000123", "ms")})
+  {
+    std::string notes;
+    const Trajectory read = readTrajectory(write("a.tum", std::string(text) + " 1 2 3 0 0 0 1\n"),
+                                           [&](const std::string& note) { notes += note; });
+    ASSERT_EQ(read.size(), 1U);
+    EXPECT_NEAR(seconds(read[0].stamp - fromNanoseconds(1'750'000'000'123'456'789)), 0, 1e-3);
+    EXPECT_THAT(notes, testing::HasSubstr(std::string("taken as ") + unit));
+  }
+  EXPECT_EQ(readTrajectory(write("a.tum", "1750000000 1 2 3 0 0 0 1\n"))[0].stamp, Timestamp{1'750'000'000s});
+}
+
 /** Found by output_trajectory_fuzz: such poses could be read, but neither written as TUM nor interpolated. */
 TEST_F(ForeignTrajectories, stampsWhoseDifferenceOverflowsAreRefused)
 {
   const std::string pose = ",1,2,3,1,0,0,0\n";
   EXPECT_THROW(readTrajectory(write("late.csv", "9223372036854775807" + pose)), std::invalid_argument);
-  EXPECT_THROW(readEuroc(write("early.csv", "-9223372036854775807" + pose)), std::invalid_argument);
+  EXPECT_THROW(readTrajectory(write("early.csv", "-9223372036854775807" + pose)), std::invalid_argument);
   EXPECT_THROW(readTrajectory(write("both.tum", "-8999999999 1 2 3 0 0 0 1\n8999999999 1 2 3 0 0 0 1\n")),
                std::invalid_argument);
   EXPECT_EQ(readTrajectory(write("2111.csv", "4449999999999999999" + pose)).size(), 1U);

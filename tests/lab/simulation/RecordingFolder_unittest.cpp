@@ -1,7 +1,7 @@
 #include "lab/simulation/RecordingFolder.h"
 
 #include "base/config/Configuration.h"
-#include "base/formats/EurocImu.h"
+#include "base/formats/ImuCsv.h"
 #include "base/formats/Trajectory.h"
 #include "estimation/imu/Preintegration.h"
 #include "input/lidar/OusterDecoder.h"
@@ -228,7 +228,7 @@ TEST(RecordingFolder, hasBothImusAndTheTruthOnOneClock)
   const TemporaryFolder folder;
   record(folder / "a");
 
-  const auto imu = readEurocImu(folder / "a" / "imu.csv");
+  const auto imu = readImuCsv(folder / "a" / "imu.csv").samples;
   const Trajectory truth = readTum(folder / "a" / "groundtruth.tum");
 
   EXPECT_EQ(imu.size(), 800U);

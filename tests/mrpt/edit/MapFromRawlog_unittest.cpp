@@ -1,8 +1,10 @@
 #include "mrpt/edit/MapFromRawlog.h"
 
+#include "base/formats/CloudFile.h"
 #include "smallRawlog.h"
+#include "support/TestData.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <octomap/octomap.h>
 
@@ -21,8 +23,11 @@ struct MapFromRawlog : testing::Test
     OctoMapOptions options;
     options.resolution = 0.2;
     int keyframes = 0;
-    readRawlog(in, toMaps(maps, options, {trajectory, 0.5}, someHeader(), [&] { ++keyframes; }),
+    const auto files = std::make_shared<MapFiles>(maps, mountedLidars(someHeader().lidars), options,
+                                                  offsetFor(trajectory.front().map_T_body));
+    readRawlog(in, toMaps(files, {trajectory, 0.5}, someHeader(), [&] { ++keyframes; }),
                [](std::uint64_t) { return true; });
+    EXPECT_EQ(files->leftOut(), 0u);
     return keyframes;
   }
 };
@@ -43,6 +48,32 @@ TEST_F(MapFromRawlog, anOctomapIsWrittenInBothForms)
   octomap::OcTree tree((folder / "m.bt").string());
   EXPECT_GT(tree.getNumLeafNodes(), 50u);
   EXPECT_TRUE(std::filesystem::exists(folder / "m.ot"));
+}
+
+TEST_F(MapFromRawlog, inCoordinatesOfACountryKeepsTheDigitsOfOneAtTheOrigin)
+{
+  const Eigen::Vector3d utm(512'000, 5'412'000, 0);
+  Trajectory far = straightOn();
+  for (StampedPose& pose : far) pose.map_T_body.translation += utm;
+  const auto names = [&](const std::string& stem)
+  {
+    return std::vector<std::filesystem::path>{folder / (stem + ".ply"), folder / (stem + ".las"),
+                                              folder / (stem + ".bt")};
+  };
+  writeMaps(names("near"), straightOn());
+  writeMaps(names("far"), far);
+
+  const auto near_points = readCloud(folder / "near.ply").points, far_points = readCloud(folder / "far.ply").points;
+  ASSERT_EQ(near_points.size(), far_points.size());
+  for (std::size_t i = 0; i < near_points.size(); ++i) ASSERT_LT((near_points[i] - far_points[i]).norm(), 1e-4);
+  EXPECT_THAT(contentOf(folder / "far.ply"), testing::HasSubstr("comment offset 512000 5412000 0\n"));
+  EXPECT_EQ(octomap::OcTree((folder / "near.bt").string()).getNumLeafNodes(),
+            octomap::OcTree((folder / "far.bt").string()).getNumLeafNodes());
+  const std::string las = contentOf(folder / "far.las");
+  constexpr std::size_t kOffsets = 155;  // LAS 1.4, table 3
+  Eigen::Vector3d offset;
+  std::memcpy(offset.data(), las.data() + kOffsets, sizeof offset);
+  EXPECT_EQ(offset, utm);
 }
 
 TEST_F(MapFromRawlog, aTrajectoryOfAnotherRecordingMakesNoMap)

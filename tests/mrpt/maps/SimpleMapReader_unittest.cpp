@@ -120,7 +120,7 @@ TEST(SimpleMapReader, namesFileAndKeyframeOfAnImpossiblePose)
   const TemporaryFolder folder;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   const mrpt::poses::CPose3D sound(1, 2, 3, 0, 0, 0);
-  for (const double x : {nan, infinite, -infinite, 1.1e6, -3e38})
+  for (const double x : {nan, infinite, -infinite, 1.1e8, -3e38})
   {
     mrpt::poses::CPose3D impossible = sound;
     impossible.x(x);

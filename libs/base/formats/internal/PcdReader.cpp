@@ -133,8 +133,9 @@ FieldsInUse fieldsInUse(const PcdHeader& header)
       throw std::invalid_argument(fmt::format("its {} is neither float nor double", names[axis]));
     used.xyz[axis] = static_cast<std::size_t>(found - header.fields.begin());
   }
-  for (std::size_t i = 0; i < header.fields.size(); ++i)
-    if (isTimeField(header.fields[i].name) && header.fields[i].count == 1) used.time = i;
+  std::vector<std::string> scalars;
+  for (const PcdField& field : header.fields) scalars.push_back(field.count == 1 ? field.name : "");
+  used.time = timeField(scalars);
   return used;
 }
 

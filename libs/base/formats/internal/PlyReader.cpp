@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -161,16 +162,16 @@ CloudPoints pointsAfter(const PlyHeader& header, CloudText& file)
   const auto [x, y, z] = positionColumns(header);
   const std::size_t size_of_vertex = header.vertexSize();
   std::vector<double> values(header.properties.size());
-  const auto& properties = header.properties;
-  const auto time =
-      std::find_if(properties.begin(), properties.end(), [](const auto& p) { return isTimeField(p.name); });
+  std::vector<std::string> names;
+  for (const Property& property : header.properties) names.push_back(property.name);
+  const std::optional<std::size_t> time = timeField(names);
   CloudPoints points;
   points.positions.resize(header.vertices);
   for (std::size_t i = 0; i < header.vertices; ++i)
   {
     readVertex(file, header, i * size_of_vertex, values);
     points.positions[i] = Eigen::Vector3d(values[x], values[y], values[z]).cast<float>();
-    if (time != properties.end()) points.times.push_back(values[static_cast<std::size_t>(time - properties.begin())]);
+    if (time) points.times.push_back(values[*time]);
   }
   return points;
 }

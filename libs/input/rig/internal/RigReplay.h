@@ -25,12 +25,19 @@ class RigReplay : public SensorInput
 
  private:
   SensorSetup setup_;
+  bool readDatagram();
+
   MergedCaptures captures_;
   RigStream stream_;
+  std::vector<Datagram> first_;  // that were read to tell the pace of their times
+  std::size_t taken_ = 0;        // of them
+  double pace_ = 1;              // of times of reception
+  Timestamp begin_;              // the first of these times
   Datagram datagram_;
   std::atomic<bool> stop_{false};
-  bool read_ = false;   // the captures are at their end
-  bool ended_ = false;  // and every event was given out
+  bool read_ = false;               // the captures are at their end
+  bool ended_ = false;              // and every event was given out
+  std::vector<std::string> notes_;  // of the rig, until takeWarnings() gives them
   bool warned_of_cut_ = false;
   std::size_t warned_of_damages_ = 0;
 };

@@ -3,7 +3,7 @@
 #include "base/core/AtomicFile.h"
 #include "base/core/OutputFile.h"
 #include "base/core/fileNameOf.h"
-#include "base/formats/EurocImu.h"
+#include "base/formats/ImuCsv.h"
 #include "base/formats/Trajectory.h"
 #include "input/rawlogs/Conversions.h"
 #include "mrpt/edit/CloudObservation.h"
@@ -39,7 +39,7 @@ class ImuTable
 
  private:
   AtomicFile file_;
-  EurocImuWriter writer_;
+  ImuCsvWriter writer_;
 };
 
 class CsvExport

@@ -7,6 +7,7 @@ void RunCounts::add(const StateEstimate& estimate)
   ++poses;
   initialising += estimate.health == Health::Initialising;
   degenerate += estimate.health == Health::Degenerate;
+  registered += estimate.registration.has_value();
   lost += estimate.health == Health::Lost;
   keyframes += estimate.keyframe.has_value();
   cut_scans += !estimate.scan_complete;
@@ -18,7 +19,7 @@ void RunCounts::add(const StateEstimate& estimate)
 
 std::string RunCounts::outcome() const
 {
-  if (poses == 0) return "NOTHING";
+  if (registered == 0) return "NOTHING";
   if (!passed()) return "LOST";
   if (last == Health::Initialising) return "INITIALISING";
   return degenerate + lost > 0 ? "DEGENERATE" : "OK";

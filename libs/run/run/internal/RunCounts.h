@@ -13,6 +13,7 @@ struct RunCounts
 {
   std::uint64_t scans = 0, imu_changes = 0;
   std::uint64_t poses = 0, initialising = 0, degenerate = 0, lost = 0, keyframes = 0;
+  std::uint64_t registered = 0;  // poses that a registration measured, trusted or not
   std::uint64_t cut_scans = 0, imu_short = 0;
   Health last = Health::Ok;
   std::optional<Timestamp> first;  // pose
@@ -22,8 +23,8 @@ struct RunCounts
 
   double recorded() const { return first ? seconds(newest - *first) : 0; }  // s
 
-  /** There are poses, at most 5 % of them are LOST, and the last one is not. */
-  bool passed() const { return poses > 0 && last != Health::Lost && 20 * lost <= poses; }
+  /** A pose was measured, at most 5 % are LOST, and the last one is not. */
+  bool passed() const { return registered > 0 && last != Health::Lost && 20 * lost <= poses; }
 
   std::string outcome() const;
   void addTo(std::map<std::string, std::uint64_t>& counts) const;
