@@ -8,10 +8,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <string_view>
@@ -55,6 +58,13 @@ constexpr Removed kRemoved[] = {
     {"edit", "--octomap-preset", "scanloom map --preset"},
 };
 
+bool isLikeOne(const std::string& argument, const std::vector<std::string>& names)
+{
+  constexpr std::size_t kTypingErrors = 2;
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return editDistance(argument, name) <= kTypingErrors; });
+}
+
 /** What to write instead of an option that was removed, else the names most like it. */
 std::string adviceOn(const std::string& argument, const CLI::App& where)
 {
@@ -62,7 +72,13 @@ std::string adviceOn(const std::string& argument, const CLI::App& where)
   for (const Removed& removed : kRemoved)
     if (where.get_name() == removed.verb && option == removed.option)
       return fmt::format("it was removed; instead: {}", removed.instead);
-  return suggestion(argument, namesKnownTo(where));
+  std::vector<std::string> names = namesKnownTo(where);
+  if (isLikeOne(argument, names)) return suggestion(argument, names);
+  if (where.get_option_no_throw("-i") && std::filesystem::exists(argument)) return "a file is given as -i FILE";
+  if (where.get_parent()) return suggestion(argument, names);
+  names.erase(std::remove_if(names.begin(), names.end(), [](const std::string& name) { return name.front() == '-'; }),
+              names.end());
+  return fmt::format("verbs are {}", fmt::join(names, ", "));
 }
 
 int complain(const CLI::App& app, const CLI::ParseError& error)

@@ -4,6 +4,7 @@
 #include "Recording.h"
 #include "Verb.h"
 #include "input/rig/RigOptions.h"
+#include "warn.h"
 
 namespace scanloom
 {
@@ -36,6 +37,10 @@ Loaded<Settings> load(const ConfigurationArguments& arguments, const RecordingFi
                       Poses poses = Poses::Needed)
 {
   Configuration configuration = Configuration::fromFiles(arguments.files);
+  const bool holds_its_own = !recording.rawlogs.empty() || !recording.clouds.empty();
+  for (const std::string& assignment : arguments.assignments)
+    if (holds_its_own && assignment.rfind("lidars.", 0) == 0)
+      warn(fmt::format("--set {} is not used: it is for captures and live lidars", assignment));
   const RecordedSensors sensors = addCaptures(recording, configuration, poses);
   return loadFrom<Settings>(std::move(configuration), arguments.assignments, sensors);
 }

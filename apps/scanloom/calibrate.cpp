@@ -18,6 +18,7 @@
 #include "run/run/ImuCalibration.h"
 #include "run/run/MountPicture.h"
 #include "run/run/StaticClouds.h"
+#include "warn.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

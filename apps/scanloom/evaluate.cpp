@@ -11,6 +11,7 @@
 #include "lab/evaluation/PositionError.h"
 #include "lab/evaluation/TotalStation.h"
 #include "lab/study/Gnuplot.h"
+#include "warn.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -146,6 +147,11 @@ int run(const EvaluateArguments& arguments)
   input.truth = readIfGiven(arguments.truth);
   input.reference = referenceOf(arguments);
 
+  const bool poses = std::holds_alternative<Trajectory>(input.reference);
+  if (!poses && options.body_p_point.isZero())
+    warn(
+        "the reference has positions of a point of the machine, and they are compared with the body's origin: give "
+        "--lever-arm \"x y z\" of the prism or antenna");
   const Evaluation evaluation = evaluate(input, options);
   print(evaluation, arguments.json);
   if (arguments.align == Align::Yaw) warnOfOtherUp(evaluation, input, options);

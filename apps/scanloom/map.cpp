@@ -16,6 +16,7 @@
 #include "mrpt/maps/OctoMapEstimate.h"
 #include "mrpt/maps/OctoMapFile.h"
 #include "mrpt/maps/SimpleMapReader.h"
+#include "warn.h"
 
 #include <fmt/format.h>
 #include <sys/sysinfo.h>

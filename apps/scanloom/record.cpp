@@ -20,6 +20,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -214,6 +216,16 @@ RecordingFiles recordingOf(const RecordingArguments& arguments)
   return files;
 }
 
+/** A name that promises another format. */
+void refuseOtherFormat(const std::filesystem::path& output)
+{
+  static constexpr std::array kOthers{".bag", ".mcap", ".db3", ".pcap", ".pcapng", ".ply", ".pcd", ".las"};
+  if (std::find(kOthers.begin(), kOthers.end(), output.extension().string()) != kOthers.end())
+    throw UsageError(
+        fmt::format("-o {}: 'record' writes a rawlog; 'edit' makes other formats of it (--to-mcap, --export-ply, ...)",
+                    output.string()));
+}
+
 std::filesystem::path defaultRawlog(const RecordingArguments& recording)
 {
   if (!recording.given()) throw UsageError("-o is required where no RECORDING is given: name the rawlog to write");
@@ -225,6 +237,7 @@ int run(RecordArguments arguments)
 {
   const RecordingFiles recording = recordingOf(arguments.recording);
   if (arguments.output.empty()) arguments.output = defaultRawlog(arguments.recording);
+  refuseOtherFormat(arguments.output);
   const Loaded<RecordSettings> loaded = load<RecordSettings>(arguments.configuration, recording);
   const Source source = openSource(arguments, recording, loaded.configuration);
   const bool live = source.isLive();

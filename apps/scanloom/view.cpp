@@ -23,6 +23,7 @@
 #include "mrpt/observations/ObservationReader.h"
 #include "mrpt/observations/RawlogInput.h"
 #include "run/page/Player.h"
+#include "warn.h"
 
 #include <fmt/format.h>
 

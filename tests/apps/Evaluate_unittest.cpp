@@ -158,6 +158,9 @@ TEST_F(EvaluateVerb, namesWhatIsWrong)
   EXPECT_EQ(lever.status, 2);
   EXPECT_THAT(lever.output, HasSubstr("--lever-arm '1 2': must be \"x y z\" in m"));
 
+  EXPECT_THAT(evaluate("--reference station.csv").output, HasSubstr("give --lever-arm"));
+  EXPECT_THAT(evaluate("--reference truth.tum").output, testing::Not(HasSubstr("--lever-arm")));
+
   EXPECT_EQ(evaluate("--reference station.csv --align first").status, 2);
   EXPECT_EQ(evaluate("--reference missing.tum").status, 1);
 }

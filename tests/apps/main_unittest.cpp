@@ -43,6 +43,9 @@ TEST(Executable, endsWithTwoAndTheNearestNameOnWrongUsage)
             "scanloom config: unknown argument --paramters: did you mean '--parameters'?\n"
             "'scanloom config --help' lists all arguments\n");
 
+  EXPECT_THAT(scanloom("frobnicate").output, testing::HasSubstr("verbs are record, info, "));
+  EXPECT_THAT(scanloom("edit /dev/null").output, testing::HasSubstr("a file is given as -i FILE"));
+
   EXPECT_EQ(scanloom("").status, 2);
   EXPECT_EQ(scanloom("config").status, 2);
   EXPECT_EQ(scanloom("config --default").status, 2);

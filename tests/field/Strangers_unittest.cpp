@@ -244,6 +244,9 @@ TEST_F(Strangers, captureOfOnePacket)
 
 TEST_F(Strangers, mapInCoordinatesOfACountry)
 {
+  const Ended misnamed = scanloom(world_->path(), "record drive -o drive.bag");
+  EXPECT_EQ(misnamed.status, 2);
+  EXPECT_THAT(misnamed.output, HasSubstr("'record' writes a rawlog"));
   ASSERT_EQ(scanloom(world_->path(), "record drive -o drive.rawlog").status, 0);
   std::ofstream utm(*world_ / "utm.tum");
   std::istringstream poses(trajectory_);
