@@ -50,6 +50,12 @@ std::vector<std::string> forEachMessage(const BagPaths& paths, const TakeMessage
   return warnings;
 }
 
+Timestamp earliestIn(const TimedCloud& cloud)
+{
+  const auto earlier = [](const TimedPoint& a, const TimedPoint& b) { return a.stamp < b.stamp; };
+  return std::min_element(cloud.points.begin(), cloud.points.end(), earlier)->stamp;
+}
+
 class Inventory
 {
  public:
@@ -86,7 +92,7 @@ class Inventory
   BagContents finish()
   {
     for (const auto& [topic, clouds] : clouds_)
-      if (clouds.received.size() > 1) contents_.metadata[topic] = toJson(clouds.metadata());
+      if (clouds.stamps.size() > 1) contents_.metadata[topic] = toJson(clouds.metadata());
     for (auto& [name, topic] : topics_) contents_.topics.push_back(std::move(topic));
     return std::move(contents_);
   }
@@ -95,14 +101,19 @@ class Inventory
   /** The first clouds of a topic. */
   struct Clouds
   {
-    std::vector<Timestamp> received;
+    std::vector<Timestamp> stamps;  // of their earliest points
     int channels = 1;
-    bool refused = false;  // they have no time per point
+    std::size_t faulty = 0;  // without times of points, or damaged
 
+    /** By stamps: clouds may be received late, all at once, or twice. */
     CloudMetadata metadata() const
     {
+      std::vector<Timestamp> sorted = stamps;
+      std::sort(sorted.begin(), sorted.end());
+      sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+      if (sorted.size() < 2) return {CloudMetadata{}.rate, channels};
       std::vector<Duration> steps;
-      for (std::size_t i = 1; i < received.size(); ++i) steps.push_back(received[i] - received[i - 1]);
+      for (std::size_t i = 1; i < sorted.size(); ++i) steps.push_back(sorted[i] - sorted[i - 1]);
       const double step = seconds(upperMedian(std::move(steps)));
       return {step > 0 ? std::round(10 / step) / 10 : CloudMetadata{}.rate, channels};
     }
@@ -111,11 +122,11 @@ class Inventory
   void lookIntoCloud(const BagTopic& topic, const BagMessage& message, TopicContents& known)
   {
     Clouds& clouds = clouds_[topic.name];
-    if (clouds.received.size() >= kCloudsLookedInto || clouds.refused) return;
+    if (clouds.stamps.size() + clouds.faulty >= kCloudsLookedInto) return;
     try
     {
       const TimedCloud cloud = timedCloudOf(topic, message.data);
-      clouds.received.push_back(message.received);
+      clouds.stamps.push_back(cloud.points.empty() ? message.received : earliestIn(cloud));
       clouds.channels = std::max(clouds.channels, cloud.channels);
       known.frame = cloud.frame;
       known.note = cloud.time_is;
@@ -123,9 +134,8 @@ class Inventory
     }
     catch (const std::invalid_argument& no_time)
     {
-      clouds = Clouds{};
-      clouds.refused = true;
-      known.note = no_time.what();
+      ++clouds.faulty;
+      if (clouds.stamps.empty()) known.note = no_time.what();
     }
   }
 

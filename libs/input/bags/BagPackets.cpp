@@ -5,6 +5,7 @@
 #include "input/packets/CaptureReader.h"
 
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -20,10 +21,36 @@ constexpr Duration kHeldBack = 250ms;
 constexpr std::size_t kMostBytesHeld = 64'000'000;
 constexpr std::size_t kMostPorts = 65535;
 
+Timestamp latestIn(const TimedCloud& cloud)
+{
+  const auto earlier = [](const TimedPoint& a, const TimedPoint& b) { return a.stamp < b.stamp; };
+  return std::max_element(cloud.points.begin(), cloud.points.end(), earlier)->stamp;
+}
+
+/**
+ * When a topic's clouds were received, had none been late: a recorder may hang and then write many at once, and from a
+ * file nothing is late. That is the latest point's stamp and the least delay so far.
+ */
+class Punctual
+{
+ public:
+  Timestamp received(Timestamp message_received, Timestamp latest_point)
+  {
+    constexpr Duration kOfOneClock = 5s;
+    const Duration delay = message_received - latest_point;
+    const bool other_clock = least_ && std::chrono::abs(delay - *least_) > kOfOneClock;
+    least_ = least_ && !other_clock ? std::min(*least_, delay) : delay;
+    return latest_point + *least_;
+  }
+
+ private:
+  std::optional<Duration> least_;
+};
+
 class BagPackets : public DatagramReader
 {
  public:
-  BagPackets(const Path& path, const Ports& ports) : bag_(BagReader::open(path)), ports_(ports) {}
+  BagPackets(const Path& path, const Ports& ports) : bag_(BagReader::open(path)), ports_(ports) { lookAhead(path); }
 
   bool next(Datagram& datagram) override
   {
@@ -56,6 +83,31 @@ class BagPackets : public DatagramReader
     return a.datagram.received != b.datagram.received ? a.datagram.received > b.datagram.received : a.number > b.number;
   }
 
+  /** The first clouds of each topic, so that the very first is not taken for punctual. */
+  void lookAhead(const Path& path)
+  {
+    constexpr std::size_t kMessages = 1000, kClouds = 20, kBytes = 32'000'000;
+    const auto bag = BagReader::open(path);
+    BagMessage message;
+    std::size_t clouds = 0, bytes = 0;
+    for (std::size_t i = 0; i < kMessages && clouds < kClouds && bytes < kBytes && bag->next(message); ++i)
+    {
+      const BagTopic& topic = bag->topics()[message.topic];
+      if (!isCloudType(topic.type) || ports_.count(topic.name) == 0) continue;
+      bytes += message.data.size();
+      ++clouds;
+      try
+      {
+        if (const TimedCloud cloud = timedCloudOf(topic, message.data); !cloud.points.empty())
+          punctual_[topic.name].received(message.received, latestIn(cloud));
+      }
+      catch (const std::logic_error&)  // counted where it is read
+      {
+        continue;
+      }
+    }
+  }
+
   bool isDue() const
   {
     return !held_.empty() && (newest_ - held_.front().datagram.received >= kHeldBack || held_bytes_ > kMostBytesHeld);
@@ -84,8 +136,11 @@ class BagPackets : public DatagramReader
     {
       if (isCloudType(topic.type))
       {
-        const std::vector<std::uint8_t> packet = cloudPacket(timedCloudOf(topic, message.data).points);
-        hold({std::nullopt, packet}, port, message.received);
+        const TimedCloud cloud = timedCloudOf(topic, message.data);
+        const std::vector<std::uint8_t> packet = cloudPacket(cloud.points);
+        const Timestamp received =
+            cloud.points.empty() ? message.received : punctual_[topic.name].received(message.received, latestIn(cloud));
+        hold({std::nullopt, packet}, port, received);
         return;
       }
       forEachPacket(topic, message.data, [&](const PacketInMessage& packet) { hold(packet, port, message.received); });
@@ -111,7 +166,8 @@ class BagPackets : public DatagramReader
 
   std::unique_ptr<BagReader> bag_;
   Ports ports_;
-  std::vector<Held> held_;  // a heap, the earliest first
+  std::map<std::string, Punctual> punctual_;  // by topic
+  std::vector<Held> held_;                    // a heap, the earliest first
   std::size_t held_bytes_ = 0;
   std::uint64_t number_ = 0;
   Timestamp newest_ = Timestamp{};

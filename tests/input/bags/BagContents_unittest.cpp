@@ -76,11 +76,15 @@ TEST(BagContents, sayWhereAllPointsOfACloudHaveOneTime)
 TEST(BagContents, sayWhatTheTimeOfCloudsIs)
 {
   const TemporaryFolder folder;
-  const std::string timed = cloudMessage(1'000'000'000, "lidar", {{1, 2, 3, 0, 0}, {1, 2, 3, 90'000'000, 5}});
+  const auto timedAt = [](std::uint64_t stamp) {
+    return cloudMessage(stamp, "lidar", {{1, 2, 3, 0, 0}, {1, 2, 3, 90'000'000, 5}});
+  };
+  const std::string timed = timedAt(1'000'000'000);
   std::string untimed = timed;
   untimed[untimed.find("t\x0c")] = 'q';
   writeFile(folder / "bag", ros1Of({{"/a", "sensor_msgs/PointCloud2", 1'000'000'000, timed},
-                                    {"/a", "sensor_msgs/PointCloud2", 1'050'000'000, timed},
+                                    {"/a", "sensor_msgs/PointCloud2", 1'200'000'000, timed},  // twice, and late
+                                    {"/a", "sensor_msgs/PointCloud2", 1'210'000'000, timedAt(1'050'000'000)},
                                     {"/b", "sensor_msgs/PointCloud2", 1'000'000'000, untimed}}));
   const BagContents contents = contentsOf({folder / "bag"});
   ASSERT_EQ(contents.topics.size(), 2u);

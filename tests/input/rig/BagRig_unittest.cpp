@@ -113,6 +113,56 @@ TEST(BagRig, weavesTheCloudsOfTwoDriversByTheStampsOfTheirPoints)
   }
 }
 
+/** A recorder hangs and writes what waits at once; a network is slow; a relay sends everything twice. */
+TEST(BagRig, ofCloudsThatCameLateAtOnceOrTwiceGivesTheSameScans)
+{
+  const auto scansOfClouds = [](std::vector<HandmadeMessage> messages)
+  {
+    std::stable_sort(messages.begin(), messages.end(),
+                     [](const auto& a, const auto& b) { return a.received < b.received; });
+    const TemporaryFolder folder;
+    writeFile(folder / "drive.bag", ros1Of(messages));
+    const RecognisedRig recognised = recogniseRig(filesOf({folder.path()}));
+    EXPECT_THAT(recognised.ini, HasSubstr("scan_rate        = 10\n"));
+    return scansOf(rigOf(recognised));
+  };
+  const std::vector<HandmadeMessage> punctual = driveOfTwoLidars();
+  const std::vector<Scan> expected = scansOfClouds(punctual);
+
+  std::vector<HandmadeMessage> late = punctual, hung = punctual, twice = punctual;
+  for (std::size_t i = 3; i < late.size(); ++i) late[i].received += (i * 37 % 220) * 1'000'000;
+  for (HandmadeMessage& message : hung)
+    if (message.received > kStart + 5 * kTurn) message.received = std::max(message.received, kStart + 15 * kTurn);
+  twice.insert(twice.end(), punctual.begin(), punctual.end());
+  for (const auto& messages : {late, hung, twice})
+  {
+    const std::vector<Scan> scans = scansOfClouds(messages);
+    ASSERT_EQ(scans.size(), expected.size());
+    for (std::size_t i = 0; i < scans.size(); ++i)
+    {
+      EXPECT_EQ(scans[i].start, expected[i].start);
+      EXPECT_EQ(scans[i].points.t, expected[i].points.t);
+      EXPECT_EQ(scans[i].points.sensor_id, expected[i].points.sensor_id);
+    }
+  }
+}
+
+TEST(BagRig, whoseFirstCloudIsBrokenHasItsLidarAllTheSame)
+{
+  std::vector<HandmadeMessage> messages = driveOfTwoLidars();
+  const auto first = std::find_if(messages.begin(), messages.end(),
+                                  [](const HandmadeMessage& m) { return m.topic == "/left/points"; });
+  first->data.resize(first->data.size() / 2);
+  const TemporaryFolder folder;
+  writeFile(folder / "drive.bag", ros1Of(messages));
+  const Rig rig = rigOf(recogniseRig(filesOf({folder.path()})));
+  EXPECT_EQ(rig.lidars.size(), 2u);
+  RigReplay replay(rig);
+  while (replay.next())
+    ;
+  EXPECT_EQ(replay.account().input.at("records_malformed"), 1u);
+}
+
 TEST(BagRig, ofRecordedPacketsIsRecognisedByThem)
 {
   SCANLOOM_NEEDS_DATA(bag,
