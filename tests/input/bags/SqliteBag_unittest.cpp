@@ -100,6 +100,34 @@ TEST(SqliteBag, refusesWhatAFileWouldCompute)
   }
 }
 
+/** A recorder that lost power: most messages are in the log beside the file. */
+TEST(SqliteBag, readsTheWriteAheadLogAndLeavesNothingBeside)
+{
+  const TemporaryFolder folder;
+  sqlite3* recorder = nullptr;
+  sqlite3_open((folder / "live.db3").c_str(), &recorder);
+  const std::string messages =
+      std::string("PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0;") + kTopics +
+      "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER, timestamp INTEGER, data BLOB);"
+      "PRAGMA wal_checkpoint(TRUNCATE);"
+      "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 300) "
+      "INSERT INTO messages SELECT i, 1, i, zeroblob(1000) FROM n;";
+  ASSERT_EQ(sqlite3_exec(recorder, messages.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+  std::filesystem::create_directory(folder / "bag");
+  std::filesystem::copy(folder / "live.db3", folder / "bag/live.db3");
+  std::filesystem::copy(folder / "live.db3-wal", folder / "bag/live.db3-wal");
+  sqlite3_close(recorder);
+  {
+    const auto bag = openSqliteBag(folder / "bag/live.db3");
+    BagMessage message;
+    int count = 0;
+    while (bag->next(message)) ++count;
+    EXPECT_EQ(count, 300);
+    EXPECT_THAT(bag->takeWarnings(), IsEmpty());
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "bag/live.db3-shm"));
+}
+
 TEST(SqliteBag, readsASoundFileWithoutAWarning)
 {
   const TemporaryFolder folder;

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace scanloom
@@ -84,17 +85,31 @@ bool isShorterThanItSays(const std::filesystem::path& path, std::uint64_t bytes)
   return pages * page > bytes;
 }
 
-/** With '?' and '%' as an URI wants them. A journal beside it holds the latest messages: then it is not immutable. */
+/** Bytes of the write-ahead log beside it, which holds the latest messages of a recorder that lost power. */
+std::uint64_t journalBytes(const std::filesystem::path& path)
+{
+  std::error_code none;
+  const auto bytes = std::filesystem::file_size(path.string() + "-wal", none);
+  return none ? 0 : bytes;
+}
+
+/** With '?' and '%' as an URI wants them. With a journal the file is not immutable. */
 std::string uriOf(const std::filesystem::path& path)
 {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(path).string())
     uri += c == '?' || c == '%' || c == '#' ? fmt::format("%{:02x}", c) : std::string(1, c);
-  std::error_code none;
-  const auto journal = std::filesystem::file_size(path.string() + "-wal", none);
-  return uri + (none || journal == 0 ? "?immutable=1" : "");
+  return uri + (journalBytes(path) == 0 ? "?immutable=1" : "");
 }
 }  // namespace
+
+SqliteDatabase::Index::Index(std::filesystem::path p) : path(std::move(p)), was_there(std::filesystem::exists(path)) {}
+
+SqliteDatabase::Index::~Index()
+{
+  std::error_code ignored;
+  if (!was_there) std::filesystem::remove(path, ignored);
+}
 
 void SqliteDatabase::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 void SqliteDatabase::Finish::operator()(sqlite3_stmt* rows) const { sqlite3_finalize(rows); }
@@ -106,6 +121,8 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& path) : path_(path)
   const std::filesystem::path& plain = copy ? copy->path : path;
   bytes_ = std::filesystem::file_size(plain);
   is_cut_ = isShorterThanItSays(plain, bytes_);
+  bytes_ += journalBytes(plain);
+  if (journalBytes(plain) > 0) index_.emplace(plain.string() + "-shm");
 
   sqlite3* opened = nullptr;
   const int status = sqlite3_open_v2(uriOf(plain).c_str(), &opened, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr);

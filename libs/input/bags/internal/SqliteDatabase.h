@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 struct sqlite3;
@@ -33,7 +34,7 @@ class SqliteDatabase
   /** Whether the file is shorter than its header says. */
   bool isCut() const { return is_cut_; }
 
-  /** Of the file, unpacked. */
+  /** Of the file, unpacked, and its write-ahead log. */
   std::uint64_t bytes() const { return bytes_; }
 
  private:
@@ -42,9 +43,22 @@ class SqliteDatabase
     void operator()(sqlite3*) const;
   };
 
+  /** The index of a write-ahead log, which SQLite leaves beside a file that it only reads. */
+  struct Index
+  {
+    explicit Index(std::filesystem::path);
+    ~Index();
+    Index(const Index&) = delete;
+    Index& operator=(const Index&) = delete;
+
+    std::filesystem::path path;
+    bool was_there;
+  };
+
   std::filesystem::path path_;
   std::uint64_t bytes_ = 0;
   bool is_cut_ = false;
+  std::optional<Index> index_;  // removed after the database is closed
   std::unique_ptr<sqlite3, Close> database_;
 };
 }  // namespace scanloom
