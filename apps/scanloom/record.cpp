@@ -237,9 +237,9 @@ int run(RecordArguments arguments)
 {
   const RecordingFiles recording = recordingOf(arguments.recording);
   if (arguments.output.empty()) arguments.output = defaultRawlog(arguments.recording);
-  refuseOtherFormat(arguments.output);
   const Loaded<RecordSettings> loaded = load<RecordSettings>(arguments.configuration, recording);
   const Source source = openSource(arguments, recording, loaded.configuration);
+  refuseOtherFormat(arguments.output);
   const bool live = source.isLive();
   if (!live) refuseSeconds(arguments.seconds);
   const RawlogOptions options = rawlogOptions(loaded.settings.record, source.driver, live);

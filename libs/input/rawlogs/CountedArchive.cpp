@@ -184,7 +184,7 @@ void CountedArchive::followObjects(const char* bytes, std::size_t count)
     if (!within_.empty() && within_.back() == kActions && name != kMovement && name != kMovement3d)
       refuse(fmt::format("is damaged: an action of class '{}'", name));
     within_.push_back(name);
-    if (!classNamed(name)) next_ = Next::Anything;
+    if (next_ == Next::Count && !classNamed(name)) next_ = Next::Anything;
   }
   name_length_ = 0;
   if (count != 1) return;
