@@ -75,12 +75,19 @@ void addFound(const std::filesystem::path& file, RecordingFiles& files)
   }
 }
 
+/** What is used with a bag or is in it twice, and what nobody sees. */
+bool goesWithAnother(const std::filesystem::path& file)
+{
+  const std::string ending = file.extension().string();
+  return file.filename().string().front() == '.' || file.filename() == "metadata.yaml" || ending == ".db3-wal" ||
+         ending == ".db3-shm";
+}
+
 RecordingFiles filesIn(const std::filesystem::path& folder)
 {
   RecordingFiles files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_regular_file() && entry.path().filename().string().front() != '.')
-      addFound(entry.path().lexically_normal(), files);
+    if (entry.is_regular_file() && !goesWithAnother(entry.path())) addFound(entry.path().lexically_normal(), files);
   return files;
 }
 

@@ -22,7 +22,7 @@ struct RecordingFiles
   Paths clouds;                    // only where there are neither: else they are results beside a recording
   Paths metadata;                  // of lidars
   Paths imus, extrinsics;          // of the body
-  std::vector<UnusedFile> unused;  // of the given folders, but for hidden ones
+  std::vector<UnusedFile> unused;  // of the given folders, but for hidden ones and those that go with a bag
 
   bool empty() const { return captures.empty() && rawlogs.empty() && clouds.empty(); }
 };
