@@ -35,8 +35,8 @@ struct SlamRunResult
    */
   RunSummary summary;
   /**
-   * False if no pose was measured, if the state was LOST at the end or for more than 5 % of the poses, if the local map was
-   * started anew (the trajectory has a break), if a lidar is in no scan, or if a lidar or the IMU is at fault
+   * False if no pose was measured, if the state was LOST at the end or for more than 5 % of the poses, if the local map
+   * was started anew (the trajectory has a break), if a lidar is in no scan, or if a lidar or the IMU is at fault
    * (RigCheck).
    */
   bool passed = true;
