@@ -84,10 +84,10 @@ std::pair<std::string, std::string> nameAndUnit(std::string_view cell)
 
 bool isGyro(const std::string& name)
 {
-  return holds(name, "angular_vel") || holds(name, "gyr") || holds(name, "omega") || name.rfind("w", 0) == 0;
+  return holds(name, "angular_vel") || holds(name, "gyr") || holds(name, "omega") || name.rfind('w', 0) == 0;
 }
 
-bool isAccel(const std::string& name) { return holds(name, "acc") || name.rfind("a", 0) == 0; }
+bool isAccel(const std::string& name) { return holds(name, "acc") || name.rfind('a', 0) == 0; }
 
 bool isStamp(const std::string& name)
 {
