@@ -48,8 +48,8 @@ class KeyframeChoice
 };
 }  // namespace
 
-RawlogOperation toMaps(std::shared_ptr<MapFiles> files, const KeyframeOptions& options, const RecordingHeader& header,
-                       std::function<void()> onKeyframe)
+RawlogOperation toMaps(const std::shared_ptr<MapFiles>& files, const KeyframeOptions& options,
+                       const RecordingHeader& header, std::function<void()> onKeyframe)
 {
   auto choice = std::make_shared<KeyframeChoice>(options, header);
   const auto add = [choice, files, onKeyframe = std::move(onKeyframe)](const ObservationPtr& observation)

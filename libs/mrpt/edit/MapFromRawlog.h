@@ -21,6 +21,6 @@ struct KeyframeOptions
  * `onKeyframe` is called after each. Throws std::runtime_error at the end of input if there was none.
  */
 RawlogOperation toMaps(
-    std::shared_ptr<MapFiles>, const KeyframeOptions&, const RecordingHeader&,
+    const std::shared_ptr<MapFiles>&, const KeyframeOptions&, const RecordingHeader&,
     std::function<void()> onKeyframe = [] {});
 }  // namespace scanloom
