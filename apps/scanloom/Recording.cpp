@@ -25,9 +25,8 @@ void nameUnused(const std::vector<UnusedFile>& files)
       data.push_back(fmt::format("{}: {}", printable(file.path.string()), file.why));
     else
       others.push_back(printable(file.path.filename().string()));
-  for (std::size_t i = 0; i < std::min(data.size(), kNamed); ++i)
-    fmt::print(stderr, "warning: not used: {}\n", data[i]);
-  if (data.size() > kNamed) fmt::print(stderr, "warning: not used: {} more files\n", data.size() - kNamed);
+  for (std::size_t i = 0; i < std::min(data.size(), kNamed); ++i) warn("not used: " + data[i]);
+  if (data.size() > kNamed) warn(fmt::format("not used: {} more files", data.size() - kNamed));
   if (!others.empty()) fmt::print(stderr, "not used: {}\n", fmt::join(others, ", "));
 }
 }  // namespace

@@ -92,8 +92,8 @@ int finish(StagedFiles& files, const MapFiles& maps, std::size_t keyframes)
   fmt::print("{} keyframes\n", keyframes);
   for (const Path& output : outputs) fmt::print("{}\n", output.string());
   if (maps.leftOut() > 0)
-    fmt::print(stderr, "warning: {} points are beyond the voxels of .bt and .ot: use a coarser --preset, or parts\n",
-               maps.leftOut());
+    warn(fmt::format("{} points are beyond the voxels of .bt and .ot: use a coarser --preset, or parts",
+                     maps.leftOut()));
   if (partial) return kInterrupted;
   return maps.leftOut() > 0 ? kQualityGate : kDone;
 }

@@ -1,5 +1,6 @@
 #include "base/formats/ImuCsv.h"
 
+#include "base/core/Statistics.h"
 #include "base/formats/SecondsText.h"
 
 #include <fmt/format.h>
@@ -185,11 +186,10 @@ Unit unitOf(const std::vector<RawSample>& samples)
   for (std::size_t i = 1; i < samples.size(); ++i)
     if (const std::int64_t d = samples[i].stamp.integer - samples[i - 1].stamp.integer; d > 0) intervals.push_back(d);
   if (intervals.empty()) return kNanoseconds;
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
+  const std::int64_t pace = upperMedian(std::move(intervals));
   constexpr Duration kShortest = 200us, kLongest = 100ms;
   for (const Unit unit : {kNanoseconds, Unit{"us", 1000}, Unit{"ms", 1'000'000}})
-    if (*middle >= kShortest.count() / unit.nanoseconds && *middle <= kLongest.count() / unit.nanoseconds) return unit;
+    if (pace >= kShortest.count() / unit.nanoseconds && pace <= kLongest.count() / unit.nanoseconds) return unit;
   return kNanoseconds;
 }
 

@@ -1,5 +1,6 @@
 #include "input/rig/CloudsInput.h"
 
+#include "base/core/Statistics.h"
 #include "base/formats/SecondsText.h"
 
 #include <fmt/format.h>
@@ -25,9 +26,7 @@ Duration medianInterval(const std::vector<Timestamp>& stamps)
   std::vector<Duration> intervals;
   for (std::size_t i = 1; i < stamps.size(); ++i) intervals.push_back(stamps[i] - stamps[i - 1]);
   if (intervals.empty()) return kIntervalOfOne;
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return *middle;
+  return upperMedian(std::move(intervals));
 }
 
 /** In which the times are of one scan. */

@@ -267,24 +267,21 @@ RecognisedRig recogniseRig(const RecordingFiles& files, const std::filesystem::p
   std::vector<MetadataCandidate> candidates = candidatesFrom(files.metadata);
   for (MetadataCandidate& candidate : candidatesFrom(bags.metadata)) candidates.push_back(std::move(candidate));
   LidarsFound found = foundIn(files.captures, std::move(candidates), bags);
-  if (!extrinsics.empty())
-    addUnheard(found, readExtrinsics(extrinsics));
-  else
-    addUnheard(found, {});
+  const Poses of_file = extrinsics.empty() ? Poses{} : readExtrinsics(extrinsics);
+  addUnheard(found, of_file);
   const std::vector<std::string> names = namesOf(found.lidars);
   const std::string imu_topic = imu.empty() ? bodyImuTopic(bags, found.lidars) : "";
 
   RecognisedRig rig;
   rig.notes = found.notes;
-  addFaulty(found, extrinsics.empty() ? Poses{} : readExtrinsics(extrinsics), rig);
+  addFaulty(found, of_file, rig);
   for (const TopicContents& topic : bags.topics)
     if (topic.one_instant)
       rig.notes.push_back(printable(
           fmt::format("topic {}: all points of a cloud have one time, so the motion within a turn cannot be corrected",
                       topic.name)));
   rig.poses_from_bag = extrinsics.empty();
-  const Poses poses =
-      rig.poses_from_bag ? posesByFrames(bags, found.lidars, names, imu_topic) : readExtrinsics(extrinsics);
+  const Poses poses = rig.poses_from_bag ? posesByFrames(bags, found.lidars, names, imu_topic) : of_file;
   Ini ini(ini_folder);
   ini.set("pcap_input", ini.from(files.captures));
   if (!extrinsics.empty()) ini.set("extrinsics", ini.from(extrinsics));

@@ -1,5 +1,7 @@
 #include "base/formats/internal/FloatsReader.h"
 
+#include "base/core/Statistics.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,10 +31,7 @@ double medianDistance(const std::vector<float>& floats, std::size_t step)
   std::vector<float> distances;
   for (std::size_t i = step; i < floats.size(); ++i)
     if (const float d = std::abs(floats[i] - floats[i - step]); std::isfinite(d)) distances.push_back(d);
-  if (distances.empty()) return 0;
-  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return distances.empty() ? 0 : upperMedian(std::move(distances));
 }
 
 /**

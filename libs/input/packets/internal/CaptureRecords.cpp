@@ -124,5 +124,4 @@ std::unique_ptr<CaptureRecords> recordsOf(CompressedFile& file)
   if (magic == kPcapngMagic) return std::make_unique<PcapngRecords>(file);
   return std::make_unique<PcapRecords>(file, std::move(magic));
 }
-
 }  // namespace scanloom

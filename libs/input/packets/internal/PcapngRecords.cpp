@@ -48,8 +48,8 @@ std::pair<std::uint64_t, std::uint64_t> secondsOf(std::uint64_t units, std::uint
 std::optional<Timestamp> stampOf(std::uint64_t units, std::uint8_t resolution, std::int64_t offset_seconds)
 {
   const auto [whole, rest] = secondsOf(units, resolution);
-  if (whole > static_cast<std::uint64_t>(kLatestSecond) || std::abs(offset_seconds) > kLatestSecond)
-    return std::nullopt;
+  const bool far_offset = offset_seconds < -kLatestSecond || offset_seconds > kLatestSecond;
+  if (whole > static_cast<std::uint64_t>(kLatestSecond) || far_offset) return std::nullopt;
   const std::int64_t second = static_cast<std::int64_t>(whole) + offset_seconds;
   if (second < 0 || second > kLatestSecond) return std::nullopt;
   return Timestamp{std::chrono::seconds{second} + Duration{static_cast<std::int64_t>(rest)}};

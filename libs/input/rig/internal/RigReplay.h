@@ -7,7 +7,10 @@
 
 namespace scanloom
 {
-/** A rig's captures through the batcher, as fast as events are taken. */
+/**
+ * A rig's captures through the batcher, as fast as events are taken. Of the members the first half, up to datagram_, is
+ * the way from the files to the batcher; the other half is how far it has come and what of it was told.
+ */
 class RigReplay : public SensorInput
 {
  public:
@@ -24,9 +27,9 @@ class RigReplay : public SensorInput
   std::vector<std::string> takeWarnings() override;
 
  private:
-  SensorSetup setup_;
   bool readDatagram();
 
+  SensorSetup setup_;
   MergedCaptures captures_;
   RigStream stream_;
   std::vector<Datagram> first_;  // that were read to tell the pace of their times
