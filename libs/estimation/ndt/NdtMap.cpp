@@ -2,6 +2,7 @@
 
 #include "base/core/forAll.h"
 #include "estimation/ndt/internal/FadingDensity.h"
+#include "estimation/ndt/internal/RingSpread.h"
 #include "estimation/ndt/internal/StemAxisCorrection.h"
 
 #include <fmt/format.h>
@@ -94,16 +95,19 @@ BinnedPoints binned(const std::vector<View>& views, const Eigen::Matrix3d& grid_
   const std::int64_t cell_quanta = quantaOfCell(options);
   const int least_points = std::max(options.min_points, GaussianCell::kMinPointsForCovariance);
   std::vector<std::vector<Bin>> counted(views.size());
-  tbb::parallel_for(std::size_t{0}, views.size(),
-                    [&](std::size_t i)
-                    {
-                      const View& view = views[i];
-                      counted[i] = countInto(coordinatesOf(view.points), cell_quanta, grid_R_points);
-                      if (!view.viewpoint) return;
-                      const Eigen::Vector3d viewpoint = grid_R_points * *view.viewpoint;
-                      correctNearSideBias(counted[i], cell_quanta, viewpoint, up, least_points);
-                      undoFading(counted[i], cell_quanta, viewpoint, least_points);
-                    });
+  tbb::parallel_for(
+      std::size_t{0}, views.size(),
+      [&](std::size_t i)
+      {
+        const View& view = views[i];
+        counted[i] = countInto(coordinatesOf(view.points), cell_quanta, grid_R_points);
+        if (!view.viewpoint) return;
+        const Eigen::Vector3d viewpoint = grid_R_points * *view.viewpoint;
+        correctNearSideBias(counted[i], cell_quanta, viewpoint, up, least_points);
+        undoFading(counted[i], cell_quanta, viewpoint, least_points);
+        if (view.rings)
+          widenAcrossRings(counted[i], cell_quanta, viewpoint, {grid_R_points * view.rings->axis, view.rings->spacing});
+      });
   std::vector<Bin> all;
   for (std::vector<Bin>& bins : counted) all = all.empty() ? std::move(bins) : sumOf(all, bins);
   return {cell_quanta, thinned(std::move(all), options)};

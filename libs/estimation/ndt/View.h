@@ -1,4 +1,4 @@
-/** Points together with the position from which they were seen. */
+/** Points together with the lidar from which they were seen. */
 #pragma once
 #include "base/core/PointCloud.h"
 #include "base/core/Rigid.h"
@@ -10,15 +10,23 @@
 
 namespace scanloom
 {
+/** How the rings of a spinning lidar lie: of what is between two of them it sees nothing. */
+struct Rings
+{
+  Eigen::Vector3d axis;  // unit vector about which the lidar spins, in the frame of the points
+  double spacing;        // rad, from a ring to the next, as seen from the lidar
+};
+
 /** The points of one lidar, in one frame. */
 struct View
 {
   std::vector<Eigen::Vector3f> points;
   std::optional<Eigen::Vector3d> viewpoint;  // none: unknown
+  std::optional<Rings> rings{};              // none: unknown, or a single ring; only with a viewpoint
 };
 
-/** By sensor_id. Lidars without a viewpoint share the last view. */
-std::vector<View> viewsOf(const PointCloud&, const std::vector<Eigen::Vector3d>& viewpoints);
+/** By sensor_id; `cloud_T_lidar` likewise. Lidars without a pose share the last view. */
+std::vector<View> viewsOf(const PointCloud&, const std::vector<Rigid>& cloud_T_lidar);
 
 /** In the target's frame. */
 View movedBy(const Rigid& target_T_view, const View&);

@@ -194,7 +194,8 @@ TEST(View, pointsAreToldApartBySensor)
   cloud.resize(3);
   cloud.sensor_id[1] = 1;
   cloud.sensor_id[2] = 7;
-  const auto views = viewsOf(cloud, {{1, 0, 0}, {2, 0, 0}});
+  const auto views =
+      viewsOf(cloud, {Rigid::fromXyzYawPitchRoll(1, 0, 0, 0, 0, 0), Rigid::fromXyzYawPitchRoll(2, 0, 0, 0, 0, 0)});
   ASSERT_EQ(views.size(), 3u);
   for (const View& view : views) EXPECT_EQ(view.points.size(), 1u);
   EXPECT_EQ(views[1].viewpoint->x(), 2);

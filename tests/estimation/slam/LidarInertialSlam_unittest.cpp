@@ -4,7 +4,9 @@
 
 #include "GentleMachine.h"
 #include "StandOfStems.h"
+#include "base/core/Angle.h"
 #include "base/core/Decompositions.h"
+#include "estimation/ndt/RayWorld.h"
 
 namespace scanloom::lidar_inertial_slam_unittest
 {
@@ -779,5 +781,82 @@ TEST(LidarInertialSlam, aLostBodyIsSearchedOnceAScan)
   EXPECT_EQ(run.estimates.back().health, Health::Lost);
   EXPECT_GT(lost, 30);
   EXPECT_EQ(run.searches, static_cast<std::uint64_t>(lost));  // what one costs: scanloom_bench_slam
+}
+
+namespace
+{
+/** A flat floor, walls 30 m away, and posts. */
+RayWorld flatHall()
+{
+  RayWorld hall{{{Eigen::Vector3d::UnitZ(), 0},
+                 {Eigen::Vector3d::UnitX(), -20},
+                 {Eigen::Vector3d::UnitX(), 50},
+                 {Eigen::Vector3d::UnitY(), -30},
+                 {Eigen::Vector3d::UnitY(), 30}},
+                {}};
+  std::mt19937 random(1);
+  const auto uniform = [&random](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
+  while (hall.stems.size() < 40)
+  {
+    const double x = uniform(-15, 45), y = uniform(-30, 30);
+    if (std::abs(y) > 1.5) hall.stems.push_back({{x, y}, uniform(0.1, 0.25)});
+  }
+  return hall;
+}
+
+/** A turn of 16 beams, 0.5 m above the body, each column from where the body is then. */
+Scan turnOfSixteenBeams(const RayWorld& world, Timestamp start, const Machine& machine)
+{
+  constexpr std::size_t kColumns = 900;
+  Scan scan;
+  scan.start = start;
+  scan.period = 100ms;
+  scan.columns_of = {kColumns};
+  for (std::size_t c = 0; c < kColumns; ++c)
+  {
+    Column column;
+    column.stamp = start + scan.period * static_cast<std::int64_t>(c) / static_cast<std::int64_t>(kColumns);
+    column.first_point = static_cast<std::uint32_t>(scan.points.size());
+    column.measurement_id = static_cast<std::uint16_t>(c);
+    const Rigid world_T_lidar = machine.bodyAt(column.stamp) * Rigid::fromXyzYawPitchRoll(0, 0, 0.5, 0, 0, 0);
+    for (int ring = 0; ring < 16; ++ring)
+    {
+      const double azimuth = -2 * M_PI * static_cast<double>(c) / kColumns, elevation = (15 - 2 * ring) * kDegree;
+      const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+                                std::sin(elevation));
+      const auto range = world.range(world_T_lidar.translation, world_T_lidar.rotation * ray, 100);
+      if (!range) continue;
+      const Eigen::Vector3d p = *range * ray + Eigen::Vector3d(0, 0, 0.5);
+      scan.points.resize(scan.points.size() + 1);
+      scan.points.x.back() = static_cast<float>(p.x());
+      scan.points.y.back() = static_cast<float>(p.y());
+      scan.points.z.back() = static_cast<float>(p.z());
+      scan.points.ring.back() = static_cast<std::uint8_t>(ring);
+      scan.points.range.back() = static_cast<std::uint32_t>(1000 * *range);
+    }
+    column.count = static_cast<std::uint16_t>(scan.points.size() - column.first_point);
+    scan.columns.push_back(column);
+  }
+  return scan;
+}
+}  // namespace
+
+TEST(LidarInertialSlam, sixteenBeamsFollowAMachineThroughAFlatHall)
+{
+  Machine machine = gentleMachine(3s);
+  machine.drive.x = {0, 1.5, -1.5 / 0.9, 0.9, 0};  // up to 3 m/s
+  machine.drive.yaw = {0, 0, 0, 1, 0};
+  machine.drive.pitch = machine.drive.roll = {0, 0, 0, 1, 0};
+  const RayWorld hall = flatHall();
+  LidarInertialSlam slam({}, kBodyTImu, {{"roof", Rigid::fromXyzYawPitchRoll(0, 0, 0.5, 0, 0, 0)}});
+  Driven run;
+  Timestamp imu{0ms};
+  for (Timestamp start{100ms}; start < Timestamp{20s}; start += 100ms)
+  {
+    for (; imu <= start + 105ms; imu += 5ms) slam.addImu(machine.sampleAt(imu));
+    for (StateEstimate& e : slam.addScan(turnOfSixteenBeams(hall, start, machine))) run.estimates.push_back(e);
+  }
+  EXPECT_LT(largestError(run, machine), 0.25) << "of 25 m";
+  for (const StateEstimate& e : run.estimates) EXPECT_EQ(e.health, Health::Ok);
 }
 }  // namespace scanloom::lidar_inertial_slam_unittest

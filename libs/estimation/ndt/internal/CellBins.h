@@ -3,6 +3,7 @@
 #include "estimation/ndt/CellKey.h"
 #include "estimation/ndt/internal/GaussianCell.h"
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -81,6 +82,16 @@ inline std::int64_t quantaOf(double coordinate)
 inline void moveBy(const Eigen::Vector3d& shift, Bin& bin)
 {
   bin.moments = bin.moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
+}
+
+/** Adds `variance` (m^2) along the unit vector `along` to the points' covariance; their mean stays. */
+inline void widenBy(double variance, const Eigen::Vector3d& along, Bin& bin)
+{
+  Moments& m = bin.moments;
+  const double sum = static_cast<double>(m.n - 1) * variance / (Moments::kQuantum * Moments::kQuantum);
+  const auto product = [&](int i, int j) { return std::llround(sum * along[i] * along[j]); };
+  m.xx += product(0, 0), m.xy += product(0, 1), m.xz += product(0, 2);
+  m.yy += product(1, 1), m.yz += product(1, 2), m.zz += product(2, 2);
 }
 
 /** Division that rounds down, by a multiplication; |a| < 2^50. */

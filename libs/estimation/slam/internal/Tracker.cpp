@@ -13,13 +13,6 @@ namespace scanloom
 {
 namespace
 {
-std::vector<Eigen::Vector3d> positionsOf(const std::vector<MountedLidar>& lidars)
-{
-  std::vector<Eigen::Vector3d> positions;
-  for (const MountedLidar& lidar : lidars) positions.push_back(lidar.body_T_sensor.translation);
-  return positions;
-}
-
 /** Covariance of the pose relative to the first one: as the smoother knows it, and from before its window began. */
 Matrix6d errorSinceStart(const Rigid& map_T_body, const TrackerState& state)
 {
@@ -43,7 +36,7 @@ Matrix6d scaleError(const Rigid& map_T_body)
 Tracker::Tracker(const SlamSettings& settings, const std::vector<MountedLidar>& lidars)
   : settings_(settings), health_monitor_(settings)
 {
-  if (settings.slam.tracking.stem_axes) viewpoints_ = positionsOf(lidars);
+  if (settings.slam.tracking.stem_axes) body_T_lidar_ = posesOf(lidars);
 }
 
 TrackerState Tracker::begin(const NavEstimate& start, const MountedImu& imu) const
@@ -107,7 +100,7 @@ Tracker::Seen Tracker::preprocess(Scan scan, const NavState& before, const std::
         for (std::int32_t& t : cloud.t) t -= period;  // it counts from the end now
         return cloud;
       });
-  seen.views = times.measure("deskew", [&] { return viewsOf(seen.cloud, viewpoints_); });
+  seen.views = times.measure("deskew", [&] { return viewsOf(seen.cloud, body_T_lidar_); });
   return seen;
 }
 

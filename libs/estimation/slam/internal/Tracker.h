@@ -56,6 +56,6 @@ class Tracker
 
   SlamSettings settings_;
   HealthMonitor health_monitor_;
-  std::vector<Eigen::Vector3d> viewpoints_;  // of the lidars in the body frame; empty: stems stay where they are seen
+  std::vector<Rigid> body_T_lidar_;  // empty: points are taken as they are seen
 };
 }  // namespace scanloom
