@@ -186,7 +186,7 @@ TEST_F(Strangers, imuWithALineTwice)
             const std::size_t end = csv.find('\n', csv.size() / 2), begin = csv.rfind('\n', end - 1);
             return csv.substr(0, end) + csv.substr(begin, end - begin) + csv.substr(end);
           });
-  expectRight("twice", "1 lines repeat the stamp before");
+  expectRight("twice", "1 samples are there twice: left out");
 }
 
 TEST_F(Strangers, imuOfUnknownColumns)

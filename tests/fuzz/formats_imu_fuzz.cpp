@@ -33,11 +33,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   beginsLikeImuCsv(text);
   try
   {
-    const ImuCsv imu = readImuCsv(table.holding(text));
-    for (std::size_t i = 0; i < imu.samples.size(); ++i)
+    const ImuOfFile imu = readImuCsv(table.holding(text));
+    for (std::size_t i = 0; i < imu.readings.samples.size(); ++i)
     {
-      require(imu.samples[i].gyro.allFinite() && imu.samples[i].accel.allFinite());
-      require(i == 0 || imu.samples[i - 1].stamp < imu.samples[i].stamp);
+      require(imu.readings.samples[i].gyro.allFinite() && imu.readings.samples[i].accel.allFinite());
+      require(i == 0 || imu.readings.samples[i - 1].stamp < imu.readings.samples[i].stamp);
     }
   }
   catch (const std::runtime_error&)

@@ -265,12 +265,11 @@ bool beginsLikeImuCsv(std::string_view text)
   return false;
 }
 
-ImuCsv readImuCsv(const std::filesystem::path& path)
+ImuOfFile readImuCsv(const std::filesystem::path& path)
 {
   const Table table = readTable(path);
   const Unit unit = unitOf(table.samples);
-  ImuCsv imu;
-  std::size_t repeated = 0;
+  std::vector<ImuSample> samples;
   for (const RawSample& raw : table.samples)
   {
     if (std::abs(raw.stamp.integer) > kFarthestStamp.count() / unit.nanoseconds)
@@ -278,17 +277,13 @@ ImuCsv readImuCsv(const std::filesystem::path& path)
                                            raw.stamp.integer, unit.name));
     ImuSample sample = raw.sample;
     sample.stamp = raw.stamp.seconds ? *raw.stamp.seconds : fromNanoseconds(raw.stamp.integer * unit.nanoseconds);
-    if (!imu.samples.empty() && sample.stamp < imu.samples.back().stamp)
+    if (!samples.empty() && sample.stamp < samples.back().stamp)
       throw std::runtime_error(
           fmt::format("{}:{}: stamp {} ns is not after {} ns of the reading before: sort the file by its stamps",
-                      path.string(), raw.line, nanoseconds(sample.stamp), nanoseconds(imu.samples.back().stamp)));
-    if (imu.samples.empty() || sample.stamp != imu.samples.back().stamp)
-      imu.samples.push_back(sample);
-    else
-      ++repeated;
+                      path.string(), raw.line, nanoseconds(sample.stamp), nanoseconds(samples.back().stamp)));
+    samples.push_back(sample);
   }
-  imu.notes = conclusionsOf(table, unit);
-  if (repeated > 0) imu.notes.push_back(fmt::format("{} lines repeat the stamp before: left out", repeated));
+  ImuOfFile imu{oneOfEachStamp(samples), conclusionsOf(table, unit)};
   for (std::string& note : imu.notes) note = fmt::format("{}: {}", path.string(), note);
   return imu;
 }

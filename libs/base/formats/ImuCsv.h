@@ -1,7 +1,7 @@
 /** IMU samples as tables of comma-separated values: EuRoC's, those of `rostopic echo -p`, and others by their headings.
  */
 #pragma once
-#include "base/core/ImuSample.h"
+#include "base/core/oneOfEachStamp.h"
 
 #include <filesystem>
 #include <fstream>
@@ -11,10 +11,10 @@
 
 namespace scanloom
 {
-struct ImuCsv
+struct ImuOfFile
 {
-  std::vector<ImuSample> samples;  // each later than the one before
-  std::vector<std::string> notes;  // what was concluded about the columns and units, and what was left out
+  ImuOfEachStamp readings;
+  std::vector<std::string> notes;  // what was concluded about columns and units
 };
 
 /** Whether the first lines of a text are those of a table that readImuCsv() reads. */
@@ -23,11 +23,10 @@ bool beginsLikeImuCsv(std::string_view text);
 /**
  * Columns are named by a heading ("angular_velocity.x", "w_RS_S_x", "gyro_x", "ax", "stamp"; deg/s or g where it says
  * so), or are EuRoC's: stamp, gyro x y z in rad/s, accel x y z in m/s2. Stamps are in seconds if they have a decimal
- * point, else in that of ns, us and ms in which samples are 0.2 to 100 ms apart. Lines that repeat the stamp before are
- * left out. Blank lines and those that begin with '#' are skipped. Throws std::runtime_error with file and line for
- * others.
+ * point, else in that of ns, us and ms in which samples are 0.2 to 100 ms apart. Blank lines and those that begin with
+ * '#' are skipped. Throws std::runtime_error with file and line for others.
  */
-ImuCsv readImuCsv(const std::filesystem::path&);
+ImuOfFile readImuCsv(const std::filesystem::path&);
 
 /** Writes EuRoC's table sample by sample, after a heading; reading the file gives the same samples to the bit. */
 class ImuCsvWriter

@@ -155,7 +155,7 @@ class Inventory
   BagContents contents_;
 };
 
-/** The messages of a topic as values. */
+/** The messages of a topic as values, in order of stamps. */
 template <typename Value>
 std::vector<Value> valuesOf(const BagPaths& paths, const std::string& name, bool (*isWanted)(const std::string&),
                             Value (*valueOf)(const BagTopic&, Bytes), const char* what)
@@ -183,9 +183,7 @@ std::vector<Value> valuesOf(const BagPaths& paths, const std::string& name, bool
                    return true;
                  });
   const auto earlier = [](const Value& a, const Value& b) { return a.stamp < b.stamp; };
-  const auto same = [](const Value& a, const Value& b) { return a.stamp == b.stamp; };
   std::stable_sort(values.begin(), values.end(), earlier);
-  values.erase(std::unique(values.begin(), values.end(), same), values.end());
   return values;
 }
 
@@ -238,9 +236,9 @@ std::string metadataIn(const BagPaths& paths, const std::string& name)
       possible.empty() ? "none" : fmt::format("{}", fmt::join(possible, ", "))));
 }
 
-std::vector<ImuSample> readBagImu(const BagPaths& paths, const std::string& topic)
+ImuOfEachStamp readBagImu(const BagPaths& paths, const std::string& topic)
 {
-  return valuesOf(paths, topic, &isImuType, &imuSampleOf, "sensor_msgs/Imu");
+  return oneOfEachStamp(valuesOf(paths, topic, &isImuType, &imuSampleOf, "sensor_msgs/Imu"));
 }
 
 BagPoses readBagPoses(const BagPaths& paths, const std::string& topic)
@@ -254,6 +252,9 @@ BagPoses readBagPoses(const BagPaths& paths, const std::string& topic)
     if (topic.empty() || known.name == topic) type = known.type;
   }
   const std::string name = topic.empty() && names.size() == 1 ? *names.begin() : topic;
-  return {valuesOf(paths, name, &isPoseType, &poseOf, "poses"), type != "geometry_msgs/PointStamped"};
+  Trajectory poses = valuesOf(paths, name, &isPoseType, &poseOf, "poses");
+  const auto same = [](const StampedPose& a, const StampedPose& b) { return a.stamp == b.stamp; };
+  poses.erase(std::unique(poses.begin(), poses.end(), same), poses.end());
+  return {std::move(poses), type != "geometry_msgs/PointStamped"};
 }
 }  // namespace scanloom

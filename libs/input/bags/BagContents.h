@@ -1,5 +1,6 @@
 /** What bags hold, and their IMU samples and poses. */
 #pragma once
+#include "base/core/oneOfEachStamp.h"
 #include "input/bags/internal/FrameTree.h"
 
 #include <cstdint>
@@ -46,9 +47,8 @@ std::string toJson(const BagContents&);
 /** The same text of one topic. Throws std::invalid_argument, naming the topics there are, if it has none. */
 std::string metadataIn(const BagPaths&, const std::string& topic);
 
-/** In order of stamps, of each stamp the first. Throws std::invalid_argument, naming the topics with IMU samples, if
- * this is none. */
-std::vector<ImuSample> readBagImu(const BagPaths&, const std::string& topic);
+/** In order of stamps. Throws std::invalid_argument, naming the topics with IMU samples, if this is none. */
+ImuOfEachStamp readBagImu(const BagPaths&, const std::string& topic);
 
 struct BagPoses
 {

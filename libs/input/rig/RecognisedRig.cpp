@@ -10,7 +10,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace scanloom
@@ -23,6 +25,9 @@ using Poses = std::map<std::string, Rigid>;
 constexpr const char* kUnknownPose = "[0 0 0 0 0 0]";
 
 constexpr Duration kBagLookedAt = 10s;  // of a bag: its static transforms and metadata come first
+
+// Parts of the names of message types that hold what lidars and IMUs measure.
+constexpr std::array kMeasuredTypes{"PointCloud", "Imu", "Scan", "Packet", "CustomMsg"};
 
 /** The parts of a topic's name before its last one: "left", "ouster" of "/left/ouster/lidar_packets". */
 std::vector<std::string> nameSpacesOf(const std::string& topic)
@@ -243,6 +248,26 @@ void addFaulty(const LidarsFound& found, const Poses& poses, RecognisedRig& rig)
   }
 }
 
+/** Topics that hold what a lidar or an IMU measured, and that no sensor of the rig is on. */
+void addUnusedTopics(const BagContents& bags, const LidarsFound& found, const std::string& imu_topic,
+                     RecognisedRig& rig)
+{
+  std::set<std::string> known{imu_topic};
+  for (const FoundLidar& lidar : found.lidars) known.insert({lidar.topic, lidar.imu_topic});
+  for (const auto* candidates : {&found.unheard, &found.faulty})
+    for (const MetadataCandidate& candidate : *candidates)
+      if (const auto topic = topicNamedBy(candidate.file.string())) known.insert(*topic);
+  const auto isMeasured = [](const std::string& type)
+  {
+    return std::any_of(kMeasuredTypes.begin(), kMeasuredTypes.end(),
+                       [&](const char* part) { return type.find(part) != std::string::npos; });
+  };
+  for (const TopicContents& topic : bags.topics)
+    if (topic.messages > 0 && isMeasured(topic.type) && known.count(topic.name) == 0)
+      rig.notes.push_back(printable(fmt::format("not used: topic {} ({}){}{}", topic.name, topic.type,
+                                                topic.note.empty() ? "" : ": ", topic.note)));
+}
+
 /** A bag whose topics are of other kinds should at least tell them. */
 LidarsFound foundIn(const Paths& captures, std::vector<MetadataCandidate> candidates, const BagContents& bags)
 try
@@ -301,6 +326,7 @@ RecognisedRig recogniseRig(const RecordingFiles& files, const std::filesystem::p
   rig.poses_known = !poses.empty() && rig.unknown_poses.empty();
   addImu("imu_csv", imu, poses, rig, ini);
   addImu("imu_topic", imu_topic, poses, rig, ini);
+  addUnusedTopics(bags, found, imu_topic, rig);
   addScanTimes(found.lidars, ini);
   rig.ini = ini.text();
   return rig;

@@ -66,13 +66,21 @@ bool isWholeBody(const RigSettings& settings)
          settings.rig.imu_csv.empty() && settings.rig.imu_topic.empty();
 }
 
-ImuCsv bodyImuOf(const RigOptions& options, const std::vector<std::filesystem::path>& recordings)
+/** Throws ConfigError for two IMUs, and for one without times of its samples. */
+ImuOfFile bodyImuOf(const RigOptions& options, const std::vector<std::filesystem::path>& recordings)
 {
-  if (options.imu_topic.empty()) return readImuCsv(options.imu_csv);
-  if (!options.imu_csv.empty())
+  if (!options.imu_topic.empty() && !options.imu_csv.empty())
     throw ConfigError(fmt::format("imu_csv = {} and imu_topic = {}: two IMUs of the body: give one", options.imu_csv,
                                   options.imu_topic));
-  return {imuOfTopic(recordings, options.imu_topic), {}};
+  ImuOfFile imu = options.imu_topic.empty() ? readImuCsv(options.imu_csv)
+                                              : ImuOfFile{imuOfTopic(recordings, options.imu_topic), {}};
+  const std::optional<std::string> left_out = imu.readings.leftOut();
+  if (!left_out) return imu;
+  const std::string said = fmt::format("{}{}: {}", options.imu_topic, options.imu_csv, *left_out);
+  if (imu.readings.isStampedInBursts())
+    throw ConfigError(said + ": it is stamped as it arrives, so no sample's time is known. Stamp it by its own clock");
+  imu.notes.push_back(said);
+  return imu;
 }
 
 LiveOptions liveOptions(const RigOptions& options)
@@ -135,8 +143,8 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
   if (!settings.rig.imu_csv.empty() || !settings.rig.imu_topic.empty())
   {
     rig.body_T_imu = poseOf("imu_pose", settings.rig.imu_pose, "imu", settings.rig, poses);
-    ImuCsv imu = bodyImuOf(settings.rig, rig.captures);
-    rig.body_imu = std::move(imu.samples);
+    ImuOfFile imu = bodyImuOf(settings.rig, rig.captures);
+    rig.body_imu = std::move(imu.readings.samples);
     rig.notes = std::move(imu.notes);
   }
   return rig;

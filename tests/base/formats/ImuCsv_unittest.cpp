@@ -39,7 +39,7 @@ TEST(ImuCsv, readsSamplesBehindAnyHeading)
   {
     const Table csv(std::string(heading) +
                     "1750000000001230000,0.5,-1e-3,2, 3 ,4,9.75\r\n1750000000006230000,0,0,0,0,0,9.8");
-    const auto samples = readImuCsv(csv.path).samples;
+    const auto samples = readImuCsv(csv.path).readings.samples;
     ASSERT_EQ(samples.size(), 2u);
     EXPECT_EQ(nanoseconds(samples[0].stamp), 1750000000001230000);
     EXPECT_EQ(samples[0].gyro, Eigen::Vector3d(0.5, -1e-3, 2));
@@ -67,20 +67,21 @@ TEST(ImuCsv, findsItsColumnsByTheirNamesAndSaysWhatItConverted)
       "field.angular_velocity_covariance0,field.linear_acceleration.x,field.linear_acceleration.y,"
       "field.linear_acceleration.z\n"
       "1750000000900000000,7,1750000000000000001,imu_link,0.5,1,2,3,-1,4,5,6\n");
-  const ImuCsv by_name = readImuCsv(ros.path);
-  ASSERT_EQ(by_name.samples.size(), 1u);
-  EXPECT_EQ(nanoseconds(by_name.samples[0].stamp), 1750000000000000001) << "of the header, not of the reception";
-  EXPECT_EQ(by_name.samples[0].gyro, Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(by_name.samples[0].accel, Eigen::Vector3d(4, 5, 6));
+  const ImuOfFile by_name = readImuCsv(ros.path);
+  ASSERT_EQ(by_name.readings.samples.size(), 1u);
+  EXPECT_EQ(nanoseconds(by_name.readings.samples[0].stamp), 1750000000000000001)
+      << "of the header, not of the reception";
+  EXPECT_EQ(by_name.readings.samples[0].gyro, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(by_name.readings.samples[0].accel, Eigen::Vector3d(4, 5, 6));
 
   const Table units(
       "t [s],acc_x [g],acc_y [g],acc_z [g],gyro_x (deg/s),gyro_y (deg/s),gyro_z (deg/s)\n"
       "100.005,0,0,1,180,0,0\n100.01,0,0,1,0,0,0\n");
-  const ImuCsv converted = readImuCsv(units.path);
-  ASSERT_EQ(converted.samples.size(), 2u);
-  EXPECT_EQ(nanoseconds(converted.samples[0].stamp), 100'005'000'000);
-  EXPECT_NEAR(converted.samples[0].gyro.x(), M_PI, 1e-12);
-  EXPECT_NEAR(converted.samples[0].accel.z(), 9.80665, 1e-12);
+  const ImuOfFile converted = readImuCsv(units.path);
+  ASSERT_EQ(converted.readings.samples.size(), 2u);
+  EXPECT_EQ(nanoseconds(converted.readings.samples[0].stamp), 100'005'000'000);
+  EXPECT_NEAR(converted.readings.samples[0].gyro.x(), M_PI, 1e-12);
+  EXPECT_NEAR(converted.readings.samples[0].accel.z(), 9.80665, 1e-12);
   EXPECT_EQ(converted.notes.size(), 3u);
 }
 
@@ -89,7 +90,7 @@ TEST(ImuCsv, takesStampsInTheUnitOfAnImusPace)
   const auto second = [](const std::string& first_stamp, const std::string& second_stamp)
   {
     const Table csv(first_stamp + ",0,0,0,0,0,9.8\n" + second_stamp + ",0,0,0,0,0,9.8\n");
-    return nanoseconds(readImuCsv(csv.path).samples.at(1).stamp);
+    return nanoseconds(readImuCsv(csv.path).readings.samples.at(1).stamp);
   };
   EXPECT_EQ(second("1750000000000000000", "1750000000005000000"), 1750000000005000000);
   EXPECT_EQ(second("1750000000000000", "1750000000005000"), 1750000000005000000);
@@ -99,10 +100,9 @@ TEST(ImuCsv, takesStampsInTheUnitOfAnImusPace)
 TEST(ImuCsv, leavesOutALineThatIsThereTwiceAndCountsIt)
 {
   const Table csv("1000000000,0,0,0,0,0,9\n1005000000,0,0,0,0,0,9\n1005000000,0,0,0,0,0,9\n");
-  const ImuCsv imu = readImuCsv(csv.path);
-  EXPECT_EQ(imu.samples.size(), 2u);
-  ASSERT_EQ(imu.notes.size(), 1u);
-  EXPECT_THAT(imu.notes[0], HasSubstr("1 lines repeat"));
+  const ImuOfFile imu = readImuCsv(csv.path);
+  EXPECT_EQ(imu.readings.samples.size(), 2u);
+  EXPECT_EQ(imu.readings.copies, 1u);
 }
 
 TEST(ImuCsv, isRecognisedByItsFirstLines)
@@ -124,7 +124,7 @@ TEST(ImuCsv, writesWhatReadsBackToTheBit)
   ImuCsvWriter writer(csv.path);
   for (const ImuSample& sample : samples) writer.add(sample);
   writer.close();
-  const auto again = readImuCsv(csv.path).samples;
+  const auto again = readImuCsv(csv.path).readings.samples;
 
   ASSERT_EQ(again.size(), samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i)
@@ -143,7 +143,7 @@ TEST(ImuCsv, saysWhenItCannotWrite)
 TEST(ImuCsv, readsTheRecordingsAt200Hz)
 {
   SCANLOOM_NEEDS_DATA(csv, "recordings/sparse/imu.csv");
-  const auto samples = readImuCsv(csv).samples;
+  const auto samples = readImuCsv(csv).readings.samples;
   EXPECT_NEAR(seconds(samples.back().stamp - samples.front().stamp) / static_cast<double>(samples.size() - 1), 0.005,
               1e-6);
   EXPECT_NEAR(samples.front().accel.norm(), 9.80665, 0.1);

@@ -44,7 +44,7 @@ TEST(RawlogBag, holdsTheSensorsByTheirLabelsAndPoses)
   ASSERT_TRUE(rear);
   EXPECT_NEAR((rear->translation - Eigen::Vector3d(-1, 0, 2)).norm(), 0, 1e-9);
   EXPECT_NEAR(contents.frames.transform("base_link", "xsens")->translation.z(), 1, 1e-9);
-  const auto imu = readBagImu({folder / "drive.rawlog"}, "xsens");
+  const auto imu = readBagImu({folder / "drive.rawlog"}, "xsens").samples;
   ASSERT_EQ(imu.size(), 1U);
   EXPECT_EQ(imu[0].stamp, sample.stamp);
   EXPECT_EQ(imu[0].accel, sample.accel);

@@ -228,7 +228,7 @@ TEST(RecordingFolder, hasBothImusAndTheTruthOnOneClock)
   const TemporaryFolder folder;
   record(folder / "a");
 
-  const auto imu = readImuCsv(folder / "a" / "imu.csv").samples;
+  const auto imu = readImuCsv(folder / "a" / "imu.csv").readings.samples;
   const Trajectory truth = readTum(folder / "a" / "groundtruth.tum");
 
   EXPECT_EQ(imu.size(), 800U);

@@ -62,7 +62,7 @@ TEST(ToMcap, writesCloudsImuAndPosesThatABagReaderReads)
                                                     "/path nav_msgs/Path 1", "/tf tf2_msgs/TFMessage 2",
                                                     "/tf_static tf2_msgs/TFMessage 1"));
   EXPECT_DOUBLE_EQ(contents.frames.transform("base_link", "imu_left")->translation.z(), 1);
-  const std::vector<ImuSample> imu = readBagImu({file}, "/imu_left");
+  const std::vector<ImuSample> imu = readBagImu({file}, "/imu_left").samples;
   ASSERT_EQ(imu.size(), 1u);
   EXPECT_EQ(imu[0].gyro, Eigen::Vector3d(0.1, 0.2, 0.3));
 }

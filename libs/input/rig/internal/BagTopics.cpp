@@ -79,7 +79,7 @@ void resolveTopics(const RecordingPaths& recordings, std::vector<RigSensor>& lid
   }
 }
 
-std::vector<ImuSample> imuOfTopic(const RecordingPaths& recordings, const std::string& topic)
+ImuOfEachStamp imuOfTopic(const RecordingPaths& recordings, const std::string& topic)
 {
   try
   {

@@ -16,5 +16,5 @@ namespace scanloom
 void resolveTopics(const std::vector<std::filesystem::path>& recordings, std::vector<RigSensor>&);
 
 /** Throws ConfigError, naming the topics there are, if no bag has it. */
-std::vector<ImuSample> imuOfTopic(const std::vector<std::filesystem::path>& recordings, const std::string& topic);
+ImuOfEachStamp imuOfTopic(const std::vector<std::filesystem::path>& recordings, const std::string& topic);
 }  // namespace scanloom

@@ -14,7 +14,7 @@ void addCounts(const std::vector<CropCounts>& cropped, const std::vector<Recorde
 
 std::vector<std::string> cropWarnings(const std::vector<CropCounts>& cropped, const std::vector<RecordedLidar>& lidars)
 {
-  constexpr double kLeast = 0.1;
+  constexpr double kLeast = 0.1, kMost = 0.9;
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < cropped.size(); ++i)
   {
@@ -22,8 +22,9 @@ std::vector<std::string> cropWarnings(const std::vector<CropCounts>& cropped, co
     if (static_cast<double>(c.kept) >= kLeast * static_cast<double>(c.all())) continue;
     warnings.push_back(
         fmt::format("[crop] leaves {} of {} points of lidar '{}': {} are in the machine's box, {} in its own, {} too "
-                    "near, {} too far",
-                    c.kept, c.all(), lidars.at(i).name, c.machine, c.lidar_box, c.too_near, c.too_far));
+                    "near, {} too far{}",
+                    c.kept, c.all(), lidars.at(i).name, c.machine, c.lidar_box, c.too_near, c.too_far,
+                    static_cast<double>(c.too_far) > kMost * static_cast<double>(c.all()) ? ": are they in mm?" : ""));
   }
   return warnings;
 }
