@@ -12,10 +12,8 @@
 namespace scanloom
 {
 /** Must end with messages of known topics whose bytes can be read, or with a std::runtime_error when it is opened. */
-inline void readBag(const std::vector<std::uint8_t>& content)
+inline void readBagAt(const std::filesystem::path& path)
 {
-  static const MemoryFile file;
-  const std::filesystem::path& path = file.holding(content);
   std::unique_ptr<BagReader> bag;
   try
   {
@@ -34,6 +32,12 @@ inline void readBag(const std::vector<std::uint8_t>& content)
   }
   require(bag->progress() >= 0 && bag->progress() <= 1);
   require(bag->takeWarnings().size() < 10 && sum < ~0U);
+}
+
+inline void readBag(const std::vector<std::uint8_t>& content)
+{
+  static const MemoryFile file;
+  readBagAt(file.holding(content));
 }
 
 inline void append(std::vector<std::uint8_t>& to, const std::string& text)
