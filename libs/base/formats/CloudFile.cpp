@@ -49,10 +49,12 @@ bool beginsLikePly(std::string_view bytes)
   return beginsWith(bytes, "ply") && bytes.size() > 3 && std::isspace(static_cast<unsigned char>(bytes[3]));
 }
 
-/** The comment in the first line is the library's habit, not a rule. */
+/** Comments, with which PCL begins, and the version (".7", "0.7") may be missing. */
 bool beginsLikePcd(std::string_view bytes)
 {
-  return beginsWith(bytes, "# .PCD") || beginsWith(bytes, "VERSION .") || beginsWith(bytes, "FIELDS ");
+  while (beginsWith(bytes, "#") && bytes.find('\n') != std::string_view::npos)
+    bytes.remove_prefix(bytes.find('\n') + 1);
+  return beginsWith(bytes, "VERSION .") || beginsWith(bytes, "VERSION 0.") || beginsWith(bytes, "FIELDS ");
 }
 
 /** The name says what a file was meant to be where its first bytes say nothing. */

@@ -24,7 +24,13 @@ TEST(FileKind, isToldByContentNotByName)
   EXPECT_EQ(kindOfText("{\"lidar\": \"velodyne\", \"model\": \"VLP-16\"}"), FileKind::LidarMetadata);
 }
 
-TEST(FileKind, cloudsByTheirFirstLine) { EXPECT_EQ(kindOfText("ply\nformat ascii 1.0\n"), FileKind::Cloud); }
+TEST(FileKind, cloudsByTheirFirstLines)
+{
+  EXPECT_EQ(kindOfText("ply\nformat ascii 1.0\n"), FileKind::Cloud);
+  EXPECT_EQ(kindOfText("# .PCD v.7 - Point Cloud Data file format\nVERSION .7\nFIELDS x y z\n"), FileKind::Cloud);
+  EXPECT_EQ(kindOfText("VERSION 0.7\nFIELDS x y z\n"), FileKind::Cloud);
+  EXPECT_EQ(kindOfText("# by a driver\nFIELDS x y z\n"), FileKind::Cloud);
+}
 
 TEST(FileKind, otherTextsAreNoneOfThem)
 {
