@@ -172,7 +172,9 @@ std::string wayOut(const SampledStream& stream)
   for (const SampledStream& stream : streams) ways_out += wayOut(stream);
   for (const MetadataCandidate& candidate : candidates) message += "\n  " + whyNot(candidate, streams);
   if (candidates.empty() && ways_out.empty())
-    ways_out = "; an Ouster needs its metadata (JSON) beside the capture, or --metadata FILE";
+    ways_out =
+        "; Velodyne, Hesai and Robosense are read, and Ouster: it needs its metadata (JSON) beside the capture, or "
+        "--metadata FILE";
   throw UsageError(message + ways_out);
 }
 

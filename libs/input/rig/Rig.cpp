@@ -14,19 +14,29 @@ namespace
 {
 using Poses = std::map<std::string, Rigid>;
 
+/** Throws ConfigError for a sensor that is farther from its body than the longest ship is. */
+Rigid ofPlausibleSize(const std::string& key, const Rigid& pose)
+{
+  constexpr double kFarthest = 400;  // m
+  if (const double distance = pose.translation.norm(); distance > kFarthest)
+    throw ConfigError(fmt::format(
+        "{}: {:.0f} m from the body's origin: in mm? Poses are x y z (m) yaw pitch roll (deg)", key, distance));
+  return pose;
+}
+
 Rigid poseOf(const std::string& key, const std::string& pose, const std::string& sensor, const RigOptions& rig,
              const Poses& poses)
 {
   if (!pose.empty()) try
     {
-      return parsePose(pose);
+      return ofPlausibleSize(key, parsePose(pose));
     }
     catch (const std::invalid_argument& problem)
     {
       throw ConfigError(fmt::format("{} = {}: {}", key, pose, problem.what()));
     }
   const auto found = poses.find("T_body_" + sensor);
-  if (found != poses.end()) return found->second;
+  if (found != poses.end()) return ofPlausibleSize(found->first, found->second);
   throw ConfigError(
       rig.extrinsics.empty()
           ? fmt::format("{} is missing: give [x y z yaw pitch roll] (m, deg), or 'extrinsics = FILE'", key)
@@ -73,7 +83,7 @@ ImuOfFile bodyImuOf(const RigOptions& options, const std::vector<std::filesystem
     throw ConfigError(fmt::format("imu_csv = {} and imu_topic = {}: two IMUs of the body: give one", options.imu_csv,
                                   options.imu_topic));
   ImuOfFile imu = options.imu_topic.empty() ? readImuCsv(options.imu_csv)
-                                              : ImuOfFile{imuOfTopic(recordings, options.imu_topic), {}};
+                                            : ImuOfFile{imuOfTopic(recordings, options.imu_topic), {}};
   const std::optional<std::string> left_out = imu.readings.leftOut();
   if (!left_out) return imu;
   const std::string said = fmt::format("{}{}: {}", options.imu_topic, options.imu_csv, *left_out);

@@ -88,6 +88,22 @@ TEST(Rig, namesTheKeyOfAnAddressThatIsNone)
             "lidar 'right', key 'address': 'left' is no IP address: write it as 192.168.1.10 or fe80::1");
 }
 
+TEST(Rig, asksWhetherAPoseIsInMillimetres)
+{
+  const Configuration configuration = Configuration::fromText(
+      "[rig]\ndriver = CMultiLidarSensor\nlidar1_metadata = VLP-16\nlidar1_pose = [1500 0 2500 0 0 0]\n", "x.ini");
+  try
+  {
+    makeRig(readRigSettings(configuration, "rig"));
+    FAIL() << "accepted";
+  }
+  catch (const ConfigError& error)
+  {
+    EXPECT_EQ(std::string(error.what()),
+              "lidar1_pose: 2915 m from the body's origin: in mm? Poses are x y z (m) yaw pitch roll (deg)");
+  }
+}
+
 TEST(Rig, saysThatTwoLidarsHaveTheMetadataOfOneSensor)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
