@@ -5,11 +5,13 @@
 #include "base/core/printable.h"
 #include "input/rig/RecognisedRig.h"
 #include "input/rig/RigOptions.h"
+#include "mrpt/edit/RawlogHeader.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace scanloom
 {
@@ -28,6 +30,30 @@ void nameUnused(const std::vector<UnusedFile>& files)
   for (std::size_t i = 0; i < std::min(data.size(), kNamed); ++i) warn("not used: " + data[i]);
   if (data.size() > kNamed) warn(fmt::format("not used: {} more files", data.size() - kNamed));
   if (!others.empty()) fmt::print(stderr, "not used: {}\n", fmt::join(others, ", "));
+}
+
+/** A rawlog of `record`: its first object says so. */
+bool isOfRecord(const std::filesystem::path& rawlog)
+try
+{
+  return headerOf(rawlog).has_value();
+}
+catch (const std::exception&)  // damaged: it is for its reader to say
+{
+  return false;
+}
+
+/** What `record` wrote into the folder of its captures is a result, not another recording. */
+RecordingFiles withoutRecorded(RecordingFiles files, const std::vector<std::filesystem::path>& given)
+{
+  if (files.captures.empty()) return files;
+  const auto isResult = [&](const std::filesystem::path& rawlog)
+  { return std::find(given.begin(), given.end(), rawlog) == given.end() && isOfRecord(rawlog); };
+  const auto results = std::stable_partition(files.rawlogs.begin(), files.rawlogs.end(), std::not_fn(isResult));
+  for (auto result = results; result != files.rawlogs.end(); ++result)
+    files.unused.push_back({*result, "written by 'scanloom record'"});
+  files.rawlogs.erase(results, files.rawlogs.end());
+  return files;
 }
 }  // namespace
 
@@ -48,7 +74,7 @@ RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds)
 {
   std::vector<std::filesystem::path> given = arguments.paths;
   given.insert(given.end(), arguments.metadata.begin(), arguments.metadata.end());
-  const RecordingFiles files = filesOf(given);
+  const RecordingFiles files = withoutRecorded(filesOf(given), given);
   nameUnused(files.unused);
   if (!files.captures.empty() && !files.rawlogs.empty())
     throw UsageError(fmt::format("{} is a capture and {} a rawlog: name one of them", files.captures.front().string(),

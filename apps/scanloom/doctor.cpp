@@ -135,6 +135,9 @@ int run(const DoctorArguments& arguments)
     findings.push_back({"rig", "sensors", Verdict::NotFit,
                         fmt::format("{} of the recording cannot be used", loaded.sensors.not_used),
                         "mend what the warnings at the beginning name, or take its file away"});
+  if (rig && rig->lidars.size() > 1 && !loaded.sensors.poses_known)
+    findings.push_back({"rig", "poses", Verdict::NotFit, "not all poses of the lidars in the body frame are known",
+                        "give them as the warnings at the beginning say, or 'scanloom calibrate' this recording"});
   return report(findings, toJson(examination, findings), arguments);
 }
 

@@ -214,6 +214,24 @@ TEST_F(Strangers, metadataOfOneLidarThatContradictThemselves)
   EXPECT_THAT(scanloom(world_->path(), "info metadata").output, HasSubstr("left.json: beam_altitude_angles"));
 }
 
+TEST_F(Strangers, whatRecordWroteIntoTheFolder)
+{
+  fs::copy(*world_ / "drive", *world_ / "own");
+  const Ended recorded = scanloom(*world_ / "own", "record . -o drive.rawlog");
+  ASSERT_EQ(recorded.status, 0) << recorded.output;
+  expectRight("own", ", drive.rawlog\n");
+}
+
+TEST_F(Strangers, twoLidarsWithoutPosesAreNotFit)
+{
+  fs::copy(*world_ / "drive", *world_ / "poseless");
+  fs::remove(*world_ / "poseless/extrinsics.txt");
+  fs::remove(*world_ / "poseless/imu.csv");
+  const Ended ended = scanloom(world_->path(), "doctor poseless");
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_THAT(ended.output, HasSubstr("not all poses of the lidars in the body frame are known"));
+}
+
 TEST_F(Strangers, captureThatIsAPointerOfGitLfs)
 {
   altered("pointer", "recording.pcap",
