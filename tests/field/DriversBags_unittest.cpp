@@ -3,6 +3,7 @@
  * right, that is where it is by the usual driver's bag, or said.
  */
 #include "HallBag.h"
+#include "base/formats/Trajectory.h"
 #include "support/TemporaryFolder.h"
 #include "support/runProgram.h"
 
@@ -11,7 +12,6 @@
 
 #include <memory>
 #include <random>
-#include <sstream>
 
 namespace scanloom::drivers_bags_unittest
 {
@@ -93,15 +93,8 @@ class DriversBags : public testing::Test
 
   static Eigen::Vector3d lastPositionOf(const std::string& name)
   {
-    std::istringstream lines(contentOf(*world_ / (name + "_slam") / "trajectory.tum"));
-    Eigen::Vector3d position(0, 0, 0);
-    for (std::string line; std::getline(lines, line);)
-    {
-      std::istringstream words(line);
-      double stamp = 0;
-      if (words >> stamp) words >> position.x() >> position.y() >> position.z();
-    }
-    return position;
+    const Trajectory poses = readTum(*world_ / (name + "_slam") / "trajectory.tum");
+    return poses.empty() ? Eigen::Vector3d::Zero() : poses.back().map_T_body.translation;
   }
 
   static void expectRight(const std::string& name)

@@ -77,9 +77,7 @@ inline HallDrive driveThroughHall()
       const Rigid world_T_lidar = stateAt(turn * 100ms + Duration{after}, path).map_T_imu;
       for (int ring = 0; ring < kBeams; ++ring)
       {
-        const double azimuth = -2 * M_PI * column / kColumns, elevation = (2 * ring - 15) * kDegree;
-        const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                                  std::sin(elevation));
+        const Eigen::Vector3d ray = rayAt(-2 * M_PI * column / kColumns, (2 * ring - 15) * kDegree);
         const auto range = world.range(world_T_lidar.translation, world_T_lidar.rotation * ray, 100);
         if (!range) continue;
         const Eigen::Vector3f p = (*range * ray).cast<float>();

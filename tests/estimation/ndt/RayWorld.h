@@ -45,6 +45,12 @@ struct RayWorld
   }
 };
 
+/** Unit vector in a lidar's frame; rad, the azimuth from x towards y, the elevation upwards. */
+inline Eigen::Vector3d rayAt(double azimuth, double elevation)
+{
+  return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+}
+
 struct RayLidar
 {
   int beams = 128;
@@ -67,8 +73,7 @@ inline std::vector<Eigen::Vector3f> scanFrom(const RayWorld& world, const Rigid&
     {
       const double azimuth = phase + 2 * M_PI * column / lidar.columns;
       const double elevation = lidar.half_fov * (1 - 2.0 * beam / (lidar.beams - 1));
-      const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                                std::sin(elevation));
+      const Eigen::Vector3d ray = rayAt(azimuth, elevation);
       if (const auto range = world.range(world_T_lidar.translation, world_T_lidar.rotation * ray, lidar.farthest))
         points.push_back(((*range + noise(random)) * ray).cast<float>());
     }

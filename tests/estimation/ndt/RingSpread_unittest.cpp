@@ -1,5 +1,6 @@
 #include "estimation/ndt/internal/RingSpread.h"
 
+#include "RayWorld.h"
 #include "base/core/Angle.h"
 #include "estimation/ndt/NdtMap.h"
 
@@ -62,10 +63,8 @@ TEST(View, theRingsOfALidarAreThoseOfItsPoints)
   for (int column = 0; column < 360; ++column)
     for (int ring = 0; ring < 16; ++ring)
     {
-      const double azimuth = column * kDegree, elevation = (15 - 2 * ring) * kDegree;
-      const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                                std::sin(elevation));
-      const Eigen::Vector3d p = cloud_T_lidar * Eigen::Vector3d((5 + ring) * ray);
+      const Eigen::Vector3d p =
+          cloud_T_lidar * Eigen::Vector3d((5 + ring) * rayAt(column * kDegree, (15 - 2 * ring) * kDegree));
       cloud.resize(cloud.size() + 1);
       cloud.x.back() = static_cast<float>(p.x());
       cloud.y.back() = static_cast<float>(p.y());

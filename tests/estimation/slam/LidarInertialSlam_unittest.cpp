@@ -808,36 +808,21 @@ RayWorld flatHall()
 Scan turnOfSixteenBeams(const RayWorld& world, Timestamp start, const Machine& machine)
 {
   constexpr std::size_t kColumns = 900;
-  Scan scan;
-  scan.start = start;
-  scan.period = 100ms;
-  scan.columns_of = {kColumns};
-  for (std::size_t c = 0; c < kColumns; ++c)
-  {
-    Column column;
-    column.stamp = start + scan.period * static_cast<std::int64_t>(c) / static_cast<std::int64_t>(kColumns);
-    column.first_point = static_cast<std::uint32_t>(scan.points.size());
-    column.measurement_id = static_cast<std::uint16_t>(c);
-    const Rigid world_T_lidar = machine.bodyAt(column.stamp) * Rigid::fromXyzYawPitchRoll(0, 0, 0.5, 0, 0, 0);
-    for (int ring = 0; ring < 16; ++ring)
-    {
-      const double azimuth = -2 * M_PI * static_cast<double>(c) / kColumns, elevation = (15 - 2 * ring) * kDegree;
-      const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
-                                std::sin(elevation));
-      const auto range = world.range(world_T_lidar.translation, world_T_lidar.rotation * ray, 100);
-      if (!range) continue;
-      const Eigen::Vector3d p = *range * ray + Eigen::Vector3d(0, 0, 0.5);
-      scan.points.resize(scan.points.size() + 1);
-      scan.points.x.back() = static_cast<float>(p.x());
-      scan.points.y.back() = static_cast<float>(p.y());
-      scan.points.z.back() = static_cast<float>(p.z());
-      scan.points.ring.back() = static_cast<std::uint8_t>(ring);
-      scan.points.range.back() = static_cast<std::uint32_t>(1000 * *range);
-    }
-    column.count = static_cast<std::uint16_t>(scan.points.size() - column.first_point);
-    scan.columns.push_back(column);
-  }
-  return scan;
+  const Rigid body_T_lidar = Rigid::fromXyzYawPitchRoll(0, 0, 0.5, 0, 0, 0);
+  return scanOf(kColumns, start,
+                [&](Scan& scan, std::size_t column, Timestamp stamp)
+                {
+                  const Rigid world_T_lidar = machine.bodyAt(stamp) * body_T_lidar;
+                  for (int ring = 0; ring < 16; ++ring)
+                  {
+                    const Eigen::Vector3d ray =
+                        rayAt(-2 * M_PI * static_cast<double>(column) / kColumns, (15 - 2 * ring) * kDegree);
+                    const auto range = world.range(world_T_lidar.translation, world_T_lidar.rotation * ray, 100);
+                    if (!range) continue;
+                    append(scan, body_T_lidar * Eigen::Vector3d(*range * ray));
+                    scan.points.ring.back() = static_cast<std::uint8_t>(ring);
+                  }
+                });
 }
 }  // namespace
 

@@ -10,6 +10,37 @@
 
 namespace scanloom
 {
+inline void append(Scan& scan, const Eigen::Vector3d& p)
+{
+  const std::size_t i = scan.points.size();
+  scan.points.resize(i + 1);
+  scan.points.x[i] = static_cast<float>(p.x());
+  scan.points.y[i] = static_cast<float>(p.y());
+  scan.points.z[i] = static_cast<float>(p.z());
+  scan.points.range[i] = static_cast<std::uint32_t>(1000 * p.norm());
+}
+
+/** Of [start, start + 100 ms); `appendColumn` appends what is seen in a column, by its number and stamp. */
+inline Scan scanOf(std::size_t columns, Timestamp start,
+                   const std::function<void(Scan&, std::size_t column, Timestamp)>& appendColumn)
+{
+  Scan scan;
+  scan.start = start;
+  scan.period = 100ms;
+  scan.columns_of = {static_cast<std::uint32_t>(columns)};
+  for (std::size_t c = 0; c < columns; ++c)
+  {
+    Column column;
+    column.stamp = start + scan.period * static_cast<std::int64_t>(c) / static_cast<std::int64_t>(columns);
+    column.first_point = static_cast<std::uint32_t>(scan.points.size());
+    column.measurement_id = static_cast<std::uint16_t>(c);
+    appendColumn(scan, c, column.stamp);
+    column.count = static_cast<std::uint16_t>(scan.points.size() - column.first_point);
+    scan.columns.push_back(column);
+  }
+  return scan;
+}
+
 class StandOfStems
 {
  public:
@@ -37,35 +68,15 @@ class StandOfStems
   Scan scanAt(Timestamp start, const std::function<Rigid(Timestamp)>& map_T_body) const
   {
     constexpr std::size_t kColumns = 64;
-    Scan scan;
-    scan.start = start;
-    scan.period = 100ms;
-    scan.columns_of = {kColumns};
-    for (std::size_t c = 0; c < kColumns; ++c)
-    {
-      Column column;
-      column.stamp = start + scan.period / kColumns * static_cast<std::int64_t>(c);
-      column.first_point = static_cast<std::uint32_t>(scan.points.size());
-      column.measurement_id = static_cast<std::uint16_t>(c);
-      const Rigid body_T_map = map_T_body(column.stamp).inverse();
-      for (std::size_t i = c; i < points_.size(); i += kColumns) append(scan, body_T_map * points_[i]);
-      column.count = static_cast<std::uint16_t>(scan.points.size() - column.first_point);
-      scan.columns.push_back(column);
-    }
-    return scan;
+    return scanOf(kColumns, start,
+                  [&](Scan& scan, std::size_t c, Timestamp stamp)
+                  {
+                    const Rigid body_T_map = map_T_body(stamp).inverse();
+                    for (std::size_t i = c; i < points_.size(); i += kColumns) append(scan, body_T_map * points_[i]);
+                  });
   }
 
  private:
-  static void append(Scan& scan, const Eigen::Vector3d& p)
-  {
-    const std::size_t i = scan.points.size();
-    scan.points.resize(i + 1);
-    scan.points.x[i] = static_cast<float>(p.x());
-    scan.points.y[i] = static_cast<float>(p.y());
-    scan.points.z[i] = static_cast<float>(p.z());
-    scan.points.range[i] = static_cast<std::uint32_t>(1000 * p.norm());
-  }
-
   std::vector<Eigen::Vector3d> points_;
 };
 }  // namespace scanloom
