@@ -3,6 +3,7 @@
 
 #include "base/core/ConfigError.h"
 #include "base/core/printable.h"
+#include "input/bags/BagReader.h"
 #include "input/rig/RecognisedRig.h"
 #include "input/rig/RigOptions.h"
 #include "mrpt/edit/RawlogHeader.h"
@@ -43,16 +44,30 @@ catch (const std::exception&)  // damaged: it is for its reader to say
   return false;
 }
 
-/** What `record` wrote into the folder of its captures is a result, not another recording. */
-RecordingFiles withoutRecorded(RecordingFiles files, const std::vector<std::filesystem::path>& given)
+using Paths = RecordingFiles::Paths;
+
+/** Moves those of `paths` that are results, unless a person named them, to the files that are not used. */
+void putAside(Paths& paths, const std::function<bool(const std::filesystem::path&)>& isResult, const std::string& why,
+              std::vector<UnusedFile>& unused)
 {
+  const auto results = std::stable_partition(paths.begin(), paths.end(), std::not_fn(isResult));
+  for (auto result = results; result != paths.end(); ++result) unused.push_back({*result, why});
+  paths.erase(results, paths.end());
+}
+
+/** What `record` and `edit` wrote into the folder of a recording is a result, not another recording. */
+RecordingFiles withoutResults(RecordingFiles files, const Paths& given)
+{
+  const auto wasGiven = [&](const std::filesystem::path& file)
+  { return std::find(given.begin(), given.end(), file) != given.end(); };
+  const auto isExport = [&](const std::filesystem::path& file) { return !wasGiven(file) && isExportedBag(file); };
+  const bool all_exported = std::all_of(files.captures.begin(), files.captures.end(), isExport);
+  if (!all_exported || !files.rawlogs.empty())
+    putAside(files.captures, isExport, "written by 'scanloom edit --to-mcap'", files.unused);
   if (files.captures.empty()) return files;
-  const auto isResult = [&](const std::filesystem::path& rawlog)
-  { return std::find(given.begin(), given.end(), rawlog) == given.end() && isOfRecord(rawlog); };
-  const auto results = std::stable_partition(files.rawlogs.begin(), files.rawlogs.end(), std::not_fn(isResult));
-  for (auto result = results; result != files.rawlogs.end(); ++result)
-    files.unused.push_back({*result, "written by 'scanloom record'"});
-  files.rawlogs.erase(results, files.rawlogs.end());
+  putAside(
+      files.rawlogs, [&](const std::filesystem::path& file) { return !wasGiven(file) && isOfRecord(file); },
+      "written by 'scanloom record'", files.unused);
   return files;
 }
 }  // namespace
@@ -74,7 +89,7 @@ RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds)
 {
   std::vector<std::filesystem::path> given = arguments.paths;
   given.insert(given.end(), arguments.metadata.begin(), arguments.metadata.end());
-  const RecordingFiles files = withoutRecorded(filesOf(given), given);
+  const RecordingFiles files = withoutResults(filesOf(given), given);
   nameUnused(files.unused);
   if (!files.captures.empty() && !files.rawlogs.empty())
     throw UsageError(fmt::format("{} is a capture and {} a rawlog: name one of them", files.captures.front().string(),

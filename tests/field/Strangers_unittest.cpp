@@ -214,11 +214,14 @@ TEST_F(Strangers, metadataOfOneLidarThatContradictThemselves)
   EXPECT_THAT(scanloom(world_->path(), "info metadata").output, HasSubstr("left.json: beam_altitude_angles"));
 }
 
-TEST_F(Strangers, whatRecordWroteIntoTheFolder)
+TEST_F(Strangers, whatRecordAndEditWroteIntoTheFolder)
 {
   fs::copy(*world_ / "drive", *world_ / "own");
   const Ended recorded = scanloom(*world_ / "own", "record . -o drive.rawlog");
   ASSERT_EQ(recorded.status, 0) << recorded.output;
+  const Ended exported = scanloom(*world_ / "own", "edit -q -i drive.rawlog --to-mcap drive.mcap");
+  ASSERT_EQ(exported.status, 0) << exported.output;
+  expectRight("own", ", drive.mcap, ");
   expectRight("own", ", drive.rawlog\n");
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/formats/CompressedFile.h"
 #include "input/bags/internal/McapBag.h"
+#include "input/bags/internal/McapWriter.h"
 #include "input/bags/internal/MergedBags.h"
 #include "input/bags/internal/RawlogBag.h"
 #include "input/bags/internal/Ros1Bag.h"
@@ -28,7 +29,7 @@ struct Container
 };
 
 const Container kContainers[] = {
-    {"SQLite format 3\0"sv, &openSqliteBag}, {"\x89MCAP0\r\n"sv, &openMcapBag}, {"#ROSBAG V2.0\n"sv, &openRos1Bag}};
+    {"SQLite format 3\0"sv, &openSqliteBag}, {kMcapMagic, &openMcapBag}, {"#ROSBAG V2.0\n"sv, &openRos1Bag}};
 
 /** Null if it is none. Throws std::runtime_error if the file cannot be read. */
 const Container* containerOf(const Path& path)
@@ -86,6 +87,16 @@ std::unique_ptr<BagReader> BagReader::open(const Path& path)
 bool isBag(const Path& path)
 {
   return std::filesystem::is_directory(path) ? !bagFilesIn(path).empty() : isBagFile(path);
+}
+
+bool isExportedBag(const Path& path)
+{
+  // The magic, kind and length of the header's record, then profile and library, each after its length of 4 bytes.
+  constexpr std::size_t kLibrary = kMcapMagic.size() + 1 + 8 + 4 + kMcapProfile.size() + 4;
+  if (std::filesystem::is_directory(path) || !isBagFile(path)) return false;
+  std::string bytes(kLibrary + kMcapLibrary.size(), '\0');
+  CompressedFile(path).readUpTo(bytes.data(), bytes.size());
+  return bytes.compare(0, kMcapMagic.size(), kMcapMagic) == 0 && bytes.substr(kLibrary) == kMcapLibrary;
 }
 
 std::vector<BagTopic> topicsOf(const std::vector<Path>& recordings)

@@ -58,6 +58,9 @@ class BagReader
 /** Whether it is a bag by what it begins with, gzip and zstd unpacked, or a folder that holds one. */
 bool isBag(const std::filesystem::path& file_or_folder);
 
+/** Whether it is an MCAP of our McapWriter: its header names scanloom as the library that wrote it. */
+bool isExportedBag(const std::filesystem::path&);
+
 /** The topics of all bags among the files, of each file in its order. Throws what BagReader::open throws. */
 std::vector<BagTopic> topicsOf(const std::vector<std::filesystem::path>& recordings);
 

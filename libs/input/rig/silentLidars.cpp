@@ -28,7 +28,9 @@ std::string whatBecameOf(const LidarAccount& lidar)
   add("blocks left out for their clock (quarantined)", c.quarantined);
   add("blocks late", c.late);
   add("blocks invalid", c.invalid);
-  return counts.empty() ? "no packet of it came" : counts;
+  return counts.empty() ? "no packet of it came: does it send to this computer (udp_dest), does its configuration name "
+                          "the right port, does a firewall let it through?"
+                        : counts;
 }
 }  // namespace
 

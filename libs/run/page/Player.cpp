@@ -104,6 +104,8 @@ void Player::showScan(const Scan& scan)
   StateEstimate estimate;
   estimate.stamp = scan.end();
   estimate.map_T_body = *pose;
+  if (const std::optional<Rigid> before = poseAt(poses_, scan.start, 1s))
+    estimate.velocity = (pose->translation - before->translation) / seconds(scan.end() - scan.start);
   if (!last_keyframe_ || (pose->translation - last_keyframe_->translation).norm() > kBetweenKeyframes)
   {
     estimate.keyframe = Keyframe{scan.end(), *pose, scan.points};

@@ -117,7 +117,7 @@ class SlamRun
     return {input_.progress(), counts_.scans, counts_.recorded(), secondsSince(start_) - waited};
   }
 
-  bool hasPoses() const { return counts_.poses > 0; }
+  bool hasBegun() const { return counts_.scans > 0; }
 
   SlamRunResult failed(const std::exception& error) const
   {
@@ -310,7 +310,7 @@ SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, const Se
   }
   catch (const std::exception& error)
   {
-    if (!run.hasPoses()) throw;
+    if (!run.hasBegun()) throw;
     return run.failed(error);
   }
   return run.result(!going);

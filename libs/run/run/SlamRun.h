@@ -47,8 +47,9 @@ struct SlamRunResult
  * Runs to the end of the input. Throws ConfigError if settings.slam.imu names an IMU that the input does not have, and
  * what requireGravity() throws.
  *
- * Whatever else the input or the localisation throws ends the run: the outcome is FAILED, the summary tells the error,
- * and the estimates so far are kept. Before the first pose there is nothing to keep, and it is thrown on.
+ * Whatever else the input or the localisation throws ends the run: the outcome is FAILED, the summary tells the error
+ * and the counts, and the estimates so far are kept. Before the first scan there is nothing to keep, and it is thrown
+ * on.
  *
  * A scan waits in LidarInertialSlam and nowhere else, by one rule: it is processed as soon as the IMU in use covers it,
  * or when a scan arrives that ends ImuInUse::patience() later. By then, if the IMU is silent and another one is not,

@@ -39,8 +39,8 @@ class Recording : public SensorInput
 /** A player of 20 s, in a thread of its own. */
 struct Playing
 {
-  Playing()
-    : player([] { return std::make_unique<Recording>(200); }, {}, exchange),
+  explicit Playing(Trajectory poses = {})
+    : player([] { return std::make_unique<Recording>(200); }, std::move(poses), exchange),
       thread([this] { player.run([this] { return !ended; }); })
   {
   }
@@ -118,6 +118,17 @@ TEST(Player, waitsAtTheEndAndPlaysAgain)
   const PlayerStatus again = playing.once([](const PlayerStatus& s) { return s.playing; });
   EXPECT_TRUE(again.playing);
   EXPECT_LT(again.position, 19);
+}
+
+TEST(Player, tellsTheSpeedThatThePosesShow)
+{
+  Trajectory poses;
+  for (int i = 0; i <= 40; ++i)
+    poses.push_back({Timestamp{i * 500ms}, Rigid::fromXyzYawPitchRoll(1.25 * i, 0, 0, 0, 0, 0)});
+  Playing playing(poses);
+  playing.once([](const PlayerStatus& s) { return s.position > 0; });
+  const std::lock_guard lock(playing.exchange.mutex);
+  EXPECT_NEAR(playing.exchange.status.speed, 2.5, 1e-6);
 }
 
 TEST(PlayerCommand, isOneOfAFew)

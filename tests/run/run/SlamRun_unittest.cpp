@@ -174,9 +174,18 @@ TEST(SlamRun, namesAnImuOfAnotherClockByHowMuchAndDoesNotPass)
   }
 }
 
-TEST_F(BrokenRun, hasNothingToKeepBeforeItsFirstPose)
+TEST_F(BrokenRun, tellsBeforeItsFirstPoseWhatEndedItAndWhatHadCome)
 {
-  EXPECT_THROW(run(2, [] { throw std::runtime_error("the disk is gone"); }), std::runtime_error);
+  EXPECT_FALSE(run(2, [] { throw std::runtime_error("the disk is gone"); }).passed);
+  const auto summary = nlohmann::json::parse(contentOf(folder / "summary.json"));
+  EXPECT_EQ(summary["outcome"], "FAILED");
+  EXPECT_EQ(summary["error"], "the disk is gone");
+  EXPECT_EQ(summary["counts"]["scans"], 2);
+}
+
+TEST_F(BrokenRun, hasNothingToKeepBeforeItsFirstScan)
+{
+  EXPECT_THROW(run(0, [] { throw std::runtime_error("the disk is gone"); }), std::runtime_error);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

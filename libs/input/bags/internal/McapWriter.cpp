@@ -13,7 +13,6 @@ namespace
 using McapBuffer = std::vector<std::uint8_t>;
 
 constexpr std::size_t kFullChunk = 4 << 20;
-const std::string kMcapMagic = "\x89MCAP0\r\n";
 
 enum WrittenRecord : std::uint8_t
 {
@@ -37,7 +36,7 @@ void put(McapBuffer& buffer, Number value)
   store(buffer, at, value);
 }
 
-void putText(McapBuffer& buffer, const std::string& text)
+void putText(McapBuffer& buffer, std::string_view text)
 {
   put(buffer, static_cast<std::uint32_t>(text.size()));
   buffer.insert(buffer.end(), text.begin(), text.end());
@@ -75,8 +74,8 @@ McapWriter::McapWriter(std::ostream& file) : file_(file)
 {
   write({kMcapMagic.begin(), kMcapMagic.end()});
   Buffer header;
-  putText(header, "ros2");
-  putText(header, "scanloom");
+  putText(header, kMcapProfile);
+  putText(header, kMcapLibrary);
   writeRecord(kHeaderRecord, header);
 }
 

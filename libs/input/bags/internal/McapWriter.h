@@ -6,10 +6,14 @@
 #include <map>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace scanloom
 {
+inline constexpr std::string_view kMcapMagic = "\x89MCAP0\r\n";
+inline constexpr std::string_view kMcapProfile = "ros2", kMcapLibrary = "scanloom";  // of the files that we write
+
 /** What a topic's messages are, with their definition as ROS 2 writes it ("ros2msg"). */
 struct McapSchema
 {
