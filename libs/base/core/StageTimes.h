@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace scanloom
 {
@@ -26,6 +28,49 @@ struct StageTime
   }
 };
 
+/** Single runs of stages, which a function returns beside its result. */
+class StageRuns
+{
+ public:
+  struct Run
+  {
+    std::string_view stage;  // of a literal
+    double ms;
+  };
+
+  /** Calls `work`, notes its duration for `stage`, and returns its result. */
+  template <typename Work>
+  auto measure(std::string_view stage, Work&& work)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    auto result = std::forward<Work>(work)();
+    const std::chrono::duration<double, std::milli> ms = std::chrono::steady_clock::now() - start;
+    runs_.push_back({stage, ms.count()});
+    return result;
+  }
+
+  const std::vector<Run>& all() const { return runs_; }
+
+  friend StageRuns operator+(StageRuns a, const StageRuns& b)
+  {
+    a.runs_.insert(a.runs_.end(), b.runs_.begin(), b.runs_.end());
+    return a;
+  }
+
+ private:
+  std::vector<Run> runs_;
+};
+
+/** A result, and what it has taken. */
+template <typename Result>
+struct Timed
+{
+  Result value;
+  StageRuns times;
+};
+template <typename Result>
+Timed(Result, StageRuns) -> Timed<Result>;
+
 class StageTimes
 {
  public:
@@ -35,6 +80,11 @@ class StageTimes
   {
     const Stopwatch stopwatch(stages_[stage]);
     return std::forward<Work>(work)();
+  }
+
+  void add(const StageRuns& runs)
+  {
+    for (const StageRuns::Run& run : runs.all()) stages_[std::string(run.stage)].add(run.ms);
   }
 
   const std::map<std::string, StageTime>& stages() const { return stages_; }

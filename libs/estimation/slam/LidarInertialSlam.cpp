@@ -55,11 +55,12 @@ Scan LidarInertialSlam::withoutMachine(Scan scan)
 
 StateEstimate LidarInertialSlam::process(Scan scan)
 {
-  const Timestamp from = state_->smoother.newest().stamp, to = scan.end();
+  const Timestamp from = state_->window.smoother.newest().stamp, to = scan.end();
   const bool imu_complete = imu_.covers(from, to);
   state_->trust.imu_silent = !imu_.coversDensely(from, to, kImuSilence);
-  TrackedScan tracked = tracker_.step(std::move(*state_), std::move(scan), imu_.between(from, to), times_);
+  TrackedScan tracked = tracker_.step(std::move(*state_), std::move(scan), imu_.between(from, to));
   state_ = std::move(tracked.state);
+  times_.add(tracked.times);
   imu_.forgetBefore(to);
 
   tracked.estimate.imu_complete = imu_complete;

@@ -42,7 +42,7 @@ class LidarInertialSlam
   std::vector<StateEstimate> finish();
 
   /** The window of states, to compare its covariances with a truth; nullptr before the start. */
-  const FixedLagSmoother* smoother() const { return state_ ? &state_->smoother : nullptr; }
+  const FixedLagSmoother* smoother() const { return state_ ? &state_->window.smoother : nullptr; }
 
   const StageTimes& times() const { return times_; }
   std::uint64_t skippedScans() const { return waiting_.skipped(); }

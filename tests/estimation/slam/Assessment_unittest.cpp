@@ -4,32 +4,20 @@
 
 namespace scanloom::assessment_unittest
 {
-namespace
-{
-StateEstimate estimateAt(Duration stamp, bool trusted)
-{
-  StateEstimate estimate;
-  estimate.stamp = Timestamp{stamp};
-  estimate.trusted = trusted;
-  return estimate;
-}
-}  // namespace
-
 TEST(Assessment, isLostOnlyAfterTwoSecondsWithoutATrustedScan)
 {
   const TrustHistory history{Timestamp{10s}, {}, {}};
-  EXPECT_EQ(assess(estimateAt(11s, true), false, history, {}).health, Health::Ok);
-  EXPECT_EQ(assess(estimateAt(11s, true), false, history, {}).last_trusted, Timestamp{11s});
-  EXPECT_EQ(assess(estimateAt(12s, false), false, history, {}).health, Health::Degenerate);
-  EXPECT_EQ(assess(estimateAt(13s, false), false, history, {}).health, Health::Lost);
-  EXPECT_EQ(assess(estimateAt(13s, false), true, history, {}).health, Health::Ok) << "it opens the map";
+  EXPECT_EQ(assess(Timestamp{11s}, true, history, {}).health, Health::Ok);
+  EXPECT_EQ(assess(Timestamp{11s}, true, history, {}).last_trusted, Timestamp{11s});
+  EXPECT_EQ(assess(Timestamp{12s}, false, history, {}).health, Health::Degenerate);
+  EXPECT_EQ(assess(Timestamp{13s}, false, history, {}).health, Health::Lost);
 }
 
 TEST(Assessment, isLostWhereRegistrationsContradictTheImuForTenSeconds)
 {
   TrustHistory history{Timestamp{10s}, {}, {}};
   for (int i = 0; i <= 100; ++i) history.contradiction.add(Timestamp{i * 100ms}, 20);
-  const Assessment assessed = assess(estimateAt(10s, true), false, history, {});
+  const Assessment assessed = assess(Timestamp{10s}, true, history, {});
   EXPECT_TRUE(assessed.contradicted);
   EXPECT_EQ(assessed.health, Health::Lost);
 }
@@ -38,7 +26,7 @@ TEST(Assessment, isNotOkWhileTheImuIsSilent)
 {
   TrustHistory history{Timestamp{10s}, {}, {}};
   history.imu_silent = true;
-  EXPECT_EQ(assess(estimateAt(11s, true), false, history, {}).health, Health::Degenerate);
+  EXPECT_EQ(assess(Timestamp{11s}, true, history, {}).health, Health::Degenerate);
 }
 
 TEST(Assessment, isNotOkWhereTheEstimateIsFarFromItsOwnRegistration)
@@ -48,7 +36,7 @@ TEST(Assessment, isNotOkWhereTheEstimateIsFarFromItsOwnRegistration)
   {
     TrustHistory history{Timestamp{10s}, {}, {}};
     for (int i = 0; i < registrations; ++i) history.divergence.add(metres * Vector6d::Unit(1), covariance);
-    return assess(estimateAt(11s, true), false, history, {}).health;
+    return assess(Timestamp{11s}, true, history, {}).health;
   };
   EXPECT_EQ(healthAfter(100, 0.07), Health::Ok);
   EXPECT_EQ(healthAfter(3, 0.12), Health::Ok) << "a registration may be wrong";

@@ -46,8 +46,8 @@ PoseGuess guessWith(const Rigid& pose, double metres, double radians)
 RegistrationResult registerScan(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
                                 const ScanRegistrationOptions& options)
 {
-  StageTimes times;
-  return registerFinely(map, views, registerRoughly(map, views, guess, options, times).target_T_source, options, times);
+  const Rigid rough = registerRoughly(map, views, guess, options).value.target_T_source;
+  return registerFinely(map, views, rough, options).value;
 }
 
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views, const SearchArea& area)
@@ -88,9 +88,8 @@ TEST(ScanRegistration, largeCellsThatConfuseStemsDoNotOverruleThePrediction)
   const std::vector<View> views = viewsInFogAt(kMapPose * truth, kStand, 5);
   const PoseGuess guess = guessWith(truth * Rigid::fromXyzYawPitchRoll(-0.2, 0.2, 0, 0, 0, 0), 0.25, 0.01);
   const ScanRegistrationOptions options = SlamSettings().registration;
-  StageTimes times;
-  ASSERT_GT(distance(registerRoughly(map, views, guess, options, times).target_T_source, truth), 1);
-  EXPECT_LT(distance(registerTwice(map, views, guess, std::nullopt, options, times).target_T_source, truth), 0.05);
+  ASSERT_GT(distance(registerRoughly(map, views, guess, options).value.target_T_source, truth), 1);
+  EXPECT_LT(distance(registerTwice(map, views, guess, std::nullopt, options).value.target_T_source, truth), 0.05);
 }
 
 TEST(ScanRegistration, aPredictionThatFitsWorseThanWhatLargeCellsFindIsOverruled)
@@ -98,9 +97,8 @@ TEST(ScanRegistration, aPredictionThatFitsWorseThanWhatLargeCellsFindIsOverruled
   const NdtMap map = mapOfOneScan();
   const Rigid truth = Rigid::fromXyzYawPitchRoll(1, -0.5, 0.1, 0.1, 0, 0.02);
   const PoseGuess guess = guessWith(truth * Rigid::fromXyzYawPitchRoll(0.9, -0.6, 0, 0, 0, 0), 0.05, 0.01);
-  StageTimes times;
   const RegistrationResult found =
-      registerTwice(map, viewsAt(kMapPose * truth), guess, std::nullopt, SlamSettings().registration, times);
+      registerTwice(map, viewsAt(kMapPose * truth), guess, std::nullopt, SlamSettings().registration).value;
   EXPECT_GT(surpriseOf(found, guess), 5);
   EXPECT_LT(distance(found.target_T_source, truth), 0.02);
 }

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/imu/ImuInitialisation.h"
-#include "estimation/slam/internal/TrackerState.h"
+#include "estimation/slam/internal/Window.h"
 
 #include <cmath>
 
@@ -49,7 +49,7 @@ TEST(SmootherReset, aWindowBeginsAlsoWithACovarianceThatRoundingHasSpoilt)
 {
   NavEstimate start{NavState{}, Matrix15d::Identity()};
   start.covariance(0, 1) = start.covariance(1, 0) = 1 + 1e-9;
-  const FixedLagSmoother window = windowFrom(start, {}, {});
+  const FixedLagSmoother window = windowFrom(start, {}, {}).smoother;
   EXPECT_NEAR(window.newestCovariance()(0, 0), 1, 1e-6);
 }
 }  // namespace scanloom::smoother_reset_unittest

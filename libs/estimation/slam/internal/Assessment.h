@@ -37,7 +37,7 @@ struct TrustHistory
   std::optional<Timestamp> initialising_until;  // none after a start from standstill
   InnovationMonitor contradiction;              // between registrations and IMU
   DivergenceDetector divergence{};              // of estimates from their registrations
-  std::optional<Timestamp> lidar_believed{};    // when the window last began anew at a registration
+  std::optional<Timestamp> lidar_accepted{};    // when the window last began anew at a registration
   bool imu_silent = false;                      // for kImuSilence or longer up to this scan's end
   bool lost = false;                            // at the scan before
 };
@@ -45,10 +45,10 @@ struct TrustHistory
 struct Assessment
 {
   Health health = Health::Ok;
-  Timestamp last_trusted;     // the estimate's stamp if it is trusted
+  Timestamp last_trusted;     // the scan's stamp if it is trusted
   bool contradicted = false;  // registrations and IMU have contradicted each other for seconds
 };
 
-/** `opens_map`: the scan is the first keyframe of a local map, so it needs no registration. */
-Assessment assess(const StateEstimate&, bool opens_map, const TrustHistory&, const TrustOptions&);
+/** `trusted`: the scan is the first keyframe of a local map, which needs no registration, or its registration is. */
+Assessment assess(Timestamp, bool trusted, const TrustHistory&, const TrustOptions&);
 }  // namespace scanloom

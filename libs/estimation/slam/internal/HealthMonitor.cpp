@@ -3,6 +3,8 @@
 #include "base/core/Decompositions.h"
 #include "estimation/ndt/LidarInformation.h"
 
+#include <utility>
+
 namespace scanloom
 {
 namespace
@@ -11,16 +13,41 @@ namespace
  * The scan agrees with the map where the IMU says that the body is, but leaves a direction open, along which the body
  * can hardly have moved. A search would only find another place that looks alike.
  */
-bool isWhereItIsSaidToBe(const StateEstimate& estimate)
+bool isWhereItIsSaidToBe(const Continued& scan)
 {
   constexpr double kReach = 2;  // m: an alignment finds the pose from there
-  return estimate.registration && estimate.registration->outcome == Outcome::Degenerate &&
-         3 * largestDeviation(estimate.covariance) < kReach;
+  const std::optional<RegistrationResult>& seen = scan.registration.result;
+  return seen && seen->outcome == Outcome::Degenerate && 3 * largestDeviation(scan.body.covariance) < kReach;
 }
 
-DeadReckoning motionWhileLost(const TrackerState& state, const StateEstimate& estimate)
+bool isBlind(const Continued& scan)
 {
-  return {estimate.velocity - state.last_good.velocity, estimate.stamp - state.last_good.stamp};
+  return scan.assessment.health == Health::Lost && !scan.assessment.contradicted && !isWhereItIsSaidToBe(scan);
+}
+
+/** Where IMU and lidar err by much, the estimate between both is near neither. */
+DivergenceDetector compared(DivergenceDetector divergence, const GatedRegistration& registered,
+                            const Measurement& measured, const BodyEstimate& body)
+{
+  if (!registered.result || !registered.trusted) return divergence;
+  const Rigid local_T_body = body.window.map_T_local().inverse() * body.map_T_body;
+  const Matrix6d shared = measured.shared_noise.covariance(upInBody(body.map_T_body));
+  divergence.add(boxMinus(local_T_body, registered.result->target_T_source),
+                 body.covariance + registered.result->covariance + shared);
+  return divergence;
+}
+
+DeadReckoning motionWhileLost(const LastGood& last_good, const BodyEstimate& body, Timestamp stamp)
+{
+  return {body.velocity - last_good.velocity, stamp - last_good.stamp};
+}
+
+/** The body was seen in the same map as before it rested, so the rest in between does not count. */
+Continued awake(Continued scan, const LastGood& last_good)
+{
+  scan.resting_since.reset();
+  scan.body.window.before = last_good.since_start;
+  return scan;
 }
 }  // namespace
 
@@ -32,174 +59,162 @@ HealthMonitor::HealthMonitor(const SlamSettings& settings)
 {
 }
 
-void HealthMonitor::gate(const PoseGuess& predicted, TrustHistory& history, StateEstimate& estimate) const
+GatedRegistration HealthMonitor::gated(Timed<RegistrationResult> seen, const PoseGuess& predicted, bool lost) const
 {
-  const RegistrationResult& registration = *estimate.registration;
-  estimate.surprise = surpriseOf(registration, predicted);
-  const bool usable = history.lost ? registration.outcome == Outcome::Converged : registration.trustworthy();
-  estimate.trusted = usable && (tracking_.gate == 0 || estimate.surprise <= tracking_.gate);
-  if (history.imu_silent)
-    history.contradiction.clear();
-  else
-    history.contradiction.add(estimate.stamp, estimate.surprise);
+  GatedRegistration gated{std::move(seen.value), 0, false, std::move(seen.times)};
+  if (gated.result->outcome == Outcome::LowOverlap) return gated;
+  gated.surprise = surpriseOf(*gated.result, predicted);
+  const bool usable = lost ? gated.result->outcome == Outcome::Converged : gated.result->trustworthy();
+  gated.trusted = usable && (tracking_.gate == 0 || gated.surprise <= tracking_.gate);
+  return gated;
 }
 
-HealthDecision HealthMonitor::assess(const std::vector<View>& views, const NavState& before, TrackerState& state,
-                                     StateEstimate& estimate, StageTimes& times) const
+Continued HealthMonitor::assess(const TrackerState& before, const DeskewedScan& seen,
+                                const GatedRegistration& registered, const Measurement& measured,
+                                const BodyEstimate& body) const
 {
-  compareWithRegistration(estimate, state);
-  HealthDecision decision;
-  decision.contradicted = assessedAndMended(views, state, estimate, times).contradicted;
-  const bool lost_for_good =
-      estimate.health == Health::Lost &&
-      estimate.stamp - state.trust.last_trusted > fromSeconds(trust_.lost_after + trust_.restart_after);
-  if (lost_for_good)
-    decision.begins_map = giveUpMap(before, state, estimate);
-  else if (state.resting_since)
-  {
-    state.resting_since.reset();
-    state.before_window = state.last_good.since_start;  // seen in the same map: no rest in between counts
-  }
-  return decision;
+  TrustHistory trust = before.trust;
+  trust.contradiction = measured.contradiction;
+  trust.divergence = compared(trust.divergence, registered, measured, body);
+  Continued scan =
+      assessed({body, registered, trust, before.relocalisation, before.resting_since}, seen, before.local_map.empty());
+  if (scan.trust.divergence.level() == Divergence::Persistent)
+    scan = accordingToLidar(std::move(scan), before, seen.stamp);
+  else if (isBlind(scan))
+    scan = recovered(std::move(scan), before, seen);
+
+  const Duration without_trust = seen.stamp - scan.trust.last_trusted;
+  if (scan.assessment.health == Health::Lost && without_trust > fromSeconds(trust_.lost_after + trust_.restart_after))
+    return withoutMap(std::move(scan), before, seen);
+  return scan.resting_since ? awake(std::move(scan), before.last_good) : scan;
 }
 
-/** Where IMU and lidar err by much, the estimate between both is near neither. */
-void HealthMonitor::compareWithRegistration(const StateEstimate& estimate, TrackerState& state) const
+/** With the scan's health, and with what the next scans are judged by. */
+Continued HealthMonitor::assessed(Continued scan, const DeskewedScan& seen, bool map_is_empty) const
 {
-  if (!estimate.registration || !estimate.trusted) return;
-  const RegistrationResult& seen = *estimate.registration;
-  const Vector6d apart = boxMinus(state.map_T_local().inverse() * estimate.map_T_body, seen.target_T_source);
-  const Matrix6d shared = state.shared_attitude_noise.covariance(upInBody(estimate.map_T_body));
-  state.trust.divergence.add(apart, estimate.covariance + seen.covariance + shared);
+  const bool opens_map = map_is_empty && !seen.cloud.empty();
+  const GatedRegistration& registered = scan.registration;
+  scan.assessment = scanloom::assess(seen.stamp, opens_map || registered.trusted, scan.trust, trust_);
+  scan.trust.lost = scan.assessment.health == Health::Lost;
+  scan.trust.last_trusted = scan.assessment.last_trusted;
+  if (registered.trusted && scan.trust.divergence.level() == Divergence::None)
+    scan.relocalisation.remember({registered.result->target_T_source, registered.result->score,
+                                  scan.body.window.map_T_local(), scan.body.window.smoother.newest().bias});
+  return scan;
 }
 
-Assessment HealthMonitor::assessedAndMended(const std::vector<View>& views, TrackerState& state,
-                                            StateEstimate& estimate, StageTimes& times) const
+/** The scan as it is, if the body is not found. */
+Continued HealthMonitor::recovered(Continued scan, const TrackerState& before, const DeskewedScan& seen) const
 {
-  const Assessment assessment = assessed(state, estimate);
-  if (state.trust.divergence.level() == Divergence::Persistent)
-  {
-    acceptLidar(state, estimate);
-    return assessment;
-  }
-  const bool blind = assessment.health == Health::Lost && !assessment.contradicted && !isWhereItIsSaidToBe(estimate);
-  return blind && recover(views, state, estimate, times) ? assessed(state, estimate) : assessment;
-}
-
-/** Sets the estimate's health, and remembers what the next scans are judged by. */
-Assessment HealthMonitor::assessed(TrackerState& state, StateEstimate& estimate) const
-{
-  const bool opens_map = state.local_map.empty() && !estimate.cloud.empty();
-  const Assessment assessment = scanloom::assess(estimate, opens_map, state.trust, trust_);
-  estimate.health = assessment.health;
-  state.trust.lost = assessment.health == Health::Lost;
-  state.trust.last_trusted = assessment.last_trusted;
-  if (estimate.trusted && state.trust.divergence.level() == Divergence::None)
-    state.relocalisation.remember({estimate.registration->target_T_source, estimate.registration->score,
-                                   state.map_T_local(), state.smoother.newest().bias});
-  return assessment;
-}
-
-bool HealthMonitor::recover(const std::vector<View>& views, TrackerState& state, StateEstimate& estimate,
-                            StageTimes& times) const
-{
-  if (state.local_map.empty() || estimate.cloud.empty()) return false;
-  const LostBody lost{(state.map_T_local().inverse() * estimate.map_T_body).rotation,
-                      estimate.map_T_body.rotation.conjugate() * meanForce(motionWhileLost(state, estimate)),
-                      estimate.stamp - state.trust.last_trusted};
-  const std::optional<FoundBody> found =
-      state.relocalisation.search(state.local_map.ndt(), views, lost, withLimitedEffort(registration_), times);
-  if (!found) return false;
-  beginAgainAt(*found, state, estimate);
-  state.trust.contradiction.clear();
-  return true;
+  if (before.local_map.empty() || seen.cloud.empty()) return scan;
+  const Rigid& map_T_body = scan.body.map_T_body;
+  const LostBody lost{
+      (scan.body.window.map_T_local().inverse() * map_T_body).rotation,
+      map_T_body.rotation.conjugate() * meanForce(motionWhileLost(before.last_good, scan.body, seen.stamp)),
+      seen.stamp - scan.trust.last_trusted};
+  const Search search =
+      scan.relocalisation.search(before.local_map.ndt(), seen.views, lost, withLimitedEffort(registration_));
+  scan.relocalisation = search.after;
+  scan.times = search.times;
+  if (!search.found) return scan;
+  scan = begunAgainAt(*search.found, std::move(scan), before.last_good);
+  scan.trust.contradiction.clear();
+  return assessed(std::move(scan), seen, false);
 }
 
 /** An error of the IMU stays in the velocity: without a new window the lidar would pull at it for seconds. */
-void HealthMonitor::acceptLidar(TrackerState& state, StateEstimate& estimate) const
+Continued HealthMonitor::accordingToLidar(Continued scan, const TrackerState& before, Timestamp stamp) const
 {
   constexpr Duration kAgain = 10s;  // where lidar and IMU always contradict each other, InnovationMonitor must see it
-  const FoundBody seen{*estimate.registration, estimate.registration->covariance};
-  std::optional<Timestamp>& believed = state.trust.lidar_believed;
-  const bool too_often = believed && estimate.stamp - *believed < kAgain && !state.trust.imu_silent;
-  if (too_often || !state.relocalisation.lastSeen() || !isPositiveDefinite(seen.covariance)) return;
-  beginAgainAt(seen, state, estimate);
-  believed = estimate.stamp;
+  const RegistrationResult& seen = *scan.registration.result;
+  const std::optional<Timestamp>& accepted = scan.trust.lidar_accepted;
+  const bool too_often = accepted && stamp - *accepted < kAgain && !scan.trust.imu_silent;
+  if (too_often || !scan.relocalisation.lastSeen() || !isPositiveDefinite(seen.covariance)) return scan;
+  const FoundBody found{seen, seen.covariance};
+  scan = begunAgainAt(found, std::move(scan), before.last_good);
+  scan.trust.lidar_accepted = stamp;
+  return scan;
 }
 
 /**
  * Begins a new window where the body is found. The map frame and the biases are those of the last trusted scan: what
  * the IMU read since then, and registrations that contradicted it, would tilt them.
  */
-void HealthMonitor::beginAgainAt(const FoundBody& found, TrackerState& state, StateEstimate& estimate) const
+Continued HealthMonitor::begunAgainAt(const FoundBody& found, Continued scan, const LastGood& last_good) const
 {
   constexpr double kSmear = 0.15;  // m: the scan, of 0.1 s, was deskewed by a motion that may be wrong by 1.5 m/s
-  const Rigid& local_T_body = found.registration.target_T_source;
-  const LastSeen& seen = *state.relocalisation.lastSeen();
-  const MountedImu imu = state.imu();
+  const LastSeen& seen = *scan.relocalisation.lastSeen();
+  const MountedImu imu = scan.body.window.imu();
   Matrix6d covariance = found.covariance;
   covariance.diagonal().head<3>().array() += kSmear * kSmear;
-  beginWindow(foundAt(seen.map_T_local * local_T_body, covariance, state.newest(), seen.bias, imu), imu,
-              seen.map_T_local, state);
-  state.before_window = state.last_good.since_start;
-  state.trust.divergence = {};
-
-  estimate.registration = found.registration;
-  estimate.map_T_body = state.smoother.newestBody();
-  estimate.covariance = state.smoother.newestBodyCovariance();
-  estimate.velocity = state.smoother.newest().velocity;
-  estimate.trusted = estimate.recovered = true;
+  const NavEstimate start = foundAt(seen.map_T_local * found.registration.target_T_source, covariance,
+                                    scan.body.window.newest(), seen.bias, imu);
+  Window window = begun(start, imu, seen.map_T_local, last_good.since_start);
+  const Rigid map_T_body = window.smoother.newestBody();
+  const Matrix6d body_covariance = window.smoother.newestBodyCovariance();
+  const Eigen::Vector3d velocity = window.smoother.newest().velocity;
+  scan.body = {std::move(window), map_T_body, body_covariance, velocity};
+  scan.registration.result = found.registration;
+  scan.registration.trusted = scan.recovered = true;
+  scan.trust.divergence = {};
+  return scan;
 }
 
 /**
- * Whether the scan begins a new map. The body moves on as the IMU says, unless that does not know its velocity any
+ * Lost for good: a scan begins a new map. The body moves on as the IMU says, unless that does not know its velocity any
  * more, or cannot be right, or no scan was ever found in the map (the velocity is older than that): then it rests. A
  * scan that was deskewed by an impossible motion begins no map.
  */
-bool HealthMonitor::giveUpMap(const NavState& before, TrackerState& state, StateEstimate& estimate) const
+Continued HealthMonitor::withoutMap(Continued scan, const TrackerState& before, const DeskewedScan& seen) const
 {
-  const Eigen::Quaterniond map_R_body = state.smoother.newestBody().rotation;
-  const bool sees = state.scans_seen > 1;
-  if (state.resting_since)
+  const Window& window = scan.body.window;
+  const Timestamp last = before.window.smoother.newest().stamp;
+  const Eigen::Quaterniond map_R_body = window.smoother.newestBody().rotation;
+  scan.begins_map = seen.in_a_row > 1;
+  if (scan.resting_since)
   {
-    comeToRest({map_R_body}, before, state, estimate);
-    return sees;
+    scan.body = resting(scan.body, {map_R_body}, before, seen.stamp - *scan.resting_since);
+    return scan;
   }
-  const DeadReckoning motion = motionWhileLost(state, estimate);
-  const NavEstimate newest = state.newest();
-  if (state.relocalisation.lastSeen() && isPossible(motion) && knowsVelocity(newest))
+  const DeadReckoning motion = motionWhileLost(before.last_good, scan.body, seen.stamp);
+  const NavEstimate newest = window.newest();
+  if (scan.relocalisation.lastSeen() && isPossible(motion) && knowsVelocity(newest))
   {
-    if (sees) beginWindow(newest, state.imu(), state.map_T_local(), state);
-    return sees;
+    if (scan.begins_map) scan.body.window = begun(newest, window.imu(), window.map_T_local(), window.before);
+    return scan;
   }
-  state.resting_since = before.stamp;
-  comeToRest(levelledByMeanForce(map_R_body, motion), before, state, estimate);
-  return false;
+  scan.begins_map = false;
+  scan.resting_since = last;
+  scan.body = resting(scan.body, levelledByMeanForce(map_R_body, motion), before, seen.stamp - last);
+  return scan;
 }
 
-/** At the place before. How far the body may be from there is not for the smoother: it computes with differences of a
- * millimetre. */
-void HealthMonitor::comeToRest(const Attitude& attitude, const NavState& before, TrackerState& state,
-                               StateEstimate& estimate) const
+/** At the place before. How far the body may be from there after this `rest` is not for the smoother: it computes with
+ * differences of a millimetre. */
+BodyEstimate HealthMonitor::resting(const BodyEstimate& body, const Attitude& attitude, const TrackerState& before,
+                                    Duration rest) const
 {
-  const MountedImu imu = state.imu();
-  const Rigid map_T_body{attitude.map_R_body, (before.map_T_imu * imu.body_T_imu.inverse()).translation};
-  beginWindow(atRest(map_T_body, attitude.tilt_sigma, state.newest(), imu), imu, state.map_T_local(), state);
-
-  const double reach = kMachineSpeed * seconds(estimate.stamp - *state.resting_since);
-  estimate.map_T_body = map_T_body;
-  estimate.covariance = state.smoother.newestBodyCovariance();
-  estimate.velocity.setZero();
-  state.before_window = state.last_good.since_start;
-  for (Matrix6d* covariance : {&estimate.covariance, &state.before_window})
-    covariance->diagonal().head<3>().array() += reach * reach;
+  const MountedImu imu = body.window.imu();
+  const Rigid map_T_body_before = before.window.smoother.newest().map_T_imu * imu.body_T_imu.inverse();
+  const Rigid map_T_body{attitude.map_R_body, map_T_body_before.translation};
+  const NavEstimate start = atRest(map_T_body, attitude.tilt_sigma, body.window.newest(), imu);
+  const double reach = kMachineSpeed * seconds(rest);
+  const auto widened = [&](Matrix6d covariance)
+  {
+    covariance.diagonal().head<3>().array() += reach * reach;
+    return covariance;
+  };
+  Window window = begun(start, imu, body.window.map_T_local(), widened(before.last_good.since_start));
+  const Matrix6d covariance = widened(window.smoother.newestBodyCovariance());
+  return {std::move(window), map_T_body, covariance, Eigen::Vector3d::Zero()};
 }
 
-void HealthMonitor::beginWindow(const NavEstimate& newest, const MountedImu& imu, const Rigid& map_T_local,
-                                TrackerState& state) const
+Window HealthMonitor::begun(const NavEstimate& newest, const MountedImu& imu, const Rigid& map_T_local,
+                            const Matrix6d& before) const
 {
-  state.smoother = windowFrom(newest, imu, smoother_);
-  state.measurement_correlation = {};
-  state.map_T_local_without_anchor = map_T_local;
+  Window window = windowFrom(newest, imu, smoother_);
+  window.map_T_local_without_anchor = map_T_local;
+  window.before = before;
+  return window;
 }
 }  // namespace scanloom

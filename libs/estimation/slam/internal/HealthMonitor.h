@@ -1,19 +1,26 @@
 /** Whether an estimate can be relied on, and what is done where it cannot. */
 #pragma once
-#include "base/core/StageTimes.h"
-#include "estimation/slam/StateEstimate.h"
 #include "estimation/slam/internal/DeadReckoning.h"
 #include "estimation/slam/internal/SlamSettings.h"
 #include "estimation/slam/internal/TrackerState.h"
+#include "estimation/slam/internal/TrackingSteps.h"
 
-#include <vector>
+#include <optional>
 
 namespace scanloom
 {
-struct HealthDecision
+/** A scan whose pose was estimated, as it goes on from there. */
+struct Continued
 {
-  bool contradicted = false;  // see Assessment
-  bool begins_map = false;    // with this scan: lost for so long that the local map is of no use any more
+  BodyEstimate body;               // as estimated, or where a new window begins
+  GatedRegistration registration;  // as it was, or by which the body was found again
+  TrustHistory trust;
+  Relocalisation relocalisation;
+  std::optional<Timestamp> resting_since;
+  Assessment assessment{};
+  bool recovered = false;   // found again: the pose does not continue the previous one
+  bool begins_map = false;  // with this scan: lost for so long that the local map is of no use any more
+  StageRuns times{};
 };
 
 class HealthMonitor
@@ -21,27 +28,24 @@ class HealthMonitor
  public:
   explicit HealthMonitor(const SlamSettings&);
 
-  /** Sets the estimate's surprise, and whether its registration is trusted, before that joins the smoother. */
-  void gate(const PoseGuess& predicted, TrustHistory&, StateEstimate&) const;
+  /** Compares a registration with the prediction before it joins the smoother. `lost`: at the scan before. */
+  GatedRegistration gated(Timed<RegistrationResult>, const PoseGuess& predicted, bool lost) const;
 
   /**
-   * Sets the estimate's health. Searches the body in what the scan sees (`views`) where it is lost and the lidar does
-   * not contradict that; accepts the lidar where the IMU has carried the estimate away from it; leaves a body that is
-   * lost for good where it was in the state before.
+   * Searches the body in what the scan sees where it is lost and the lidar does not contradict that; accepts the lidar
+   * where the IMU has carried the estimate away from it; leaves a body that is lost for good where it was `before`.
    */
-  HealthDecision assess(const std::vector<View>& views, const NavState& before, TrackerState&, StateEstimate&,
-                        StageTimes&) const;
+  Continued assess(const TrackerState& before, const DeskewedScan&, const GatedRegistration&, const Measurement&,
+                   const BodyEstimate&) const;
 
  private:
-  void compareWithRegistration(const StateEstimate&, TrackerState&) const;
-  Assessment assessed(TrackerState&, StateEstimate&) const;
-  Assessment assessedAndMended(const std::vector<View>&, TrackerState&, StateEstimate&, StageTimes&) const;
-  bool recover(const std::vector<View>&, TrackerState&, StateEstimate&, StageTimes&) const;
-  void acceptLidar(TrackerState&, StateEstimate&) const;
-  void beginAgainAt(const FoundBody&, TrackerState&, StateEstimate&) const;
-  bool giveUpMap(const NavState& before, TrackerState&, StateEstimate&) const;
-  void comeToRest(const Attitude&, const NavState& before, TrackerState&, StateEstimate&) const;
-  void beginWindow(const NavEstimate&, const MountedImu&, const Rigid& map_T_local, TrackerState&) const;
+  Continued assessed(Continued, const DeskewedScan&, bool map_is_empty) const;
+  Continued recovered(Continued, const TrackerState& before, const DeskewedScan&) const;
+  Continued accordingToLidar(Continued, const TrackerState& before, Timestamp) const;
+  Continued begunAgainAt(const FoundBody&, Continued, const LastGood&) const;
+  Continued withoutMap(Continued, const TrackerState& before, const DeskewedScan&) const;
+  BodyEstimate resting(const BodyEstimate&, const Attitude&, const TrackerState& before, Duration rest) const;
+  Window begun(const NavEstimate&, const MountedImu&, const Rigid& map_T_local, const Matrix6d& before) const;
 
   TrackingOptions tracking_;
   TrustOptions trust_;

@@ -21,6 +21,11 @@ bool isTiltPossible(const Eigen::Quaterniond& local_R_body, const LostBody& lost
       degreesBetween(local_R_body.conjugate() * up_in_local, lost.local_R_body.conjugate() * up_in_local);
   return apart < kWorkingImu || lean(local_R_body) < lean(lost.local_R_body);
 }
+
+std::vector<Rigid> part(const std::vector<Rigid>& all, std::size_t begin, std::size_t end)
+{
+  return {all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end)};
+}
 }  // namespace
 
 void Relocalisation::changeBias(const ImuBias& bias)
@@ -28,35 +33,28 @@ void Relocalisation::changeBias(const ImuBias& bias)
   if (last_seen_) last_seen_->bias = bias;
 }
 
-std::vector<Rigid> Relocalisation::nextStarts(const SearchArea& area)
+Search Relocalisation::search(const NdtMap& local_map, const std::vector<View>& views, const LostBody& lost,
+                              const ScanRegistrationOptions& options) const
 {
+  constexpr double kFarthest = 10;       // m
+  constexpr double kAsGood = 0.75;       // of the last trusted registration's score
   constexpr std::size_t kScreened = 30;  // scores, and steps from the best of them: as long as about two alignments
-  const std::vector<Rigid> all = startsWithin(area);
-  if (next_start_ >= all.size()) next_start_ = 0;
-  const std::size_t end = std::min(all.size(), next_start_ + kScreened);
-  const std::vector<Rigid> next(all.begin() + static_cast<std::ptrdiff_t>(next_start_),
-                                all.begin() + static_cast<std::ptrdiff_t>(end));
-  next_start_ = end;
-  return next;
-}
-
-std::optional<FoundBody> Relocalisation::search(const NdtMap& local_map, const std::vector<View>& views,
-                                                const LostBody& lost, const ScanRegistrationOptions& options,
-                                                StageTimes& times)
-{
-  constexpr double kFarthest = 10;  // m
-  constexpr double kAsGood = 0.75;  // of the last trusted registration's score
-  if (!last_seen_) return std::nullopt;
+  if (!last_seen_) return {{}, *this, {}};
   const SearchArea area{{lost.local_R_body, last_seen_->local_T_body.translation},
                         std::min(kFarthest, kMachineSpeed * seconds(lost.since_trusted))};
-  const std::vector<Rigid> starts = nextStarts(area);
+  const std::vector<Rigid> all = startsWithin(area);
+  const std::size_t begin = next_start_ < all.size() ? next_start_ : 0, end = std::min(all.size(), begin + kScreened);
+  const std::vector<Rigid> starts = part(all, begin, end);
   const Eigen::Vector3d up = last_seen_->map_T_local.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   const auto isPossible = [&](const Rigid& local_T_body) { return isTiltPossible(local_T_body.rotation, lost, up); };
-  const auto found =
-      times.measure("relocalisation",
-                    [&] { return relocalise(local_map, views, starts, isPossible, options.fine_cells, options.fine); });
-  if (!found || found->score > kAsGood * last_seen_->score) return std::nullopt;  // scores are negative
-  next_start_ = 0;
-  return FoundBody{*found, covarianceWithin(area, *found)};
+
+  Search search{{}, *this, {}};
+  const auto found = search.times.measure(
+      "relocalisation",
+      [&] { return relocalise(local_map, views, starts, isPossible, options.fine_cells, options.fine); });
+  const bool is_found = found && !(found->score > kAsGood * last_seen_->score);  // scores are negative
+  search.after.next_start_ = is_found ? 0 : end;
+  if (is_found) search.found = FoundBody{*found, covarianceWithin(area, *found)};
+  return search;
 }
 }  // namespace scanloom

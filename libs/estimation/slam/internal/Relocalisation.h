@@ -32,6 +32,8 @@ struct FoundBody
   Matrix6d covariance;  // of the body in the local map, tangent of boxPlus
 };
 
+struct Search;
+
 class Relocalisation
 {
  public:
@@ -50,13 +52,18 @@ class Relocalisation
    * with the accelerometer. The effort for a scan is limited, by the number of starts: the next scan goes on with the
    * starts after them.
    */
-  std::optional<FoundBody> search(const NdtMap& local_map, const std::vector<View>& seen_from_body, const LostBody&,
-                                  const ScanRegistrationOptions&, StageTimes&);
+  Search search(const NdtMap& local_map, const std::vector<View>& seen_from_body, const LostBody&,
+                const ScanRegistrationOptions&) const;
 
  private:
-  std::vector<Rigid> nextStarts(const SearchArea&);
-
   std::optional<LastSeen> last_seen_;
   std::size_t next_start_ = 0;  // of the search since the body was last found
+};
+
+struct Search
+{
+  std::optional<FoundBody> found;
+  Relocalisation after;  // goes on with the next starts
+  StageRuns times;
 };
 }  // namespace scanloom

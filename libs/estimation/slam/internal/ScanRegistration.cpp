@@ -83,31 +83,6 @@ class Pyramid
   std::vector<NdtMap> targets_, sources_;
 };
 
-/** Of one scan, from several starts. */
-class FineAlignment
-{
- public:
-  FineAlignment(const NdtMap& map, const std::vector<View>& views, const ScanRegistrationOptions& options,
-                StageTimes& times)
-    : map_(map),
-      options_(options.fine),
-      times_(times),
-      scan_(times.measure("scan_ndt", [&] { return NdtMap(views, options.fine_cells, Grid::Turned); }))
-  {
-  }
-
-  RegistrationResult from(const Rigid& start) const
-  {
-    return times_.measure("fine_alignment", [&] { return align(map_, scan_, start, options_); });
-  }
-
- private:
-  const NdtMap& map_;
-  const RegistrationOptions& options_;
-  StageTimes& times_;
-  NdtMap scan_;
-};
-
 bool agrees(const RegistrationResult& result, const PoseGuess& guess)
 {
   constexpr double kUsualSurprise = 5;  // deviations
@@ -148,39 +123,52 @@ bool isWithinReach(const PoseGuess& guess, const NdtOptions& cells)
   return guess.covariance && 3 * largestDeviation(*guess.covariance) <= kReachOfCells * cells.cell_size;
 }
 
-RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
-                                   const ScanRegistrationOptions& options, StageTimes& times)
+Timed<RegistrationResult> registerRoughly(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
+                                          const ScanRegistrationOptions& options)
 {
+  StageRuns times;
   if (guess.covariance && !isWithinReach(guess, options.scan_cells))
-    return times.measure("rough_alignment",
-                         [&] { return Pyramid(map, views, options.fine_cells).align(guess, options.rough); });
+  {
+    const auto throughPyramid = [&] { return Pyramid(map, views, options.fine_cells).align(guess, options.rough); };
+    return {times.measure("rough_alignment", throughPyramid), times};
+  }
   const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.scan_cells, Grid::Turned); });
-  return times.measure("rough_alignment", [&] { return align(map, scan, guess.target_T_source, options.rough); });
+  const auto fromGuess = [&] { return align(map, scan, guess.target_T_source, options.rough); };
+  return {times.measure("rough_alignment", fromGuess), times};
 }
 
-RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& views, const Rigid& start,
-                                  const ScanRegistrationOptions& options, StageTimes& times)
+Timed<RegistrationResult> registerFinely(const NdtMap& map, const std::vector<View>& views, const Rigid& start,
+                                         const ScanRegistrationOptions& options)
 {
-  return FineAlignment(map, views, options, times).from(start);
+  StageRuns times;
+  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.fine_cells, Grid::Turned); });
+  return {times.measure("fine_alignment", [&] { return align(map, scan, start, options.fine); }), times};
 }
 
-RegistrationResult registerTwice(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
-                                 std::optional<double> usual_score, const ScanRegistrationOptions& options,
-                                 StageTimes& times)
+Timed<RegistrationResult> registerTwice(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
+                                        std::optional<double> usual_score, const ScanRegistrationOptions& options)
 {
-  const FineAlignment fine(map, views, options, times);
+  StageRuns times;
+  const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.fine_cells, Grid::Turned); });
+  const auto fineFrom = [&](const Rigid& start)
+  { return times.measure("fine_alignment", [&] { return align(map, scan, start, options.fine); }); };
   std::optional<RegistrationResult> near;
   if (usual_score && isWithinReach(guess, options.fine_cells))
   {
-    near = fine.from(guess.target_T_source);
-    if (agrees(*near, guess) && fitsAsWell(*near, *usual_score)) return *near;
+    near = fineFrom(guess.target_T_source);
+    if (agrees(*near, guess) && fitsAsWell(*near, *usual_score)) return {*near, times};
   }
-  const RegistrationResult rough = registerRoughly(map, views, guess, options, times);
-  if (!rough.trustworthy()) return near ? *near : fine.from(guess.target_T_source);
-  const RegistrationResult far = fine.from(rough.target_T_source);
-  if (agrees(far, guess)) return far;
-  if (!near) near = fine.from(guess.target_T_source);
-  return agrees(*near, guess) && fitsAsWell(*near, far.score) ? *near : far;
+  const auto [rough, rough_times] = registerRoughly(map, views, guess, options);
+  times = times + rough_times;
+  if (!rough.trustworthy())
+  {
+    if (!near) near = fineFrom(guess.target_T_source);
+    return {*near, times};
+  }
+  const RegistrationResult far = fineFrom(rough.target_T_source);
+  if (agrees(far, guess)) return {far, times};
+  if (!near) near = fineFrom(guess.target_T_source);
+  return {agrees(*near, guess) && fitsAsWell(*near, far.score) ? *near : far, times};
 }
 
 double surpriseOf(const RegistrationResult& registration, const PoseGuess& predicted)

@@ -25,12 +25,12 @@ ScanRegistrationOptions withLimitedEffort(ScanRegistrationOptions);
 bool isWithinReach(const PoseGuess&, const NdtOptions& scan_cells);
 
 /** First alignment (paper, section 2.2); through coarser cells where the guess may be too far off for scan_cells. */
-RegistrationResult registerRoughly(const NdtMap& map, const std::vector<View>& seen_from_body,
-                                   const PoseGuess& map_T_body, const ScanRegistrationOptions&, StageTimes&);
+Timed<RegistrationResult> registerRoughly(const NdtMap& map, const std::vector<View>& seen_from_body,
+                                          const PoseGuess& map_T_body, const ScanRegistrationOptions&);
 
 /** Second alignment, from the pose of the first. The result is the lidar's alone: no guess is part of it. */
-RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& seen_from_body, const Rigid& map_T_body,
-                                  const ScanRegistrationOptions&, StageTimes&);
+Timed<RegistrationResult> registerFinely(const NdtMap& map, const std::vector<View>& seen_from_body,
+                                         const Rigid& map_T_body, const ScanRegistrationOptions&);
 
 /**
  * Fine alignment from the guess, whose covariance is known. It is enough if the guess is within its reach, and the
@@ -39,9 +39,9 @@ RegistrationResult registerFinely(const NdtMap& map, const std::vector<View>& se
  * places that look alike: where the second result contradicts the guess, and the first agrees with it and fits nearly
  * as well, it is the first.
  */
-RegistrationResult registerTwice(const NdtMap& map, const std::vector<View>& seen_from_body,
-                                 const PoseGuess& map_T_body, std::optional<double> usual_score,
-                                 const ScanRegistrationOptions&, StageTimes&);
+Timed<RegistrationResult> registerTwice(const NdtMap& map, const std::vector<View>& seen_from_body,
+                                        const PoseGuess& map_T_body, std::optional<double> usual_score,
+                                        const ScanRegistrationOptions&);
 
 /** Distance of what was found from the prediction, whose covariance is known, in standard deviations of both; infinite
  * where rounding has left the sum of both covariances without an inverse. */

@@ -15,15 +15,14 @@ constexpr std::size_t kTrialScans = 4;  // enough for a velocity, few enough tha
 Eigen::Vector3d velocityByTrial(const std::deque<Scan>& scans, const ImuBuffer& imu, const Tracker& tracker,
                                 TrackerState state)
 {
-  const auto window = static_cast<std::size_t>(state.smoother.options().window);
+  const auto window = static_cast<std::size_t>(state.window.smoother.options().window);
   const std::size_t count = std::min({scans.size(), kTrialScans, window - 1});
-  StageTimes times;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const std::vector<ImuSample> samples = imu.between(state.smoother.newest().stamp, scans[i].end());
-    state = tracker.step(std::move(state), scans[i], samples, times).state;
+    const std::vector<ImuSample> samples = imu.between(state.window.smoother.newest().stamp, scans[i].end());
+    state = tracker.step(std::move(state), scans[i], samples).state;
   }
-  return state.smoother.states().front().velocity;
+  return state.window.smoother.states().front().velocity;
 }
 }  // namespace
 

@@ -14,10 +14,10 @@ namespace scanloom
 namespace
 {
 /** Covariance of the pose relative to the first one: as the smoother knows it, and from before its window began. */
-Matrix6d errorSinceStart(const Rigid& map_T_body, const TrackerState& state)
+Matrix6d errorSinceStart(const Rigid& map_T_body, const Window& window)
 {
-  const Matrix6d of_imu = state.smoother.newestCovariance().topLeftCorner<6, 6>();
-  return movedTo(state.smoother.body_T_imu().inverse(), of_imu) + movedTo(map_T_body, state.before_window);
+  const Matrix6d of_imu = window.smoother.newestCovariance().topLeftCorner<6, 6>();
+  return movedTo(window.smoother.body_T_imu().inverse(), of_imu) + movedTo(map_T_body, window.before);
 }
 
 /** Covariance of the pose relative to the first one, from what all registrations err alike: structure that is seen from
@@ -30,6 +30,67 @@ Matrix6d scaleError(const Rigid& map_T_body)
   Matrix6d covariance = Matrix6d::Zero();
   covariance.topLeftCorner<3, 3>() = kShare * kShare * (way * way.transpose() + up * up.transpose());
   return covariance;
+}
+Trajectory motionBetween(const Window& before, const Window& after, const std::vector<ImuSample>& samples)
+{
+  return posesBetween(before.smoother.newest(), after.smoother.newest(), samples,
+                      after.smoother.body_T_imu().inverse());
+}
+
+LastGood goodAt(Timestamp stamp, const BodyEstimate& body, const Matrix6d& since_start)
+{
+  return {stamp, body.velocity, movedTo(body.map_T_body.inverse(), since_start)};
+}
+
+/** Whether the scan's pose is certain enough for a keyframe, which all later scans are registered to. */
+bool isSure(const DeskewedScan& seen, const Continued& scan)
+{
+  return seen.in_a_row > 1 && scan.registration.trusted && !scan.recovered && !scan.assessment.contradicted &&
+         scan.trust.divergence.level() == Divergence::None && scan.registration.result->outcome == Outcome::Converged;
+}
+
+/** What the next scan needs of this one. */
+TrackerState stateAfter(const DeskewedScan& seen, const Continued& scan, UpdatedMap map,
+                        const SharedAttitudeNoise& shared_noise, const Trajectory& motion, const LastGood& last_good)
+{
+  TrackerState state{std::move(map.window),
+                     std::move(map.local_map),
+                     scan.recovered ? Trajectory{} : motion,
+                     scan.trust,
+                     scan.relocalisation,
+                     shared_noise,
+                     scan.resting_since,
+                     seen.in_a_row,
+                     last_good};
+  if (!map.restarted) return state;
+  state.relocalisation.forget();
+  state.trust.contradiction.clear();
+  state.trust.last_trusted = seen.stamp;
+  state.resting_since.reset();  // how far it may have moved since then stays in Window::before
+  return state;
+}
+
+StateEstimate estimateOf(DeskewedScan seen, const Prediction& predicted, const Continued& scan, const UpdatedMap& map,
+                         const Matrix6d& since_start, const Trajectory& motion)
+{
+  StateEstimate estimate;
+  estimate.stamp = seen.stamp;
+  estimate.map_T_body = scan.body.map_T_body;
+  estimate.covariance = scan.body.covariance;
+  estimate.since_start = since_start + scaleError(scan.body.map_T_body);
+  estimate.correction = boxMinus(scan.body.map_T_body, predicted.map_T_body);
+  estimate.velocity = scan.body.velocity;
+  estimate.health = scan.assessment.health;
+  estimate.scan_complete = seen.complete;
+  estimate.cloud = std::move(seen.cloud);
+  estimate.registration = scan.registration.result;
+  estimate.surprise = scan.registration.surprise;
+  estimate.trusted = scan.registration.trusted;
+  estimate.recovered = scan.recovered;
+  estimate.map_restarted = map.restarted;
+  estimate.keyframe = map.keyframe;
+  estimate.since_last = motion;
+  return estimate;
 }
 }  // namespace
 
@@ -47,177 +108,178 @@ TrackerState Tracker::begin(const NavEstimate& start, const MountedImu& imu) con
   return state;
 }
 
-TrackedScan Tracker::step(TrackerState state, Scan scan, const std::vector<ImuSample>& samples, StageTimes& times) const
+TrackedScan Tracker::step(TrackerState before, Scan scan, const std::vector<ImuSample>& samples) const
 {
-  StateEstimate estimate;
-  estimate.stamp = scan.end();
-  estimate.scan_complete = scan.complete();
-  const NavState before = state.smoother.newest();
+  const Prediction predicted = predict(before.window, samples);
+  DeskewedScan seen = deskewToEnd(std::move(scan), before, samples);
+  const GatedRegistration registered = registerToMap(before, seen, predicted);
+  const Measurement measured = weigh(registered, before, predicted, seen.stamp);
+  const Timed<BodyEstimate> smoothed = smooth(measured, predicted);
+  const Continued continued = health_monitor_.assess(before, seen, registered, measured, smoothed.value);
+  UpdatedMap map = updateMap(std::move(before.local_map), seen, continued);
 
-  const Prediction predicted = predict(samples, state, times);
-  Seen seen = preprocess(std::move(scan), before, samples, state, times);
-  estimate.cloud = std::move(seen.cloud);
-  state.scans_seen = estimate.cloud.empty() ? 0 : state.scans_seen + 1;
-  locate(seen, predicted, state, estimate, times);
-  smooth(before, samples, predicted, state, estimate, times);
-  const HealthDecision decision = health_monitor_.assess(seen.views, before, state, estimate, times);
-  estimate.correction = boxMinus(estimate.map_T_body, predicted.map_T_body);
-  state.motion_since_last = estimate.recovered ? Trajectory{} : estimate.since_last;
-  updateMap(seen, decision, state, estimate, times);
-  const Matrix6d since_start = errorSinceStart(estimate.map_T_body, state);
-  if (!state.trust.lost)
-    state.last_good = {estimate.stamp, estimate.velocity, movedTo(estimate.map_T_body.inverse(), since_start)};
-  estimate.since_start = since_start + scaleError(estimate.map_T_body);
-  return {std::move(state), std::move(estimate)};
+  const Trajectory motion = motionBetween(before.window, smoothed.value.window, samples);
+  const Matrix6d since_start = errorSinceStart(continued.body.map_T_body, map.window);
+  const LastGood last_good = continued.trust.lost ? before.last_good : goodAt(seen.stamp, continued.body, since_start);
+  const StageRuns times =
+      predicted.times + seen.times + registered.times + smoothed.times + continued.times + map.times;
+  StateEstimate estimate = estimateOf(std::move(seen), predicted, continued, map, since_start, motion);
+  return {stateAfter(seen, continued, std::move(map), measured.shared_noise, motion, last_good), std::move(estimate),
+          times};
 }
 
 /** The newest state becomes the one at the end of the samples, as the IMU predicts it. */
-Tracker::Prediction Tracker::predict(const std::vector<ImuSample>& samples, TrackerState& state,
-                                     StageTimes& times) const
+Prediction Tracker::predict(const Window& before, const std::vector<ImuSample>& samples) const
 {
-  FixedLagSmoother& smoother = state.smoother;
-  const ImuBias bias = smoother.newest().bias;
-  smoother.addState(times.measure("preintegration", [&] { return preintegrate(samples, bias, smoother.noise()); }));
-  return {smoother.newestBody(), times.measure("smoother", [&] { return smoother.newestBodyCovariance(); })};
+  StageRuns times;
+  Window window = before;
+  FixedLagSmoother& smoother = window.smoother;
+  smoother.addState(
+      times.measure("preintegration", [&] { return preintegrate(samples, smoother.newest().bias, smoother.noise()); }));
+  const Matrix6d covariance = times.measure("smoother", [&] { return smoother.newestBodyCovariance(); });
+  const Rigid map_T_body = smoother.newestBody();
+  return {std::move(window), map_T_body, covariance, times};
 }
 
 /** Moved to where each point is seen from the body at the end of the scan. */
-Tracker::Seen Tracker::preprocess(Scan scan, const NavState& before, const std::vector<ImuSample>& samples,
-                                  const TrackerState& state, StageTimes& times) const
+DeskewedScan Tracker::deskewToEnd(Scan scan, const TrackerState& before, const std::vector<ImuSample>& samples) const
 {
-  Seen seen;
+  StageRuns times;
+  const Timestamp end = scan.end();
+  const bool complete = scan.complete();
   const auto period = static_cast<std::int32_t>(scan.period.count());
-  seen.cloud = times.measure(
+  PointCloud cloud = times.measure(
       "deskew",
       [&]
       {
-        const Rigid imu_T_body = state.smoother.body_T_imu().inverse();
-        const Rigid end_T_map = (predictAt(before, samples, {scan.end()}).front().map_T_imu * imu_T_body).inverse();
+        const NavState& from = before.window.smoother.newest();
+        const Rigid imu_T_body = before.window.smoother.body_T_imu().inverse();
+        const Rigid end_T_map = (predictAt(from, samples, {end}).front().map_T_imu * imu_T_body).inverse();
         std::vector<Rigid> end_T_column;
-        for (const Rigid& map_T_body : bodyAtColumns(scan, before, samples, imu_T_body, state.motion_since_last))
+        for (const Rigid& map_T_body : bodyAtColumns(scan, from, samples, imu_T_body, before.motion_since_last))
           end_T_column.push_back(end_T_map * map_T_body);
-        PointCloud cloud = deskew(std::move(scan), end_T_column);
-        for (std::int32_t& t : cloud.t) t -= period;  // it counts from the end now
-        return cloud;
+        PointCloud moved = deskew(std::move(scan), end_T_column);
+        for (std::int32_t& t : moved.t) t -= period;  // it counts from the end now
+        return moved;
       });
-  seen.views = times.measure("deskew", [&] { return viewsOf(seen.cloud, body_T_lidar_); });
-  return seen;
+  std::vector<View> views = times.measure("deskew", [&] { return viewsOf(cloud, body_T_lidar_); });
+  const int in_a_row = cloud.empty() ? 0 : before.scans_seen + 1;
+  return {end, complete, std::move(cloud), std::move(views), in_a_row, times};
 }
 
-/** Registers the scan to the local map, and hands the result to the smoother. */
-void Tracker::locate(const Seen& seen, const Prediction& predicted, TrackerState& state, StateEstimate& estimate,
-                     StageTimes& times) const
+GatedRegistration Tracker::registerToMap(const TrackerState& before, const DeskewedScan& seen,
+                                         const Prediction& predicted) const
 {
-  if (state.local_map.empty() || estimate.cloud.empty() || !isPositiveDefinite(predicted.covariance)) return;
-  const NdtMap& map = state.local_map.ndt();
-  const PoseGuess guess(state.map_T_local().inverse() * predicted.map_T_body, predicted.covariance);
-  estimate.registration =
-      state.trust.lost
-          // The effort is the search's: the prediction of an IMU that lost the body is worth little.
-          ? registerFinely(map, seen.views, guess.target_T_source, withLimitedEffort(settings_.registration), times)
-          : registerScan(seen.views, guess, state, times);
-  if (estimate.registration->outcome != Outcome::LowOverlap) addRegistration(guess, state, estimate);
+  if (before.local_map.empty() || seen.cloud.empty() || !isPositiveDefinite(predicted.covariance)) return {};
+  const PoseGuess guess(predicted.window.map_T_local().inverse() * predicted.map_T_body, predicted.covariance);
+  return health_monitor_.gated(registerScan(before, seen.views, guess), guess, before.trust.lost);
 }
 
-RegistrationResult Tracker::registerScan(const std::vector<View>& views, const PoseGuess& guess,
-                                         const TrackerState& state, StageTimes& times) const
+Timed<RegistrationResult> Tracker::registerScan(const TrackerState& before, const std::vector<View>& views,
+                                                const PoseGuess& guess) const
 {
-  const NdtMap& map = state.local_map.ndt();
+  const NdtMap& map = before.local_map.ndt();
   const ScanRegistrationOptions& options = settings_.registration;
-  if (!settings_.slam.tracking.refine) return registerRoughly(map, views, guess, options, times);
-  const std::optional<LastSeen>& seen = state.relocalisation.lastSeen();
-  const std::optional<double> usual_score = seen ? std::optional(seen->score) : std::nullopt;
-  return registerTwice(map, views, guess, usual_score, options, times);
+  // The effort is the search's: the prediction of an IMU that lost the body is worth little.
+  if (before.trust.lost) return registerFinely(map, views, guess.target_T_source, withLimitedEffort(options));
+  if (!settings_.slam.tracking.refine) return registerRoughly(map, views, guess, options);
+  const std::optional<LastSeen>& last = before.relocalisation.lastSeen();
+  return registerTwice(map, views, guess, last ? std::optional(last->score) : std::nullopt, options);
 }
 
 /** The smoother's robust loss follows a registration that contradicts the IMU only slowly; such a one is not trusted.
  */
-void Tracker::addRegistration(const PoseGuess& predicted, TrackerState& state, StateEstimate& estimate) const
+Measurement Tracker::weigh(const GatedRegistration& registered, const TrackerState& before, const Prediction& predicted,
+                           Timestamp stamp) const
 {
-  health_monitor_.gate(predicted, state.trust, estimate);
-  const RegistrationResult& registration = *estimate.registration;
-  const Rigid& local_T_body = registration.target_T_source;
-  const Eigen::Vector3d up = upInBody(state.map_T_local() * local_T_body);
-  MeasurementCorrelation& correlation = state.measurement_correlation;
-  correlation.add(estimate.stamp, local_T_body.translation);
-  SharedAttitudeNoise& shared = state.shared_attitude_noise;
-  shared.add(registration, up, state.local_map.oldest(), correlation.travel());
+  Measurement measured{predicted.window, before.shared_attitude_noise, before.trust.contradiction};
+  if (!registered.result || registered.result->outcome == Outcome::LowOverlap) return measured;
+  if (before.trust.imu_silent)
+    measured.contradiction.clear();
+  else
+    measured.contradiction.add(stamp, registered.surprise);
+  const RegistrationResult& seen = *registered.result;
+  const Rigid& local_T_body = seen.target_T_source;
+  Window& window = measured.window;
+  const Rigid map_T_local = window.map_T_local();
+  const Eigen::Vector3d up = upInBody(map_T_local * local_T_body);
+  window.correlation.add(stamp, local_T_body.translation);
+  measured.shared_noise.add(seen, up, before.local_map.oldest(), window.correlation.travel());
   // Errors of the attitude stay the same on the length of the map.
   const Matrix6d information = informationWithError(
-      registration.information / correlation.registrationsPerTravelOrRest(settings_.slam.tracking.correlation),
-      correlation.registrationsPerTravel(shared.length()) * shared.covariance(up));
-  FixedLagSmoother& smoother = state.smoother;
-  if (smoother.hasAnchor())
-    smoother.addRelativePose(smoother.anchor().stamp, state.local_T_anchor.inverse() * local_T_body, information);
+      seen.information / window.correlation.registrationsPerTravelOrRest(settings_.slam.tracking.correlation),
+      window.correlation.registrationsPerTravel(measured.shared_noise.length()) * measured.shared_noise.covariance(up));
+  if (window.smoother.hasAnchor())
+    window.smoother.addRelativePose(window.smoother.anchor().stamp, window.local_T_anchor.inverse() * local_T_body,
+                                    information);
   else
-    smoother.addPosePrior(state.map_T_local() * local_T_body, information);
+    window.smoother.addPosePrior(map_T_local * local_T_body, information);
+  return measured;
 }
 
-void Tracker::smooth(const NavState& before, const std::vector<ImuSample>& samples, const Prediction& predicted,
-                     TrackerState& state, StateEstimate& estimate, StageTimes& times) const
+Timed<BodyEstimate> Tracker::smooth(const Measurement& measured, const Prediction& predicted) const
 {
-  FixedLagSmoother& smoother = state.smoother;
-  const NavState after = times.measure("smoother", [&] { return smoother.optimise(); });
-  estimate.map_T_body = smoother.newestBody();
-  estimate.covariance = smoother.bodyCovarianceAfter(predicted.covariance);
-  estimate.velocity = after.velocity;
-  estimate.since_last = posesBetween(before, after, samples, smoother.body_T_imu().inverse());
+  StageRuns times;
+  Window window = measured.window;
+  const NavState newest = times.measure("smoother", [&] { return window.smoother.optimise(); });
+  const Rigid map_T_body = window.smoother.newestBody();
+  const Matrix6d covariance = window.smoother.bodyCovarianceAfter(predicted.covariance);
+  return {{std::move(window), map_T_body, covariance, newest.velocity}, times};
 }
 
-void Tracker::updateMap(const Seen& seen, const HealthDecision& decision, TrackerState& state, StateEstimate& estimate,
-                        StageTimes& times) const
+UpdatedMap Tracker::updateMap(LocalMap local_map, const DeskewedScan& seen, const Continued& scan) const
 {
-  if (estimate.cloud.empty()) return;
-  if (decision.begins_map && !state.local_map.empty())
-  {
-    estimate.map_restarted = true;
-    state.local_map.clear();
-    state.relocalisation.forget();
-    state.trust.contradiction.clear();
-    state.trust.last_trusted = estimate.stamp;
-    state.resting_since.reset();  // how far it may have moved since then stays in before_window
-  }
-  const bool sure = state.scans_seen > 1 && estimate.trusted && !estimate.recovered && !decision.contradicted &&
-                    state.trust.divergence.level() == Divergence::None &&
-                    estimate.registration->outcome == Outcome::Converged;
-  if (state.local_map.empty() || (sure && state.local_map.wants(state.map_T_local().inverse() * estimate.map_T_body)))
-    times.measure("keyframe", [&] { addKeyframe(seen, state, estimate); });
+  UpdatedMap map{std::move(local_map), scan.body.window, std::nullopt, false, {}};
+  if (seen.cloud.empty()) return map;
+  map.restarted = scan.begins_map && !map.local_map.empty();
+  if (map.restarted) map.local_map.clear();
+  const Rigid local_T_body = map.window.map_T_local().inverse() * scan.body.map_T_body;
+  const bool is_wanted = map.local_map.empty() || (isSure(seen, scan) && map.local_map.wants(local_T_body));
+  if (!is_wanted) return map;
+  StageRuns times;
+  map = times.measure("keyframe", [&] { return withKeyframe(std::move(map), seen, local_T_body); });
+  map.times = times;
+  return map;
 }
 
-/** Aligns the scan again with finer cells, within the covariance of the estimate, and adds it to the local map. */
-void Tracker::addKeyframe(const Seen& seen, TrackerState& state, StateEstimate& estimate) const
+UpdatedMap Tracker::withKeyframe(UpdatedMap map, const DeskewedScan& seen, const Rigid& local_T_body) const
 {
-  const Rigid map_T_local = state.map_T_local();
-  const Rigid estimated = map_T_local.inverse() * estimate.map_T_body;
-  Rigid local_T_body = estimated;
-  Matrix6d alignment = state.smoother.newestBodyCovariance();
-  if (!state.local_map.empty() && isPositiveDefinite(alignment))
-  {
-    const NdtMap source(seen.views, settings_.keyframe_cells, Grid::Turned);
-    const PoseGuess guess(estimated, alignment);
-    const RegistrationResult fine = align(state.local_map.ndt(), source, guess, settings_.registration.fine);
-    if (fine.trustworthy())
-    {
-      local_T_body = fine.target_T_source;
-      alignment = inverse(fine.information + inverse(alignment));
-    }
-  }
-  const Matrix6d creep = state.local_map.add(seen.views, local_T_body, alignment);
-  if (state.smoother.hasAnchor())
-    state.smoother.loosenAnchor(movedTo(state.local_T_anchor, creep));
+  const Rigid map_T_local = map.window.map_T_local();
+  const KeyframePose pose = alignFinely(map, seen.views, local_T_body);
+  const Matrix6d drift = map.local_map.add(seen.views, pose.local_T_body, pose.covariance);
+  if (map.window.smoother.hasAnchor())
+    map.window.smoother.loosenAnchor(movedTo(map.window.local_T_anchor, drift));
   else
-    state.before_window += creep;
-  estimate.keyframe = Keyframe{estimate.stamp, map_T_local * local_T_body, estimate.cloud};
-  if (settings_.slam.tracking.relative && !state.smoother.hasAnchor()) state.anchorAt(estimated);
+    map.window.before += drift;
+  map.keyframe = Keyframe{seen.stamp, map_T_local * pose.local_T_body, seen.cloud};
+  if (settings_.slam.tracking.relative && !map.window.smoother.hasAnchor()) map.window.anchorAt(local_T_body);
+  return map;
+}
+
+/** Registers the scan again with finer cells, within the covariance of the estimate. */
+KeyframePose Tracker::alignFinely(const UpdatedMap& map, const std::vector<View>& views,
+                                  const Rigid& local_T_body) const
+{
+  const KeyframePose estimated{local_T_body, map.window.smoother.newestBodyCovariance()};
+  if (map.local_map.empty() || !isPositiveDefinite(estimated.covariance)) return estimated;
+  const NdtMap source(views, settings_.keyframe_cells, Grid::Turned);
+  const PoseGuess guess(local_T_body, estimated.covariance);
+  const RegistrationResult fine = align(map.local_map.ndt(), source, guess, settings_.registration.fine);
+  if (!fine.trustworthy()) return estimated;
+  return {fine.target_T_source, inverse(fine.information + inverse(estimated.covariance))};
 }
 
 TrackerState Tracker::changeImu(TrackerState state, const ImuChange& change) const
 {
-  const Rigid local_T_body = state.map_T_local().inverse() * state.smoother.newestBody();
-  const bool anchored = state.smoother.hasAnchor();
-  const NavEstimate start = continuedBy(change, state.newest(), state.smoother.body_T_imu());
-  state.smoother = windowFrom(start, change.imu, settings_.smoother);
-  if (anchored) state.anchorAt(local_T_body);
+  const Window& before = state.window;
+  const Rigid map_T_local = before.map_T_local();
+  const NavEstimate start = continuedBy(change, before.newest(), before.smoother.body_T_imu());
+  Window window = windowFrom(start, change.imu, settings_.smoother);
+  window.map_T_local_without_anchor = before.map_T_local_without_anchor;
+  window.correlation = before.correlation;
+  window.before = before.before;
+  if (before.smoother.hasAnchor()) window.anchorAt(map_T_local.inverse() * before.smoother.newestBody());
+  state.window = std::move(window);
   state.relocalisation.changeBias(start.state.bias);
   return state;
 }

@@ -2,10 +2,11 @@
 #pragma once
 #include "base/core/MountedLidar.h"
 #include "base/core/StageTimes.h"
-#include "estimation/ndt/View.h"
 #include "estimation/slam/internal/HealthMonitor.h"
 #include "estimation/slam/internal/SlamSettings.h"
 #include "estimation/slam/internal/TrackerState.h"
+#include "estimation/slam/internal/TrackingSteps.h"
+#include "input/batching/Scan.h"
 
 #include <vector>
 
@@ -15,6 +16,7 @@ struct TrackedScan
 {
   TrackerState state;
   StateEstimate estimate;
+  StageRuns times;
 };
 
 class Tracker
@@ -27,32 +29,21 @@ class Tracker
 
   /** The state after a scan without the machine's points. The samples are the IMU's from the newest state to the scan's
    * end (ImuBuffer::between). */
-  TrackedScan step(TrackerState, Scan, const std::vector<ImuSample>&, StageTimes&) const;
+  TrackedScan step(TrackerState, Scan, const std::vector<ImuSample>&) const;
 
   /** The same state, as another IMU of the same body continues it. */
   TrackerState changeImu(TrackerState, const ImuChange&) const;
 
  private:
-  struct Prediction
-  {
-    Rigid map_T_body;
-    Matrix6d covariance;  // see FixedLagSmoother::newestBodyCovariance()
-  };
-  struct Seen
-  {
-    PointCloud cloud;  // in the body frame at the scan's end
-    std::vector<View> views;
-  };
-
-  Prediction predict(const std::vector<ImuSample>&, TrackerState&, StageTimes&) const;
-  Seen preprocess(Scan, const NavState& before, const std::vector<ImuSample>&, const TrackerState&, StageTimes&) const;
-  void locate(const Seen&, const Prediction&, TrackerState&, StateEstimate&, StageTimes&) const;
-  RegistrationResult registerScan(const std::vector<View>&, const PoseGuess&, const TrackerState&, StageTimes&) const;
-  void addRegistration(const PoseGuess& predicted, TrackerState&, StateEstimate&) const;
-  void smooth(const NavState& before, const std::vector<ImuSample>&, const Prediction&, TrackerState&, StateEstimate&,
-              StageTimes&) const;
-  void updateMap(const Seen&, const HealthDecision&, TrackerState&, StateEstimate&, StageTimes&) const;
-  void addKeyframe(const Seen&, TrackerState&, StateEstimate&) const;
+  Prediction predict(const Window&, const std::vector<ImuSample>&) const;
+  DeskewedScan deskewToEnd(Scan, const TrackerState&, const std::vector<ImuSample>&) const;
+  GatedRegistration registerToMap(const TrackerState&, const DeskewedScan&, const Prediction&) const;
+  Timed<RegistrationResult> registerScan(const TrackerState&, const std::vector<View>&, const PoseGuess&) const;
+  Measurement weigh(const GatedRegistration&, const TrackerState&, const Prediction&, Timestamp) const;
+  Timed<BodyEstimate> smooth(const Measurement&, const Prediction&) const;
+  UpdatedMap updateMap(LocalMap, const DeskewedScan&, const Continued&) const;
+  UpdatedMap withKeyframe(UpdatedMap, const DeskewedScan&, const Rigid& local_T_body) const;
+  KeyframePose alignFinely(const UpdatedMap&, const std::vector<View>&, const Rigid& local_T_body) const;
 
   SlamSettings settings_;
   HealthMonitor health_monitor_;

@@ -1,26 +1,26 @@
-#include "estimation/slam/internal/TrackerState.h"
+#include "estimation/slam/internal/Window.h"
+
+#include "base/core/Decompositions.h"
 
 namespace scanloom
 {
-Rigid TrackerState::map_T_local() const
+Rigid Window::map_T_local() const
 {
   return smoother.hasAnchor() ? smoother.anchorBody() * local_T_anchor.inverse() : map_T_local_without_anchor;
 }
 
-void TrackerState::anchorAt(const Rigid& local_T_body)
+void Window::anchorAt(const Rigid& local_T_body)
 {
   smoother.anchorNewest();
   local_T_anchor = local_T_body;
 }
 
-FixedLagSmoother windowFrom(const NavEstimate& start, const MountedImu& imu, const SmootherOptions& options)
+Window windowFrom(const NavEstimate& start, const MountedImu& imu, const SmootherOptions& options)
 {
   // Rounding can cost a covariance its positive eigenvalues where it spans kilometres and millimetres.
   const Matrix15d covariance = isPositiveDefinite(start.covariance)
                                    ? start.covariance
                                    : Matrix15d(start.covariance.diagonal().cwiseAbs().asDiagonal());
-  return {start.state, covariance, imu.body_T_imu, imu.noise, options};
+  return {{start.state, covariance, imu.body_T_imu, imu.noise, options}};
 }
-
-Eigen::Vector3d upInBody(const Rigid& map_T_body) { return map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ(); }
 }  // namespace scanloom
