@@ -123,7 +123,7 @@ std::string toText(const Evaluation& e)
 {
   std::string text = driftText("drift", e.drift);
   if (e.imu_rate_drift) text += driftText("  at the IMU's rate", *e.imu_rate_drift);
-  if (e.floor) text += driftText("  floor by interpolation", *e.floor);
+  if (e.floor) text += driftText("  straight between scans", *e.floor);
   text += fmt::format("largest at                {} s, at the end {:.3f} m\n", secondsText(e.drift.largest_at),
                       e.drift.final);
   text += fmt::format("path                      {:.2f} m, {} samples, {} left out: {:.1f} % of the reference's time\n",
