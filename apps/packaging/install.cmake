@@ -26,7 +26,7 @@ if(HELP2MAN AND NOT CMAKE_CROSSCOMPILING)
 endif()
 
 # The libraries that others can build on; those behind them need MRPT's maps and sensors, and are the program's own.
-set(public_libraries base/core base/config base/formats input/lidar input/batching input/whole_turns input/packets input/rawlogs
+set(public_libraries base/core base/config base/formats input/lidar input/batching input/packets input/rawlogs
     input/bags input/rig estimation/imu estimation/preprocessing estimation/ndt estimation/graph estimation/slam)
 foreach(folder ${public_libraries})
   get_filename_component(library ${folder} NAME)

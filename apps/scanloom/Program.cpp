@@ -51,7 +51,7 @@ constexpr Removed kRemoved[] = {
     {"edit", "--info", "scanloom info FILE"},
     {"edit", "--check", "scanloom doctor FILE"},
     {"edit", "--from-pcap", "scanloom record FILE"},
-    {"edit", "--approach-a", "scanloom record --set SECTION.batching=nearest_turns"},
+    {"edit", "--approach-a", "scanloom simulate --set simulated_recording.whole_turns=nearest"},
     {"edit", "--to-simplemap", "scanloom map -i FILE --trajectory FILE -o MAP.simplemap"},
     {"edit", "--to-octomap", "scanloom map -i FILE --trajectory FILE -o MAP.bt"},
     {"edit", "--keyframe-distance", "scanloom map has it"},

@@ -11,6 +11,7 @@
 #include "lab/simulation/ScenePictures.h"
 #include "lab/simulation/SceneSensors.h"
 #include "lab/simulation/checkedScene.h"
+#include "lab/whole_turns/replaceByTurns.h"
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -42,6 +43,16 @@ struct Interrupted : std::exception
 {
 };
 
+void refuseUnknownTurns(const SimulatedRecordingOptions& recording)
+try
+{
+  if (!recording.packets()) turnGroupingFromName(recording.whole_turns);
+}
+catch (const std::invalid_argument& problem)
+{
+  throw ConfigError(fmt::format("[simulated_recording] whole_turns = {}", problem.what()));
+}
+
 constexpr const char* kConfigurationCopy = "configuration.ini";
 
 int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const std::filesystem::path& out,
@@ -62,6 +73,8 @@ int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const st
   {
     return kInterrupted;
   }
+  if (const SimulatedRecordingOptions& recording = loaded.settings.recording; !recording.packets())
+    replaceByTurns(folder.running(), turnGroupingFromName(recording.whole_turns));
   writeAtomically(folder.running() / kConfigurationCopy, [&](std::ostream& file) { file << toIni(loaded); });
   std::cout << folder.commit(names, Completeness::Whole).string() << '\n';
   return kDone;
@@ -113,6 +126,7 @@ int run(SimulateArguments arguments)
   for (const SimulatedLidarOptions& lidar : loaded.settings.lidars)
     for (const std::string& name : names) refuseInputsAsOutputs({lidar.metadata}, {arguments.output.folder / name});
   const Scene scene = checkedScene(loaded.settings, arguments.seed);
+  refuseUnknownTurns(loaded.settings.recording);
   if (arguments.configuration.dry_run)
   {
     std::cout << toIni(loaded);

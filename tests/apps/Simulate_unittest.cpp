@@ -1,4 +1,5 @@
 /** `scanloom simulate` into a folder, as a person meets it. */
+#include "mrpt/observations/RawlogInput.h"
 #include "support/ChildProcess.h"
 #include "support/TemporaryFolder.h"
 #include "support/runProgram.h"
@@ -76,6 +77,26 @@ TEST_F(Simulate, theMetadataThatItReadsAreNotReplaced)
   EXPECT_EQ(ended.status, 2);
   EXPECT_THAT(ended.output, HasSubstr("is also read by this command"));
   EXPECT_EQ(contentOf(out / "left.json"), before);
+}
+
+TEST_F(Simulate, wholeTurnsAreARawlogThatIsReadAsAnyOther)
+{
+  ASSERT_EQ(simulate("--seconds 1 --set simulated_recording.whole_turns=nearest").status, 0);
+  EXPECT_FALSE(std::filesystem::exists(out / "recording.pcap"));
+
+  RawlogInput input(out / "recording.rawlog");
+  std::vector<Duration> periods;
+  std::size_t samples = 0;
+  while (const auto event = input.next())
+    if (const auto* scan = std::get_if<Scan>(&*event))
+      periods.push_back(scan->period);
+    else
+      ++samples;
+  ASSERT_GE(periods.size(), 7u);
+  for (std::size_t i = 1; i + 1 < periods.size(); ++i) EXPECT_GT(periods[i], 95ms) << "scan " << i;
+  EXPECT_GT(samples, 200u);  // the body's 200 Hz, and those of the lidars
+
+  EXPECT_EQ(simulate("-w --seconds 1 --set simulated_recording.whole_turns=farthest").status, 2);
 }
 }  // namespace
 }  // namespace scanloom::simulate_unittest

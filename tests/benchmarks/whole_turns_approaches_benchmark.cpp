@@ -7,7 +7,6 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "input/whole_turns/WholeTurns.h"
 #include "support/MovingPanels.h"
 
 using namespace scanloom;
@@ -22,28 +21,18 @@ enum class Approach
   OneOfEach,
 };
 
-Figures figuresOf(Approach approach, const Mounting& mounting, const std::vector<Arrival>& arrivals)
+std::vector<Scan> scansOf(Approach approach, const Mounting& mounting)
 {
-  switch (approach)
-  {
-    case Approach::Nearest:
-      return measure(WholeTurns(lidarsOf(mounting), TurnGrouping::Nearest), arrivals);
-    case Approach::OneOfEach:
-      return measure(WholeTurns(lidarsOf(mounting), TurnGrouping::OneOfEach), arrivals);
-    case Approach::Time:
-      break;
-  }
-  return measure(TimeBatcher(lidarsOf(mounting), {}), arrivals);
+  if (approach == Approach::Time) return scansByTime(mounting);
+  return scansOfTurns(approach == Approach::Nearest ? TurnGrouping::Nearest : TurnGrouping::OneOfEach, mounting);
 }
 
 void drive(benchmark::State& state, Approach approach, const Mounting& mounting)
 {
-  const std::vector<Arrival> arrivals = arrivalsOf(mounting);
   Figures figures;
-  for (auto _ : state) figures = figuresOf(approach, mounting, arrivals);
+  for (auto _ : state) figures = figuresOf(scansOf(approach, mounting));
   state.counters["span_ms"] = 1e3 * seconds(figures.longest_span);
   state.counters["held_ms"] = 1e3 * seconds(figures.longest_held);
-  state.counters["oldest_ms"] = 1e3 * seconds(figures.oldest_point);
   state.counters["smear_mean_cm"] = 1e2 * figures.meanSmear();
   state.counters["smear_p50_cm"] = 1e2 * figures.smear(0.5);
   state.counters["smear_p90_cm"] = 1e2 * figures.smear(0.9);

@@ -6,15 +6,14 @@
 #include "input/batching/TimeBatcher.h"
 #include "input/lidar/OusterDecoder.h"
 #include "input/lidar/OusterEncoder.h"
+#include "lab/whole_turns/WholeTurns.h"
 #include "support/ScanMeasures.h"
 #include "support/pushPacket.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <memory>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -138,8 +137,7 @@ inline std::vector<Arrival> arrivalsOf(const Mounting& mounting)
 struct Figures
 {
   Duration longest_span{0};
-  Duration longest_held{0};    // from the last packet of the lidar that was ready first to the release
-  Duration oldest_point{0};    // at the release, since its stamp
+  Duration longest_held{0};    // from the last packet of the lidar that is ready first to that of the last one
   std::vector<double> smears;  // m, ascending: of every panel in every scan where both lidars see it
 
   double smear(double quantile) const
@@ -176,31 +174,45 @@ inline void addSmears(const Scan& scan, std::vector<double>& smears)
       smears.push_back(extentAlong(directionOf(static_cast<int>(panel)), scan.points, points[panel]));
 }
 
-/** Feeds a TimeBatcher or WholeTurns on a virtual clock. */
-template <typename Batcher>
-Figures measure(Batcher&& batcher, const std::vector<Arrival>& arrivals)
+/** From the last packet of the lidar that is ready first to that of the other. */
+inline Duration heldIn(const Scan& scan)
+{
+  std::array<Timestamp, 2> ready{};
+  for (const Column& c : scan.columns)
+  {
+    const int columns_to_come = kColumnsPerPacket - 1 - c.measurement_id % kColumnsPerPacket;
+    ready[c.sensor_id] = std::max(ready[c.sensor_id], c.stamp + columns_to_come * kTurn / kColumns);
+  }
+  return std::chrono::abs(ready[0] - ready[1]);
+}
+
+inline std::vector<Scan> scansByTime(const Mounting& mounting)
+{
+  TimeBatcher batcher(lidarsOf(mounting), {});
+  std::vector<Scan> scans;
+  for (const Arrival& arrival : arrivalsOf(mounting))
+    for (Scan& scan : push(batcher, arrival.lidar, arrival.packet, arrival.received)) scans.push_back(std::move(scan));
+  return scans;
+}
+
+inline std::vector<Scan> scansOfTurns(TurnGrouping grouping, const Mounting& mounting)
+{
+  WholeTurns turns(2, grouping);
+  std::vector<Scan> scans;
+  for (const Scan& by_time : scansByTime(mounting))
+    for (Scan& scan : turns.push(by_time)) scans.push_back(std::move(scan));
+  return scans;
+}
+
+inline Figures figuresOf(const std::vector<Scan>& scans)
 {
   Figures figures;
-  std::map<std::tuple<LidarIndex, std::uint32_t, int>, Timestamp> arrived;  // by lidar, frame and packet
-  std::vector<MeasurementBlock> blocks;
-  int scans = 0;
-  for (const Arrival& arrival : arrivals)
+  for (std::size_t i = 2; i < scans.size(); ++i)
   {
-    batcher.lidars()[arrival.lidar].decoder->readBlocks(arrival.packet, blocks);
-    arrived[{arrival.lidar, blocks.front().frame_id, blocks.front().measurement_id / kColumnsPerPacket}] =
-        arrival.received;
-    for (const Scan& scan : push(batcher, arrival.lidar, arrival.packet, arrival.received))
-    {
-      if (++scans <= 2 || scan.end() > kBegin + (kTurns - 1) * kTurn) continue;
-      std::array<Timestamp, 2> ready{};
-      for (const Column& c : scan.columns)
-        ready[c.sensor_id] =
-            std::max(ready[c.sensor_id], arrived.at({c.sensor_id, c.frame_id, c.measurement_id / kColumnsPerPacket}));
-      figures.longest_span = std::max(figures.longest_span, spanOf(scan));
-      figures.longest_held = std::max(figures.longest_held, arrival.received - std::min(ready[0], ready[1]));
-      figures.oldest_point = std::max(figures.oldest_point, arrival.received - scan.start);
-      addSmears(scan, figures.smears);
-    }
+    if (scans[i].end() > kBegin + (kTurns - 1) * kTurn) continue;
+    figures.longest_span = std::max(figures.longest_span, spanOf(scans[i]));
+    figures.longest_held = std::max(figures.longest_held, heldIn(scans[i]));
+    addSmears(scans[i], figures.smears);
   }
   std::sort(figures.smears.begin(), figures.smears.end());
   return figures;

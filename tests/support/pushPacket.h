@@ -1,6 +1,6 @@
 /** Packets for a batcher without a router: classified by the decoder of the lidar that the test names. */
 #pragma once
-#include "input/batching/Batcher.h"
+#include "input/batching/TimeBatcher.h"
 
 namespace scanloom
 {
@@ -15,7 +15,7 @@ inline RoutedPacket packetOf(LidarIndex lidar, const PacketDecoder* decoder, Byt
   return packet;
 }
 
-inline std::vector<Scan> push(Batcher& batcher, LidarIndex lidar, Bytes bytes, Timestamp received)
+inline std::vector<Scan> push(TimeBatcher& batcher, LidarIndex lidar, Bytes bytes, Timestamp received)
 {
   return batcher.push(packetOf(lidar, batcher.lidars()[lidar].decoder.get(), bytes, received));
 }

@@ -3,7 +3,10 @@
  * EuroCOW 2025, section 2.1. Where the paper waits for every lidar, watermarks with deadlines bound the wait.
  */
 #pragma once
-#include "input/batching/Batcher.h"
+#include "input/batching/Counters.h"
+#include "input/batching/RoutedPacket.h"
+#include "input/batching/Scan.h"
+#include "input/batching/internal/BatcherOptions.h"
 #include "input/batching/internal/LidarClocks.h"
 #include "input/batching/internal/LidarNotices.h"
 #include "input/batching/internal/LidarStream.h"
@@ -21,35 +24,50 @@ namespace scanloom
  * Packets in, scans out, in one total order (stamp, sensor_id, measurement_id). The result depends on the packets and
  * their record times alone; where all lidars share a clock, any arrival order within the deadline gives the same bits.
  */
-class TimeBatcher : public Batcher
+class TimeBatcher
 {
  public:
   /** Throws std::invalid_argument without lidars, with more than 256, or for an unknown other_clock. */
   TimeBatcher(const std::vector<BatchedLidar>&, const BatcherOptions&);
 
   /**
-   * The packet's time of reception moves the deadlines. With other_clock = refuse, throws std::runtime_error if the
-   * lidars' clocks differ by more than max_clock_skew at the start.
+   * Scans completed by this packet, oldest first. IMU packets are not for here: see ImuOrder. The packet's time of
+   * reception moves the deadlines. With other_clock = refuse, throws std::runtime_error if the lidars' clocks differ by
+   * more than max_clock_skew at the start.
    */
-  std::vector<Scan> push(RoutedPacket) override;
+  std::vector<Scan> push(RoutedPacket);
 
-  std::vector<Scan> advance(Timestamp now) override;
+  /** Scans completed because time has passed without a packet. */
+  std::vector<Scan> advance(Timestamp now);
 
-  /** The scan that is cut by the end is marked incomplete. */
-  std::vector<Scan> finish() override;
+  /** No more packets will come: all that waits is given out. The scan that is cut by the end is marked incomplete. */
+  std::vector<Scan> finish();
 
-  void onSlice(SliceSink sink) override { on_slice_ = std::move(sink); }
+  /** Called in push, advance and finish for each slice as soon as it is complete: see ScanSlice. */
+  void onSlice(SliceSink sink) { on_slice_ = std::move(sink); }
 
-  void replace(LidarIndex, std::shared_ptr<const PacketDecoder>) override;
+  /** The lidar's packets have another format from here on, or a known one at last. Waiting ones keep their decoder. */
+  void replace(LidarIndex, std::shared_ptr<const PacketDecoder>);
 
-  /** Every column with an earlier stamp has been given out. */
-  std::optional<Timestamp> horizon() const override { return scan_ ? std::optional(horizon_) : std::nullopt; }
+  /** Every column with an earlier stamp has been given out; none before the first scan starts. */
+  std::optional<Timestamp> horizon() const { return scan_ ? std::optional(horizon_) : std::nullopt; }
 
-  Duration timeOffset(LidarIndex lidar) const override { return clocks_[lidar].offset(); }
-  std::optional<Duration> ahead(LidarIndex, Timestamp stamp, Timestamp received) const override;
-  std::vector<Notice> takeNotices() override { return notices_.take(); }
-  const LidarCounters& counters(LidarIndex lidar) const override { return inputs_[lidar].counters; }
-  const std::vector<BatchedLidar>& lidars() const override { return lidars_; }
+  /** What is added to this lidar's stamps at present, also to those of its IMU. */
+  Duration timeOffset(LidarIndex lidar) const { return clocks_[lidar].offset(); }
+
+  /**
+   * How far ahead a stamp of this lidar's own clock, say of its IMU, is of what the clock showed when it was received.
+   * None while the lidar was not heard.
+   */
+  std::optional<Duration> ahead(LidarIndex, Timestamp stamp, Timestamp received) const;
+
+  /** What a person should know, since the last call. */
+  std::vector<Notice> takeNotices() { return notices_.take(); }
+
+  const LidarCounters& counters(LidarIndex lidar) const { return inputs_[lidar].counters; }
+
+  /** With the decoders in use. */
+  const std::vector<BatchedLidar>& lidars() const { return lidars_; }
 
  private:
   /** A lidar's packets on their way into scans. */

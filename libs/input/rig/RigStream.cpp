@@ -1,7 +1,5 @@
 #include "input/rig/RigStream.h"
 
-#include "input/rig/internal/makeBatcher.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,7 +17,7 @@ constexpr Duration kLongestEffect = 10s;
 
 RigStream::RigStream(const Rig& rig, ReceiveTimes times)
   : router_(routesOf(rig)),
-    batcher_(makeBatcher(rig.lidars, rig.batcher)),
+    batcher_(rig.lidars, rig.batcher),
     imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms)),
     imu_(rig.body_imu_ahead),
     lidar_imus_(rig.lidars.size()),
@@ -27,7 +25,7 @@ RigStream::RigStream(const Rig& rig, ReceiveTimes times)
 {
   imu_.addBody(rig.body_imu);
   if (times == ReceiveTimes::OfCapture) capture_clock_.emplace(rig.lidars.size());
-  if (rig.batcher.slices > 1) batcher_->onSlice([this](const ScanSlice& slice) { parts_.push_back({copyOf(slice)}); });
+  if (rig.batcher.slices > 1) batcher_.onSlice([this](const ScanSlice& slice) { parts_.push_back({copyOf(slice)}); });
 }
 
 void RigStream::take(const DatagramView& datagram)
@@ -44,7 +42,7 @@ void RigStream::take(const DatagramView& datagram)
   const LidarIndex lidar = packet->lidar;
   const Timestamp received = packet->received;
   if (packet->of_new_sender) lidar_imus_[lidar].by_lidar = false;
-  std::vector<Scan> scans = onward([&] { return batcher_->push(*std::move(packet)); });
+  std::vector<Scan> scans = onward([&] { return batcher_.push(*std::move(packet)); });
   judgeEarlyImu(lidar, received);
   release(std::move(scans));
 }
@@ -54,13 +52,13 @@ void RigStream::takeImu(const RoutedPacket& packet)
   LidarImu& imu = lidar_imus_[packet.lidar];
   for (ImuSample sample : lidar(packet.lidar).decoder->imuSamples(packet.bytes))
   {
-    const std::optional<Duration> ahead = batcher_->ahead(packet.lidar, sample.stamp, packet.received);
+    const std::optional<Duration> ahead = batcher_.ahead(packet.lidar, sample.stamp, packet.received);
     if (!imu.continuity.accepts(sample.stamp, packet.received, ahead))
     {
       ++imu.implausible;
       continue;
     }
-    sample.stamp += batcher_->timeOffset(packet.lidar);
+    sample.stamp += batcher_.timeOffset(packet.lidar);
     imu_.add({static_cast<int>(packet.lidar), sample});
   }
 }
@@ -68,12 +66,12 @@ void RigStream::takeImu(const RoutedPacket& packet)
 /** Before the first scan clocks are compared: the IMU samples that wait are moved with the stamps of their lidars. */
 std::vector<Scan> RigStream::onward(const std::function<std::vector<Scan>()>& step)
 {
-  if (batcher_->horizon()) return step();
+  if (batcher_.horizon()) return step();
   std::vector<Duration> offsets;
-  for (LidarIndex i = 0; i < lidar_imus_.size(); ++i) offsets.push_back(batcher_->timeOffset(i));
+  for (LidarIndex i = 0; i < lidar_imus_.size(); ++i) offsets.push_back(batcher_.timeOffset(i));
   std::vector<Scan> scans = step();
   for (LidarIndex i = 0; i < offsets.size(); ++i)
-    if (const Duration later = batcher_->timeOffset(i) - offsets[i]; later != Duration{0})
+    if (const Duration later = batcher_.timeOffset(i) - offsets[i]; later != Duration{0})
       imu_.shift(static_cast<int>(i), later);
   return scans;
 }
@@ -83,10 +81,10 @@ void RigStream::judgeEarlyImu(LidarIndex lidar, Timestamp received)
 {
   LidarImu& imu = lidar_imus_[lidar];
   const std::optional<Duration> ahead =
-      imu.by_lidar ? std::nullopt : batcher_->ahead(lidar, received, received);  // of a clock that shows host time
+      imu.by_lidar ? std::nullopt : batcher_.ahead(lidar, received, received);  // of a clock that shows host time
   if (!ahead) return;
   imu.by_lidar = true;
-  const Timestamp shown = received - *ahead + batcher_->timeOffset(lidar);
+  const Timestamp shown = received - *ahead + batcher_.timeOffset(lidar);
   imu.implausible += imu_.dropAfter(static_cast<int>(lidar), shown + kArrivalTolerance);
 }
 
@@ -98,20 +96,20 @@ void RigStream::advance(Timestamp now)
   while (time_ < last)
   {
     time_ += kTick;
-    release(onward([&] { return batcher_->advance(time_); }));
+    release(onward([&] { return batcher_.advance(time_); }));
   }
 }
 
 void RigStream::finish()
 {
-  release(batcher_->finish());
+  release(batcher_.finish());
   releaseImu(Timestamp::max());
 }
 
 void RigStream::replace(LidarIndex lidar, std::shared_ptr<const PacketDecoder> decoder, const LidarAddress& address)
 {
   router_.replace(lidar, address, decoder.get());  // the batcher keeps it
-  batcher_->replace(lidar, std::move(decoder));
+  batcher_.replace(lidar, std::move(decoder));
 }
 
 std::vector<LidarIndex> RigStream::takeDoubted()
@@ -119,7 +117,7 @@ std::vector<LidarIndex> RigStream::takeDoubted()
   std::vector<LidarIndex> doubted = std::exchange(restarted_, {});
   for (LidarIndex i = 0; i < strange_.size(); ++i)
   {
-    const LidarCounters& counters = batcher_->counters(i);
+    const LidarCounters& counters = batcher_.counters(i);
     const std::uint64_t strange = counters.malformed_packets + counters.doubtful_packets;
     if (std::exchange(strange_[i], strange) != strange) doubted.push_back(i);
   }
@@ -143,7 +141,7 @@ void RigStream::release(std::vector<Scan> scans)
     ready_.emplace_back(std::move(scan));
   }
   releaseParts(Timestamp::max());
-  if (const auto horizon = batcher_->horizon()) releaseImu(*horizon - imu_patience_);
+  if (const auto horizon = batcher_.horizon()) releaseImu(*horizon - imu_patience_);
 }
 
 /** Those that end by `end`: where one packet completes several scans, the batcher gives the slices of all of them
@@ -163,7 +161,7 @@ void RigStream::releaseImu(Timestamp horizon)
 std::vector<std::string> RigStream::takeWarnings()
 {
   std::vector<std::string> warnings;
-  for (const Notice& notice : batcher_->takeNotices())
+  for (const Notice& notice : batcher_.takeNotices())
   {
     warnings.push_back(textOf(notice, lidar(notice.lidar).name));
     if (notice.kind == Notice::Kind::Restarted) restarted_.push_back(notice.lidar);
@@ -188,8 +186,7 @@ RigAccount RigStream::account() const
 {
   RigAccount account;
   for (LidarIndex i = 0; i < strange_.size(); ++i)
-    account.lidars.push_back(
-        {lidar(i).name, batcher_->counters(i), router_.ofOtherSenders(i), batcher_->timeOffset(i)});
+    account.lidars.push_back({lidar(i).name, batcher_.counters(i), router_.ofOtherSenders(i), batcher_.timeOffset(i)});
   account.unmatched = router_.unmatched();
   account.late_imu_samples = imu_.late();
   for (const LidarImu& imu : lidar_imus_) account.implausible_imu_samples += imu.implausible;

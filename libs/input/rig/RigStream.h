@@ -1,7 +1,7 @@
 #pragma once
-#include "input/batching/Batcher.h"
 #include "input/batching/ImuContinuity.h"
 #include "input/batching/ImuOrder.h"
+#include "input/batching/TimeBatcher.h"
 #include "input/rig/PacketRouter.h"
 #include "input/rig/Rig.h"
 #include "input/rig/SensorInput.h"
@@ -36,7 +36,7 @@ class RigStream
   RigStream(const RigStream&) = delete;
   RigStream& operator=(const RigStream&) = delete;
 
-  /** In the order of receive times, as far as possible. Throws what Batcher::push throws. */
+  /** In the order of receive times, as far as possible. Throws what TimeBatcher::push throws. */
   void take(const DatagramView&);
 
   /** Every datagram received before `now` was taken. */
@@ -70,7 +70,7 @@ class RigStream
   RigAccount account() const;
 
  private:
-  const BatchedLidar& lidar(LidarIndex lidar) const { return batcher_->lidars()[lidar]; }
+  const BatchedLidar& lidar(LidarIndex lidar) const { return batcher_.lidars()[lidar]; }
   void takeImu(const RoutedPacket&);
   std::vector<Scan> onward(const std::function<std::vector<Scan>()>& step);
   void judgeEarlyImu(LidarIndex, Timestamp received);
@@ -89,7 +89,7 @@ class RigStream
 
   PacketRouter router_;
   std::optional<CaptureClock> capture_clock_;
-  std::unique_ptr<Batcher> batcher_;
+  TimeBatcher batcher_;
   Duration imu_patience_;  // how long a scan or sample waits for older IMU samples
   Timestamp time_ = Timestamp::min();
   ImuOrder imu_;

@@ -166,7 +166,8 @@ std::string summaryOf(const Scene& scene, const std::vector<PacketCounts>& count
 
 std::vector<std::string> recordingFileNames(const SimulationSettings& settings)
 {
-  std::vector<std::string> names{"recording.pcap", "imu.csv",     "groundtruth.tum", "total_station.csv",
+  const char* const lidars = settings.recording.packets() ? "recording.pcap" : "recording.rawlog";
+  std::vector<std::string> names{lidars,           "imu.csv",     "groundtruth.tum", "total_station.csv",
                                  "extrinsics.txt", "objects.csv", "summary.json"};
   for (const SimulatedLidarOptions& lidar : settings.lidars) names.push_back(lidar.name + ".json");
   return names;

@@ -30,6 +30,22 @@ struct SimulatedRigOptions
   }
 };
 
+/** What is written of the lidars. */
+struct SimulatedRecordingOptions
+{
+  std::string whole_turns = "none";
+
+  bool packets() const { return whole_turns == "none"; }
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.whole_turns, Field{"whole_turns", "",
+                               "instead of packets a rawlog of whole turns (approach A of the paper): nearest, or "
+                               "one_of_each as they end; none: packets"});
+  }
+};
+
 /** Two OS0 beside the boom, tilted outwards. */
 std::vector<SimulatedLidarOptions> dualOs0();
 
@@ -48,6 +64,7 @@ struct SimulationSettings
   PrecipitationOptions precipitation;
   ForestOptions forest;
   SimulatedRigOptions rig;
+  SimulatedRecordingOptions recording;
   std::vector<SimulatedLidarOptions> lidars = dualOs0();
   RangingOptions ranging;
   NetworkOptions network;
@@ -70,6 +87,7 @@ struct SimulationSettings
     visit(s.precipitation, Section{"simulated_precipitation", "rain and snow between the lidars and the world"});
     ForestOptions::sections(s.forest, visit);
     visit(s.rig, Section{"simulated_rig", "poses of the other sensors"});
+    visit(s.recording, Section{"simulated_recording", "what is written of the lidars"});
     visit(s.lidars, Section{"simulated_lidars", "any number of lidars: lidar1_, lidar2_, ...", "lidar"});
     visit(s.ranging, Section{"simulated_ranging", "ranging of all lidars: returns, noise, reflectivities"});
     visit(s.network, Section{"simulated_network", "delays between the lidars and the recording computer"});

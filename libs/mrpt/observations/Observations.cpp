@@ -182,7 +182,8 @@ Scan scanOf(PointCloud points, Timestamp start, const std::optional<RecordingHea
   scan.start = start;
   scan.points = std::move(points);
   scan.columns = columnsOf(scan.points, scan.start);
-  scan.period = header ? header->period() : untilAfterTheLast(scan.points.t);
+  const Duration period = header ? header->period() : Duration{0};
+  scan.period = period > Duration{0} ? period : untilAfterTheLast(scan.points.t);
   if (header) scan.columns_of.resize(header->lidars.size());
   for (const Column& column : scan.columns)
   {

@@ -169,42 +169,6 @@ TEST(RigReplay, weavesBothLidarsOfARecordingWithExactAccounts)
   EXPECT_TRUE(account.unmatched.empty());
 }
 
-TEST(Rig, wholeTurnsComeTheSameWayAsScansByTime)
-{
-  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
-  const Configuration configuration = Configuration::fromText(iniOf(folder.string()), "x.ini");
-  RigSettings settings = readRigSettings(configuration, "rig");
-  settings.batcher.batching = "nearest_turns";
-  RigReplay replay(makeRig(settings));
-
-  std::uint64_t columns = 0, scans = 0, body_imu = 0;
-  Timestamp previous, previous_imu;
-  while (auto event = replay.next())
-  {
-    if (const auto* imu = std::get_if<SensorImu>(&*event))
-    {
-      EXPECT_GE(imu->sample.stamp, previous_imu);
-      previous_imu = imu->sample.stamp;
-      body_imu += imu->sensor == SensorImu::kBody;
-      continue;
-    }
-    const Scan& scan = std::get<Scan>(*event);
-    EXPECT_GT(scan.start, previous);
-    previous = scan.start;
-    if (++scans > 1 && scan.complete())
-    {
-      EXPECT_EQ(scan.columns_of[0], scan.columns_of[1]);
-    }
-    columns += scan.columns.size();
-  }
-  EXPECT_EQ(body_imu, 6000u);
-  EXPECT_GE(scans, 298u);  // of 30 s
-  EXPECT_LE(scans, 301u);
-  const RigAccount account = replay.account();
-  EXPECT_EQ(columns, account.lidars[0].counters.emitted + account.lidars[1].counters.emitted);
-  EXPECT_EQ(account.late_imu_samples, 0u);
-}
-
 TEST(Rig, aLidarThatIsNotThereIsNamedWithTheOnesThatAre)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");

@@ -6,16 +6,8 @@
 
 namespace scanloom
 {
-namespace
-{
-Rigid poseWithin(const Trajectory& poses, Timestamp stamp)
-{
-  return *poseAt(poses, std::clamp(stamp, poses.front().stamp, poses.back().stamp));
-}
-}  // namespace
-
 std::vector<Rigid> bodyAtColumns(const Scan& scan, const NavState& from, const std::vector<ImuSample>& samples,
-                                 const Rigid& imu_T_body, const Trajectory& before)
+                                 const Rigid& imu_T_body)
 {
   std::vector<Timestamp> stamps;
   for (const Column& column : scan.columns) stamps.push_back(std::max(column.stamp, from.stamp));
@@ -26,11 +18,6 @@ std::vector<Rigid> bodyAtColumns(const Scan& scan, const NavState& from, const s
   std::vector<Rigid> poses;
   for (const Column& column : scan.columns)
   {
-    if (column.stamp < from.stamp && !before.empty())
-    {
-      poses.push_back(poseWithin(before, column.stamp));
-      continue;
-    }
     const auto stamp = std::lower_bound(stamps.begin(), stamps.end(), std::max(column.stamp, from.stamp));
     poses.push_back(states[static_cast<std::size_t>(stamp - stamps.begin())].map_T_imu * imu_T_body);
   }

@@ -51,17 +51,10 @@ bool isSure(const DeskewedScan& seen, const Continued& scan)
 
 /** What the next scan needs of this one. */
 TrackerState stateAfter(const DeskewedScan& seen, const Continued& scan, UpdatedMap map,
-                        const SharedAttitudeNoise& shared_noise, const Trajectory& motion, const LastGood& last_good)
+                        const SharedAttitudeNoise& shared_noise, const LastGood& last_good)
 {
-  TrackerState state{std::move(map.window),
-                     std::move(map.local_map),
-                     scan.recovered ? Trajectory{} : motion,
-                     scan.trust,
-                     scan.relocalisation,
-                     shared_noise,
-                     scan.resting_since,
-                     seen.in_a_row,
-                     last_good};
+  TrackerState state{std::move(map.window), std::move(map.local_map), scan.trust,    scan.relocalisation,
+                     shared_noise,          scan.resting_since,       seen.in_a_row, last_good};
   if (!map.restarted) return state;
   state.relocalisation.forget();
   state.trust.contradiction.clear();
@@ -124,8 +117,7 @@ TrackedScan Tracker::step(TrackerState before, Scan scan, const std::vector<ImuS
   const StageRuns times =
       predicted.times + seen.times + registered.times + smoothed.times + continued.times + map.times;
   StateEstimate estimate = estimateOf(std::move(seen), predicted, continued, map, since_start, motion);
-  return {stateAfter(seen, continued, std::move(map), measured.shared_noise, motion, last_good), std::move(estimate),
-          times};
+  return {stateAfter(seen, continued, std::move(map), measured.shared_noise, last_good), std::move(estimate), times};
 }
 
 /** The newest state becomes the one at the end of the samples, as the IMU predicts it. */
@@ -148,20 +140,20 @@ DeskewedScan Tracker::deskewToEnd(Scan scan, const TrackerState& before, const s
   const Timestamp end = scan.end();
   const bool complete = scan.complete();
   const auto period = static_cast<std::int32_t>(scan.period.count());
-  PointCloud cloud = times.measure(
-      "deskew",
-      [&]
-      {
-        const NavState& from = before.window.smoother.newest();
-        const Rigid imu_T_body = before.window.smoother.body_T_imu().inverse();
-        const Rigid end_T_map = (predictAt(from, samples, {end}).front().map_T_imu * imu_T_body).inverse();
-        std::vector<Rigid> end_T_column;
-        for (const Rigid& map_T_body : bodyAtColumns(scan, from, samples, imu_T_body, before.motion_since_last))
-          end_T_column.push_back(end_T_map * map_T_body);
-        PointCloud moved = deskew(std::move(scan), end_T_column);
-        for (std::int32_t& t : moved.t) t -= period;  // it counts from the end now
-        return moved;
-      });
+  PointCloud cloud = times.measure("deskew",
+                                   [&]
+                                   {
+                                     const NavState& from = before.window.smoother.newest();
+                                     const Rigid imu_T_body = before.window.smoother.body_T_imu().inverse();
+                                     const Rigid end_T_map =
+                                         (predictAt(from, samples, {end}).front().map_T_imu * imu_T_body).inverse();
+                                     std::vector<Rigid> end_T_column;
+                                     for (const Rigid& map_T_body : bodyAtColumns(scan, from, samples, imu_T_body))
+                                       end_T_column.push_back(end_T_map * map_T_body);
+                                     PointCloud moved = deskew(std::move(scan), end_T_column);
+                                     for (std::int32_t& t : moved.t) t -= period;  // it counts from the end now
+                                     return moved;
+                                   });
   std::vector<View> views = times.measure("deskew", [&] { return viewsOf(cloud, body_T_lidar_); });
   const int in_a_row = cloud.empty() ? 0 : before.scans_seen + 1;
   return {end, complete, std::move(cloud), std::move(views), in_a_row, times};

@@ -21,8 +21,7 @@ struct LastGood
 struct TrackerState
 {
   Window window;
-  LocalMap local_map;              // rigid, in a frame of its own
-  Trajectory motion_since_last{};  // body poses from the state before the newest up to it
+  LocalMap local_map;  // rigid, in a frame of its own
   TrustHistory trust{};
   Relocalisation relocalisation{};
   SharedAttitudeNoise shared_attitude_noise{};

@@ -12,13 +12,12 @@ namespace scanloom
 struct BatchedLidar
 {
   std::string name;
-  std::shared_ptr<const PacketDecoder> decoder;  // null: not known yet, see Batcher::replace
+  std::shared_ptr<const PacketDecoder> decoder;  // null: not known yet, see TimeBatcher::replace
   Duration time_offset{0};                       // added to its stamps
 };
 
 struct BatcherOptions
 {
-  std::string batching = "time";
   double scan_rate = 10.0;
   double scan_phase_ms = 0.0;
   int slices = 1;
@@ -30,9 +29,6 @@ struct BatcherOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.batching, Field{"batching", "",
-                            "time: columns of all lidars by their stamps; for comparison, one whole turn of each lidar "
-                            "per scan: nearest_turns or one_turn_of_each, which use none of the keys below"});
     visit(o.scan_rate,
           Field{"scan_rate", "Hz", "scans per second, independent of the lidars' rotation rates", between(0.1, 1000)});
     visit(o.scan_phase_ms,

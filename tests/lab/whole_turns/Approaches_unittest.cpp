@@ -2,7 +2,6 @@
 // The whole table: scanloom_bench_whole_turns_approaches.
 #include <gtest/gtest.h>
 
-#include "input/whole_turns/WholeTurns.h"
 #include "support/MovingPanels.h"
 
 namespace scanloom::approaches_unittest
@@ -11,12 +10,9 @@ using namespace scanloom::panels;
 
 namespace
 {
-Figures byTime(const Mounting& mounting) { return measure(TimeBatcher(lidarsOf(mounting), {}), arrivalsOf(mounting)); }
+Figures byTime(const Mounting& mounting) { return figuresOf(scansByTime(mounting)); }
 
-Figures byTurns(TurnGrouping grouping, const Mounting& mounting)
-{
-  return measure(WholeTurns(lidarsOf(mounting), grouping), arrivalsOf(mounting));
-}
+Figures byTurns(TurnGrouping grouping, const Mounting& mounting) { return figuresOf(scansOfTurns(grouping, mounting)); }
 
 constexpr double kColumn = seconds(kTurn) / kColumns;
 constexpr double kSmearOfATurn = kSpeed * 0.1;  // 0.278 m
@@ -63,7 +59,6 @@ TEST(Approaches, wholeTurnsWaitForEachOtherWhereBlocksDoNot)
   {
     const Figures time = byTime(alike(phase));
     EXPECT_LE(time.longest_held, packet);
-    EXPECT_LE(time.oldest_point, kTurn + packet + kNetworkDelay);
 
     const Figures nearest = byTurns(TurnGrouping::Nearest, alike(phase));
     EXPECT_EQ(nearest.longest_held, std::min(phase, kTurn - phase));
