@@ -8,10 +8,10 @@
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
 #include "base/formats/CloudFile.h"
+#include "base/formats/FileFormat.h"
 #include "base/formats/TrajectoryReader.h"
 #include "base/formats/TrajectoryWriter.h"
 #include "input/bags/BagReader.h"
-#include "input/packets/describeFile.h"
 #include "input/rig/CloudsInput.h"
 #include "input/rig/Rig.h"
 #include "input/rig/RigOptions.h"
@@ -112,7 +112,10 @@ void addKeyframes(SceneBuilder& scene, const Path& path)
 }
 
 /** A rawlog with packets is one, too; a folder may be of clouds. */
-bool isOfPackets(const Path& file) { return std::filesystem::is_directory(file) || isCapture(file) || isBag(file); }
+bool isOfPackets(const Path& file)
+{
+  return std::filesystem::is_directory(file) || formatOfFile(file) == FileFormat::Capture || isBag(file);
+}
 
 SceneBuilder sceneOf(const ViewArguments& arguments)
 {

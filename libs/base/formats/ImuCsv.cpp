@@ -2,6 +2,7 @@
 
 #include "base/core/Statistics.h"
 #include "base/formats/SecondsText.h"
+#include "base/formats/StampUnit.h"
 
 #include <fmt/format.h>
 
@@ -172,25 +173,15 @@ std::optional<RawSample> sampleFrom(const std::vector<std::string_view>& cells, 
   return raw;
 }
 
-struct Unit
-{
-  const char* name;
-  std::int64_t nanoseconds;
-};
-constexpr Unit kNanoseconds{"ns", 1};
-
 /** Of integer stamps: that in which an IMU's pace comes out; nanoseconds if none does. */
-Unit unitOf(const std::vector<RawSample>& samples)
+StampUnit unitOf(const std::vector<RawSample>& samples)
 {
   std::vector<std::int64_t> intervals;
   for (std::size_t i = 1; i < samples.size(); ++i)
     if (const std::int64_t d = samples[i].stamp.integer - samples[i - 1].stamp.integer; d > 0) intervals.push_back(d);
+  constexpr StampUnit kNanoseconds{"ns", 1};
   if (intervals.empty()) return kNanoseconds;
-  const std::int64_t pace = upperMedian(std::move(intervals));
-  constexpr Duration kShortest = 200us, kLongest = 100ms;
-  for (const Unit unit : {kNanoseconds, Unit{"us", 1000}, Unit{"ms", 1'000'000}})
-    if (pace >= kShortest.count() / unit.nanoseconds && pace <= kLongest.count() / unit.nanoseconds) return unit;
-  return kNanoseconds;
+  return unitByPace(static_cast<double>(upperMedian(std::move(intervals))), 200us, 100ms).value_or(kNanoseconds);
 }
 
 /** Without names of columns: what seven numbers are is told by the accelerometer, which weighs about 1 g. */
@@ -238,7 +229,7 @@ Table readTable(const std::filesystem::path& path)
   return table;
 }
 
-std::vector<std::string> conclusionsOf(const Table& table, const Unit& unit)
+std::vector<std::string> conclusionsOf(const Table& table, const StampUnit& unit)
 {
   std::vector<std::string> notes;
   if (!table.samples.empty() && table.samples.front().stamp.seconds)
@@ -268,15 +259,16 @@ bool beginsLikeImuCsv(std::string_view text)
 ImuOfFile readImuCsv(const std::filesystem::path& path)
 {
   const Table table = readTable(path);
-  const Unit unit = unitOf(table.samples);
+  const StampUnit unit = unitOf(table.samples);
   std::vector<ImuSample> samples;
   for (const RawSample& raw : table.samples)
   {
-    if (std::abs(raw.stamp.integer) > kFarthestStamp.count() / unit.nanoseconds)
+    const std::optional<Timestamp> stamp = unit.stampOf(raw.stamp.integer);
+    if (!stamp)
       throw std::runtime_error(fmt::format("{}:{}: stamp {} {} is not between 1827 and 2112", path.string(), raw.line,
                                            raw.stamp.integer, unit.name));
     ImuSample sample = raw.sample;
-    sample.stamp = raw.stamp.seconds ? *raw.stamp.seconds : fromNanoseconds(raw.stamp.integer * unit.nanoseconds);
+    sample.stamp = raw.stamp.seconds.value_or(*stamp);
     if (!samples.empty() && sample.stamp < samples.back().stamp)
       throw std::runtime_error(
           fmt::format("{}:{}: stamp {} ns is not after {} ns of the reading before: sort the file by its stamps",

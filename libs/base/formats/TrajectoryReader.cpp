@@ -1,6 +1,7 @@
 #include "base/formats/TrajectoryReader.h"
 
 #include "base/formats/SecondsText.h"
+#include "base/formats/StampUnit.h"
 
 #include <fmt/format.h>
 
@@ -138,23 +139,14 @@ std::size_t wordsOf(const std::string& line)
   while (words >> word) ++count;
   return count;
 }
-struct StampUnit
-{
-  const char* name;
-  std::int64_t nanoseconds;
-};
-
 /** In which an integer stamp is a date; nothing for seconds, and for a number that is a date in no unit. */
 std::optional<StampUnit> unitOfInteger(const std::string& stamp)
 {
   std::int64_t number = 0;
   const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), number);
   if (error != std::errc() || end != stamp.data() + stamp.size()) return std::nullopt;
-  constexpr Duration kYear1980 = 315'532'800s;
-  for (const StampUnit unit : {StampUnit{"ns", 1}, StampUnit{"us", 1'000}, StampUnit{"ms", 1'000'000}})
-    if (number >= kYear1980.count() / unit.nanoseconds && number < kFarthestStamp.count() / unit.nanoseconds)
-      return unit;
-  return std::nullopt;
+  const std::optional<StampUnit> unit = unitByDate(number);
+  return unit && unit->nanoseconds < 1'000'000'000 ? unit : std::nullopt;
 }
 
 /** The line with its stamp as seconds. */
@@ -165,8 +157,8 @@ std::string inSeconds(const std::string& line, const StampUnit& unit)
   std::string rest;
   words >> stamp;
   std::getline(words, rest);
-  if (stamp >= kFarthestStamp.count() / unit.nanoseconds || stamp < 0) return line;
-  return secondsText(fromNanoseconds(stamp * unit.nanoseconds)) + rest;
+  const std::optional<Timestamp> time = unit.stampOf(stamp);
+  return time && stamp >= 0 ? secondsText(*time) + rest : line;
 }
 
 Trajectory readEuroc(const Path& path, const Note& note)

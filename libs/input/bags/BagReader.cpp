@@ -1,6 +1,7 @@
 #include "input/bags/BagReader.h"
 
 #include "base/formats/CompressedFile.h"
+#include "base/formats/FileFormat.h"
 #include "input/bags/internal/McapBag.h"
 #include "input/bags/internal/McapWriter.h"
 #include "input/bags/internal/MergedBags.h"
@@ -19,33 +20,32 @@ namespace scanloom
 {
 namespace
 {
-using namespace std::string_view_literals;
 using Path = std::filesystem::path;
 
-struct Container
-{
-  std::string_view begins;
-  std::unique_ptr<BagReader> (*open)(const Path&);
-};
+using Open = std::unique_ptr<BagReader> (*)(const Path&);
 
-const Container kContainers[] = {
-    {"SQLite format 3\0"sv, &openSqliteBag}, {kMcapMagic, &openMcapBag}, {"#ROSBAG V2.0\n"sv, &openRos1Bag}};
-
-/** Null if it is none. Throws std::runtime_error if the file cannot be read. */
-const Container* containerOf(const Path& path)
+/** Null for what is no bag of ROS. */
+Open openerOf(FileFormat format)
 {
-  std::string bytes(16, '\0');
-  CompressedFile file(path);
-  bytes.resize(file.readUpTo(bytes.data(), bytes.size()));
-  const auto found = std::find_if(std::begin(kContainers), std::end(kContainers),
-                                  [&](const Container& c) { return bytes.compare(0, c.begins.size(), c.begins) == 0; });
-  return found == std::end(kContainers) ? nullptr : found;
+  switch (format)
+  {
+    case FileFormat::Sqlite:
+      return &openSqliteBag;
+    case FileFormat::Mcap:
+      return &openMcapBag;
+    case FileFormat::Ros1Bag:
+      return &openRos1Bag;
+    case FileFormat::Capture:
+    case FileFormat::Other:
+      break;
+  }
+  return nullptr;
 }
 
 bool isBagFile(const Path& path)
 try
 {
-  return std::filesystem::is_regular_file(path) && (containerOf(path) || isRawlogOfPackets(path));
+  return std::filesystem::is_regular_file(path) && (openerOf(formatOfFile(path)) || isRawlogOfPackets(path));
 }
 catch (const std::exception&)  // what can't be read is no bag
 {
@@ -63,12 +63,10 @@ std::vector<Path> bagFilesIn(const Path& folder)
 
 std::unique_ptr<BagReader> openFile(const Path& path)
 {
-  const Container* container = containerOf(path);
-  if (!container && isRawlogOfPackets(path)) return openRawlogBag(path);
-  if (!container)
-    throw std::runtime_error(
-        fmt::format("{}: no bag; expected one of ROS 2 (.db3, .mcap) or of ROS 1 (.bag, version 2.0)", path.string()));
-  return container->open(path);
+  if (const Open open = openerOf(formatOfFile(path))) return open(path);
+  if (isRawlogOfPackets(path)) return openRawlogBag(path);
+  throw std::runtime_error(
+      fmt::format("{}: no bag; expected one of ROS 2 (.db3, .mcap) or of ROS 1 (.bag, version 2.0)", path.string()));
 }
 }  // namespace
 
@@ -96,7 +94,7 @@ bool isExportedBag(const Path& path)
   if (std::filesystem::is_directory(path) || !isBagFile(path)) return false;
   std::string bytes(kLibrary + kMcapLibrary.size(), '\0');
   CompressedFile(path).readUpTo(bytes.data(), bytes.size());
-  return bytes.compare(0, kMcapMagic.size(), kMcapMagic) == 0 && bytes.substr(kLibrary) == kMcapLibrary;
+  return formatOf(bytes) == FileFormat::Mcap && bytes.substr(kLibrary) == kMcapLibrary;
 }
 
 std::vector<BagTopic> topicsOf(const std::vector<Path>& recordings)

@@ -1,7 +1,7 @@
 #include "input/packets/CaptureReader.h"
 
 #include "base/formats/CompressedFile.h"
-#include "input/packets/describeFile.h"
+#include "base/formats/FileFormat.h"
 #include "input/packets/internal/CaptureRecords.h"
 #include "input/packets/internal/LinkLayer.h"
 

@@ -2,11 +2,11 @@
 
 #include "base/formats/CloudFile.h"
 #include "base/formats/CompressedFile.h"
+#include "base/formats/FileFormat.h"
 #include "base/formats/ImuCsv.h"
 #include "input/bags/BagReader.h"
 #include "input/lidar/LidarModels.h"
 #include "input/lidar/MetadataKeys.h"
-#include "input/packets/describeFile.h"
 #include "input/rawlogs/PacketRawlog.h"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ FileKind kindOfText(const std::filesystem::path& path, const std::string& text)
 FileKind kindOf(const std::filesystem::path& path)
 {
   const std::string bytes = firstBytesOf(path);
-  if (beginsLikeCapture(bytes) || isBag(path)) return FileKind::Capture;
+  if (formatOf(bytes) == FileFormat::Capture || isBag(path)) return FileKind::Capture;
   if (beginsLikeRawlog(bytes)) return FileKind::Rawlog;
   if (isCloud(path, bytes)) return FileKind::Cloud;
   if (!bytes.empty() && isText(bytes)) return kindOfText(path, bytes);

@@ -2,7 +2,7 @@
 
 #include "base/core/ConfigError.h"
 #include "base/core/naturalOrder.h"
-#include "input/packets/describeFile.h"
+#include "base/formats/FileFormat.h"
 #include "input/rig/FileKind.h"
 
 #include <fmt/format.h>

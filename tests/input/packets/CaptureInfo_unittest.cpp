@@ -1,5 +1,4 @@
 #include "input/packets/internal/CaptureInfo.h"
-#include "input/packets/describeFile.h"
 
 #include <gtest/gtest.h>
 
@@ -69,14 +68,5 @@ TEST(CaptureInfo, creditsAnImuPacketToTheLidarThatSendsFromItsAddress)
   }
   const CaptureInfo alone = captureInfo(capture, {first.string()}, Digests::No);
   EXPECT_EQ(alone.lidars.front().packets.at("imu"), 1u);
-}
-
-TEST(CaptureInfo, aCaptureIsKnownByItsFirstBytes)
-{
-  SCANLOOM_NEEDS_DATA(capture, kFolder + "empty_pcap.pcap");
-  SCANLOOM_NEEDS_DATA(metadata, kFolder + "empty_pcap.json");
-  EXPECT_TRUE(isCapture(capture));
-  EXPECT_FALSE(isCapture(metadata));
-  EXPECT_THROW(isCapture("no such file"), std::runtime_error);
 }
 }  // namespace scanloom::capture_info_unittest

@@ -2,11 +2,11 @@
 
 #include "base/core/Statistics.h"
 #include "base/formats/SecondsText.h"
+#include "base/formats/StampUnit.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <ctime>
 #include <fstream>
 #include <iomanip>
@@ -59,30 +59,6 @@ std::string stemOf(std::filesystem::path path)
   return path.stem().string();
 }
 
-struct Unit
-{
-  const char* name;
-  std::int64_t nanoseconds;
-};
-constexpr std::array kUnits{Unit{"s", 1'000'000'000}, Unit{"ms", 1'000'000}, Unit{"us", 1'000}, Unit{"ns", 1}};
-
-/** The unit in which numbers that lie `step` apart have the pace of a lidar: it makes a turn in 5 ms to 2 s. */
-std::optional<Unit> unitOf(double step)
-{
-  for (const Unit& unit : kUnits)
-    if (const double s = step * 1e-9 * static_cast<double>(unit.nanoseconds); s >= 0.005 && s <= 2) return unit;
-  return std::nullopt;
-}
-
-/** Of the one cloud there is: what its number of digits means since 2001. */
-std::optional<Unit> unitOfDigits(std::size_t digits)
-{
-  constexpr std::size_t kDigitsOfSeconds = 10;
-  for (std::size_t i = 0; i < kUnits.size(); ++i)
-    if (digits == kDigitsOfSeconds + 3 * i) return kUnits[i];
-  return std::nullopt;
-}
-
 /** The integers that the names are; none if another name is among them, or one of less than nine digits. */
 std::optional<std::vector<std::int64_t>> integersOf(const Paths& clouds)
 {
@@ -109,7 +85,9 @@ std::optional<CloudTimes> timesOfIntegers(const Paths& clouds)
     steps.push_back(static_cast<double>((*integers)[i] - (*integers)[i - 1]));
   if (!steps.empty() && std::all_of(steps.begin(), steps.end(), [](double step) { return step == 1; }))
     return std::nullopt;
-  const std::optional<Unit> unit = steps.empty() ? unitOfDigits(stemOf(clouds.front()).size()) : unitOf(median(steps));
+  // The pace of a lidar, which makes a turn in 5 ms to 2 s; the one cloud that there is has a date.
+  const std::optional<StampUnit> unit =
+      steps.empty() ? unitByDate(integers->front()) : unitByPace(median(steps), 5ms, 2s);
   if (!unit)
     throw std::runtime_error(fmt::format(
         "{} and the other clouds: their names are no times, {} apart: 5 ms to 2 s are expected, in s, ms, us "
@@ -118,8 +96,9 @@ std::optional<CloudTimes> timesOfIntegers(const Paths& clouds)
   CloudTimes times{{}, fmt::format("the clouds' names, in {}", unit->name)};
   for (const std::int64_t integer : *integers)
   {
-    if (integer > kFarthestStamp.count() / unit->nanoseconds) return std::nullopt;
-    times.stamps.push_back(Timestamp{Duration{integer * unit->nanoseconds}});
+    const std::optional<Timestamp> stamp = unit->stampOf(integer);
+    if (!stamp) return std::nullopt;
+    times.stamps.push_back(*stamp);
   }
   return times;
 }
