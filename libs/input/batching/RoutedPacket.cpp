@@ -1,7 +1,15 @@
 #include "input/batching/RoutedPacket.h"
 
+#include <algorithm>
+
 namespace scanloom
 {
+std::optional<Timestamp> RoutedPacket::firstStamp() const
+{
+  const auto valid = std::find_if(blocks.begin(), blocks.end(), [](const MeasurementBlock& b) { return b.valid; });
+  return valid == blocks.end() ? std::nullopt : std::optional(valid->stamp);
+}
+
 RoutedPacket readPacket(LidarIndex lidar, const PacketDecoder& decoder, PacketKind kind, Bytes bytes,
                         Timestamp received)
 {

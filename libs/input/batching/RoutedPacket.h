@@ -1,6 +1,7 @@
 #pragma once
 #include "input/lidar/PacketDecoder.h"
 
+#include <optional>
 #include <vector>
 
 namespace scanloom
@@ -21,6 +22,9 @@ struct RoutedPacket
   bool of_new_sender = false;            // not from where the lidar's packets came before
   PacketHeader header;                   // of a lidar packet
   std::vector<MeasurementBlock> blocks;  // of a lidar packet: all of them, in the packet's order
+
+  /** Of the first valid block; none if there is none. */
+  std::optional<Timestamp> firstStamp() const;
 };
 
 /** `kind` is what the decoder's kind() says of these bytes: header and blocks of a lidar packet are read here. */

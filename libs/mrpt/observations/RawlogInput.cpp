@@ -108,7 +108,7 @@ void RawlogInput::probe(const std::filesystem::path& path)
 
 std::optional<SensorEvent> RawlogInput::next(Duration)
 {
-  while (!stop_ && (held_.empty() || !isDue(held_.front())))
+  while (!stop_ && (held_.empty() || !isFirstDue()))
   {
     std::optional<SensorEvent> event = read();
     if (!event) break;
@@ -124,11 +124,13 @@ std::optional<SensorEvent> RawlogInput::next(Duration)
   return event;
 }
 
-/** The samples of a scan come before it, as from the batcher. */
-bool RawlogInput::isDue(const Scan& scan) const
+/** Whether the samples of the scan that is held longest were given, or are not to be expected. */
+bool RawlogInput::isFirstDue() const
 {
+  const Scan& scan = held_.front();
+  const bool time_goes_back = held_.size() > 1 && held_[1].start < scan.start;  // its stamp is wrong
   return setup_.body_T_imu.empty() || newest_sample_ >= scan.end() || newest_end_ > scan.end() + kLatest ||
-         held_.size() > kMostHeld;
+         time_goes_back || held_.size() > kMostHeld;
 }
 
 std::optional<SensorEvent> RawlogInput::read()

@@ -17,7 +17,9 @@ class RawlogReader;
 
 /**
  * The scans and IMU samples of a rawlog that scanloom recorded. It knows from the start what lidars and IMUs there are,
- * and holds each scan until its samples were given; beside that it counts, and keeps to be told, what it left out.
+ * and holds each scan until its samples were given, as from the batcher: in the file they stand behind it, because
+ * rawlog-grabber sorts by stamp and a scan's stamp is its start. Beside that it counts, and keeps to be told, what it
+ * left out.
  */
 class RawlogInput : public SensorInput
 {
@@ -42,7 +44,7 @@ class RawlogInput : public SensorInput
   void chooseLidars(const std::vector<std::string>& only);
   void probe(const std::filesystem::path&);
   std::optional<SensorEvent> read();
-  bool isDue(const Scan&) const;
+  bool isFirstDue() const;
   bool accepts(const Scan&);
   std::optional<int> sensorOf(const std::string& label) const;
 

@@ -4,7 +4,6 @@
 #include "mrpt/observations/ObservationReader.h"
 #include "mrpt/observations/Observations.h"
 
-#include <deque>
 #include <optional>
 #include <variant>
 
@@ -22,9 +21,8 @@ using OtherObservation = mrpt::obs::CObservation::Ptr;
 using RecordedEvent = std::variant<RecordedScan, RecordedImu, OtherObservation>;
 
 /**
- * A rawlog event by event. In the file a scan comes before the IMU samples of its period, because rawlog-grabber sorts
- * by stamp and a scan's stamp is its start. Here it comes after them, as from the batcher. A damaged file is read up to
- * the damage, and damage() then says what and where. Points that no lidar measures are left out (measuredScan).
+ * A rawlog event by event, in the file's order. A damaged file is read up to the damage, and damage() then says what
+ * and where. Points that no lidar measures are left out (measuredScan).
  */
 class RawlogReader
 {
@@ -44,15 +42,8 @@ class RawlogReader
   const std::string& damage() const { return observations_.damage(); }
 
  private:
-  void takeSound(const mrpt::obs::CObservation::Ptr&);
-  void take(RecordedEvent);
-  void releaseScansUntil(Timestamp);
-  void releaseScansOf(const std::string& label);
-
   ObservationReader observations_;
   std::optional<RecordingHeader> header_;
-  std::deque<RecordedScan> held_;  // until their period is over
-  std::deque<RecordedEvent> released_;
   mrpt::obs::CObservation::Ptr first_;  // read ahead in search of the header
 };
 

@@ -1,6 +1,5 @@
 #include "input/rig/internal/CaptureClock.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace scanloom
@@ -13,10 +12,10 @@ constexpr Duration kLeastStep = 500ms;
 
 Timestamp CaptureClock::steady(const RoutedPacket& packet)
 {
-  const auto valid = std::find_if(packet.blocks.begin(), packet.blocks.end(), [](const auto& b) { return b.valid; });
-  if (valid == packet.blocks.end()) return packet.received - step_;
+  const std::optional<Timestamp> stamp = packet.firstStamp();
+  if (!stamp) return packet.received - step_;
 
-  const Times now{valid->stamp, packet.received};
+  const Times now{*stamp, packet.received};
   std::optional<Times>& last = last_[packet.lidar];
   const bool jumps = newest_ && std::chrono::abs(now.received - *newest_) >= kLeastStep;
   if (jumps && last && std::chrono::abs(now.stamp - last->stamp) < kLeastStep)

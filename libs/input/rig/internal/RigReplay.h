@@ -1,16 +1,13 @@
 #pragma once
-#include "input/packets/MergedCaptures.h"
 #include "input/rig/Rig.h"
 #include "input/rig/RigStream.h"
+#include "input/rig/internal/PacedCaptures.h"
 
 #include <atomic>
 
 namespace scanloom
 {
-/**
- * A rig's captures through the batcher, as fast as events are taken. Of the members the first half, up to datagram_, is
- * the way from the files to the batcher; the other half is how far it has come and what of it was told.
- */
+/** A rig's captures through the batcher, as fast as events are taken. */
 class RigReplay : public SensorInput
 {
  public:
@@ -27,21 +24,12 @@ class RigReplay : public SensorInput
   std::vector<std::string> takeWarnings() override;
 
  private:
-  bool readDatagram();
-
   SensorSetup setup_;
-  MergedCaptures captures_;
+  PacedCaptures captures_;
   RigStream stream_;
-  std::vector<Datagram> first_;  // that were read to tell the pace of their times
-  std::size_t taken_ = 0;        // of them
-  double pace_ = 1;              // of times of reception
-  Timestamp begin_;              // the first of these times
-  Datagram datagram_;
+  Datagram datagram_;  // its memory serves for the next one
   std::atomic<bool> stop_{false};
-  bool read_ = false;               // the captures are at their end
-  bool ended_ = false;              // and every event was given out
-  std::vector<std::string> notes_;  // of the rig, until takeWarnings() gives them
-  bool warned_of_cut_ = false;
-  std::size_t warned_of_damages_ = 0;
+  bool read_ = false;   // the captures are at their end
+  bool ended_ = false;  // and every event was given out
 };
 }  // namespace scanloom

@@ -1,22 +1,23 @@
-#include "input/rig/internal/ReceivePace.h"
+#include "input/rig/internal/PacedCaptures.h"
 
 #include "liveRig.h"
 
 #include <gtest/gtest.h>
 
-namespace scanloom::receive_pace_unittest
+namespace scanloom::paced_captures_unittest
 {
 namespace
 {
-std::vector<Datagram> receivedAt(double pace, std::vector<Datagram> datagrams)
+std::deque<Datagram> receivedAt(double pace, const std::vector<Datagram>& sent)
 {
+  std::deque<Datagram> datagrams(sent.begin(), sent.end());
   const Timestamp first = datagrams.front().received;
   for (Datagram& datagram : datagrams)
     datagram.received = first + fromSeconds(pace * seconds(datagram.received - first));
   return datagrams;
 }
 
-TEST(ReceivePace, isToldWhereTimesOfReceptionAreInAWrongUnit)
+TEST(PacedCaptures, paceIsToldWhereTimesOfReceptionAreInAWrongUnit)
 {
   const LiveRig lidars(2);
   const std::vector<Datagram> sent = lidars.drive(1s);
@@ -24,7 +25,7 @@ TEST(ReceivePace, isToldWhereTimesOfReceptionAreInAWrongUnit)
     EXPECT_DOUBLE_EQ(receivePace(routesOf(lidars.rig), receivedAt(pace, sent)), pace);
 }
 
-TEST(ReceivePace, isOneForClocksThatAreFastWithoutReasonAndForPacketsThatWereWrittenAtOnce)
+TEST(PacedCaptures, paceIsOneForClocksThatAreFastWithoutReasonAndForPacketsThatWereWrittenAtOnce)
 {
   const LiveRig lidars(1);
   const std::vector<Datagram> sent = lidars.drive(1s);
@@ -33,4 +34,4 @@ TEST(ReceivePace, isOneForClocksThatAreFastWithoutReasonAndForPacketsThatWereWri
   EXPECT_EQ(receivePace(routesOf(lidars.rig), {}), 1);
 }
 }  // namespace
-}  // namespace scanloom::receive_pace_unittest
+}  // namespace scanloom::paced_captures_unittest
