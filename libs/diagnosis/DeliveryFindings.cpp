@@ -108,7 +108,8 @@ Findings deliveryFindings(const LidarExamination& seen, const DeliveryLimits& li
   Findings findings;
   if (seen.delivery.packets == 0)
     findings.push_back(
-        {seen.name, "packets", Verdict::NotFit, fmt::format("none at port {}", seen.lidar.lidar_port),
+        {seen.name, "packets", Verdict::NotFit,
+         seen.lidar.lidar_port == 0 ? "none on its topic" : fmt::format("none at port {}", seen.lidar.lidar_port),
          "set the sensor's destination (Ouster: udp_dest) to this computer and the key 'port' to its port; if "
          "'strangers' lists datagrams to that port, the metadata is that of another sensor"});
   else

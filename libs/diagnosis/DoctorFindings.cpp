@@ -9,8 +9,7 @@ namespace
 Finding strangersFinding(const Origin& origin, std::uint64_t datagrams)
 {
   return {"rig", "strangers", Verdict::Warning,
-          fmt::format("{} datagrams from {} to port {} are from no known lidar", datagrams, origin.source.text(),
-                      origin.destination_port),
+          fmt::format("{} datagrams {} are from no known lidar", datagrams, origin.text()),
           "set the key 'address' of each lidar, or let the other sender use another port"};
 }
 

@@ -182,8 +182,11 @@ std::string toJson(const RigExamination& rig, const Findings& findings)
   result["pairs"] = json::array();
   for (const PairExamination& pair : rig.pairs) result["pairs"].push_back(jsonOf(pair, rig));
   for (const auto& [origin, datagrams] : rig.strangers)
-    result["strangers"].push_back(
-        {{"source", origin.source.text()}, {"port", origin.destination_port}, {"datagrams", datagrams}});
+  {
+    json stranger = {{"source", origin.source.text()}, {"port", origin.destination_port}, {"datagrams", datagrams}};
+    if (!origin.topic.empty()) stranger["topic"] = origin.topic;
+    result["strangers"].push_back(std::move(stranger));
+  }
   for (const Finding& f : findings)
     result["findings"].push_back({{"about", f.about},
                                   {"measure", f.measure},

@@ -86,8 +86,8 @@ RigEvidence RigListener::finish()
 {
   for (const auto& [origin, datagrams] : router_.unmatched())
     if (std::any_of(addresses_.begin(), addresses_.end(),
-                    [port = origin.destination_port](const LidarAddress& address)
-                    { return port == address.lidar_port || port == address.imu_port; }))
+                    [&place = origin](const LidarAddress& address)
+                    { return address.receives(place.destination_port, place.topic); }))
       evidence_.strangers[origin] = datagrams;
   evidence_.wrong_keys = router_.takeWarnings();
   evidence_.snapshots = snapshots_.finish();

@@ -50,12 +50,6 @@ std::vector<std::string> forEachMessage(const BagPaths& paths, const TakeMessage
   return warnings;
 }
 
-Timestamp earliestIn(const TimedCloud& cloud)
-{
-  const auto earlier = [](const TimedPoint& a, const TimedPoint& b) { return a.stamp < b.stamp; };
-  return std::min_element(cloud.points.begin(), cloud.points.end(), earlier)->stamp;
-}
-
 class Inventory
 {
  public:
@@ -126,7 +120,7 @@ class Inventory
     try
     {
       const TimedCloud cloud = timedCloudOf(topic, message.data);
-      clouds.stamps.push_back(cloud.points.empty() ? message.received : earliestIn(cloud));
+      clouds.stamps.push_back(cloud.points.empty() ? message.received : cloud.span().first);
       clouds.channels = std::max(clouds.channels, cloud.channels);
       known.frame = cloud.frame;
       known.note = cloud.time_is;

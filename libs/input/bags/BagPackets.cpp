@@ -13,19 +13,11 @@ namespace scanloom
 {
 namespace
 {
-using Ports = std::map<std::string, std::uint16_t>;
 using Path = std::filesystem::path;
 
 // Messages are a turn long; the slowest lidars make five turns a second.
 constexpr Duration kHeldBack = 250ms;
 constexpr std::size_t kMostBytesHeld = 64'000'000;
-constexpr std::size_t kMostPorts = 65535;
-
-Timestamp latestIn(const TimedCloud& cloud)
-{
-  const auto earlier = [](const TimedPoint& a, const TimedPoint& b) { return a.stamp < b.stamp; };
-  return std::max_element(cloud.points.begin(), cloud.points.end(), earlier)->stamp;
-}
 
 /**
  * When a topic's clouds were received, had none been late: a recorder may hang and then write many at once, and from a
@@ -50,7 +42,10 @@ class Punctual
 class BagPackets : public DatagramReader
 {
  public:
-  BagPackets(const Path& path, const Ports& ports) : bag_(BagReader::open(path)), ports_(ports) { lookAhead(path); }
+  BagPackets(const Path& path, const std::set<std::string>& topics) : bag_(BagReader::open(path)), topics_(topics)
+  {
+    lookAhead(path);
+  }
 
   bool next(Datagram& datagram) override
   {
@@ -93,13 +88,13 @@ class BagPackets : public DatagramReader
     for (std::size_t i = 0; i < kMessages && clouds < kClouds && bytes < kBytes && bag->next(message); ++i)
     {
       const BagTopic& topic = bag->topics()[message.topic];
-      if (!isCloudType(topic.type) || ports_.count(topic.name) == 0) continue;
+      if (!isCloudType(topic.type) || topics_.count(topic.name) == 0) continue;
       bytes += message.data.size();
       ++clouds;
       try
       {
         if (const TimedCloud cloud = timedCloudOf(topic, message.data); !cloud.points.empty())
-          punctual_[topic.name].received(message.received, latestIn(cloud));
+          punctual_[topic.name].received(message.received, cloud.span().second);
       }
       catch (const std::logic_error&)  // counted where it is read
       {
@@ -122,15 +117,14 @@ class BagPackets : public DatagramReader
     if (!has_message) return false;
     ++counters_.records;
     const BagTopic& topic = bag_->topics()[message.topic];
-    const auto port = ports_.find(topic.name);
-    if (port == ports_.end() || !(isPacketType(topic.type) || isCloudType(topic.type)))
+    if (topics_.count(topic.name) == 0 || !(isPacketType(topic.type) || isCloudType(topic.type)))
       ++counters_.not_udp;
     else
-      hold(topic, port->second, message);
+      hold(topic, message);
     return true;
   }
 
-  void hold(const BagTopic& topic, std::uint16_t port, const BagMessage& message)
+  void hold(const BagTopic& topic, const BagMessage& message)
   {
     try
     {
@@ -138,12 +132,14 @@ class BagPackets : public DatagramReader
       {
         const TimedCloud cloud = timedCloudOf(topic, message.data);
         const std::vector<std::uint8_t> packet = cloudPacket(cloud.points);
-        const Timestamp received =
-            cloud.points.empty() ? message.received : punctual_[topic.name].received(message.received, latestIn(cloud));
-        hold({std::nullopt, packet}, port, received);
+        const Timestamp received = cloud.points.empty()
+                                       ? message.received
+                                       : punctual_[topic.name].received(message.received, cloud.span().second);
+        hold({std::nullopt, packet}, topic.name, received);
         return;
       }
-      forEachPacket(topic, message.data, [&](const PacketInMessage& packet) { hold(packet, port, message.received); });
+      forEachPacket(topic, message.data,
+                    [&](const PacketInMessage& packet) { hold(packet, topic.name, message.received); });
     }
     catch (const std::logic_error&)  // a message that ends too early, or can't be read
     {
@@ -151,12 +147,12 @@ class BagPackets : public DatagramReader
     }
   }
 
-  void hold(const PacketInMessage& packet, std::uint16_t port, Timestamp message_received)
+  void hold(const PacketInMessage& packet, const std::string& topic, Timestamp message_received)
   {
     Held held;
     held.number = ++number_;
     held.datagram.received = packet.stamp.value_or(message_received);
-    held.datagram.destination_port = port;
+    held.datagram.topic = topic;
     held.datagram.payload.assign(packet.bytes.begin(), packet.bytes.end());
     newest_ = std::max(newest_, held.datagram.received);
     held_bytes_ += held.datagram.payload.size();
@@ -165,7 +161,7 @@ class BagPackets : public DatagramReader
   }
 
   std::unique_ptr<BagReader> bag_;
-  Ports ports_;
+  std::set<std::string> topics_;              // with packets, or clouds
   std::map<std::string, Punctual> punctual_;  // by topic
   std::vector<Held> held_;                    // a heap, the earliest first
   std::size_t held_bytes_ = 0;
@@ -175,7 +171,7 @@ class BagPackets : public DatagramReader
 };
 }  // namespace
 
-Ports portsOfTopics(const std::vector<Path>& recordings)
+std::set<std::string> packetTopicsOf(const std::vector<Path>& recordings)
 {
   std::set<std::string> topics, clouds;
   for (const BagTopic& topic : topicsOf(recordings))
@@ -183,20 +179,16 @@ Ports portsOfTopics(const std::vector<Path>& recordings)
     if (isPacketType(topic.type)) topics.insert(topic.name);
     if (isCloudType(topic.type)) clouds.insert(topic.name);
   }
-  if (topics.empty()) topics = clouds;
-  Ports ports;
-  for (const std::string& topic : topics)
-    if (ports.size() < kMostPorts) ports.emplace(topic, static_cast<std::uint16_t>(ports.size() + 1));
-  return ports;
+  return topics.empty() ? clouds : topics;
 }
 
 std::vector<std::unique_ptr<DatagramReader>> datagramsOf(const std::vector<Path>& recordings)
 {
-  const Ports ports = portsOfTopics(recordings);
+  const std::set<std::string> topics = packetTopicsOf(recordings);
   std::vector<std::unique_ptr<DatagramReader>> readers;
   for (const Path& path : recordings)
     if (isBag(path))
-      readers.push_back(std::make_unique<BagPackets>(path, ports));
+      readers.push_back(std::make_unique<BagPackets>(path, topics));
     else
       readers.push_back(std::make_unique<CaptureReader>(path));
   return readers;

@@ -3,11 +3,13 @@
 #include "base/core/Time.h"
 #include "input/packets/IpAddress.h"
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace scanloom
 {
-/** A UDP datagram with its time of receipt. */
+/** What a sensor sent: a UDP datagram, or a packet of a bag's message, which has a topic instead of ports. */
 struct Datagram
 {
   Timestamp received;  // clock of the recording computer
@@ -15,6 +17,7 @@ struct Datagram
   std::uint16_t source_port = 0;
   std::uint16_t destination_port = 0;
   std::vector<std::uint8_t> payload;
+  std::string topic{};  // empty: a datagram
 };
 
 /** A datagram that does not own its bytes. */
@@ -25,6 +28,7 @@ struct DatagramView
   std::uint16_t source_port = 0;
   std::uint16_t destination_port = 0;
   Bytes payload;
+  std::string_view topic;
 
   DatagramView() = default;
   DatagramView(const Datagram& d)  // NOLINT: implicit, as Bytes from a vector
@@ -32,7 +36,8 @@ struct DatagramView
       source(d.source),
       source_port(d.source_port),
       destination_port(d.destination_port),
-      payload(d.payload)
+      payload(d.payload),
+      topic(d.topic)
   {
   }
 };

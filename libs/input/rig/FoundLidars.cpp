@@ -72,6 +72,11 @@ std::string whence(const SampledStream& stream)
                               : "on topic " + stream.topic;
 }
 
+std::string whither(const SampledStream& stream)
+{
+  return stream.topic.empty() ? fmt::format("to port {}", stream.port) : "on topic " + stream.topic;
+}
+
 /** A bag's metadata stand beside the packets that they describe. */
 bool isOfSameNameSpace(const std::filesystem::path& metadata, const SampledStream& stream)
 {
@@ -116,12 +121,11 @@ std::string whyNot(const MetadataCandidate& candidate, const std::vector<Sampled
       if (kind == PacketKind::Foreign)
       {
         const auto serial = candidate.decoder->header(packet).serial;
-        return serial
-                   ? fmt::format("{}, but packets to port {} are of serial number {}", described, stream.port, *serial)
-                   : fmt::format("{}, but packets to port {} are of another model", described, stream.port);
+        return serial ? fmt::format("{}, but packets {} are of serial number {}", described, whither(stream), *serial)
+                      : fmt::format("{}, but packets {} are of another model", described, whither(stream));
       }
       if (kind == PacketKind::BadCrc)
-        return fmt::format("{}, but packets to port {} have a wrong checksum", described, stream.port);
+        return fmt::format("{}, but packets {} have a wrong checksum", described, whither(stream));
     }
   return fmt::format("{}: no packet has the format, size or pace of its packets", described);
 }
@@ -197,7 +201,7 @@ class Search
       if (candidate.decoder && !isOfAFoundSensor(candidate)) found_.unheard.push_back(candidate);
     std::sort(found_.lidars.begin(), found_.lidars.end(),
               [](const FoundLidar& a, const FoundLidar& b)
-              { return std::tie(a.port, a.source) < std::tie(b.port, b.source); });
+              { return std::tie(a.port, a.source, a.topic) < std::tie(b.port, b.source, b.topic); });
     return std::move(found_);
   }
 
@@ -214,8 +218,8 @@ class Search
   {
     const SampledStream& stream = streams_[s];
     Candidates left = preferred(fitting, [&](std::size_t i) { return isNamedLike(candidates_[i].file, captures_); });
-    left =
-        preferred(left, [&](std::size_t i) { return candidates_[i].decoder->description().lidar_port == stream.port; });
+    left = preferred(left, [&](std::size_t i)
+                     { return stream.port != 0 && candidates_[i].decoder->description().lidar_port == stream.port; });
     left = preferred(left, [&](std::size_t i) { return topicNamedBy(candidates_[i].file.string()) == stream.topic; });
     left = preferred(left, [&](std::size_t i) { return isOfSameNameSpace(candidates_[i].file, stream); });
     left = preferred(left, [&](std::size_t i) { return !fitsElsewhere(i, s); });
@@ -249,8 +253,9 @@ class Search
     FoundLidar* owner = nullptr;
     for (FoundLidar& lidar : found_.lidars)
       if (maySendImu(lidar, stream) && (!owner || isNearer(stream.port, lidar, *owner))) owner = &lidar;
-    if (!owner || (owner->imu_port != 0 && distanceOf(owner->imu_port, *owner) <= distanceOf(stream.port, *owner)))
-      return;
+    if (!owner) return;
+    const bool has_imu = owner->imu_port != 0 || !owner->imu_topic.empty();
+    if (has_imu && distanceOf(owner->imu_port, *owner) <= distanceOf(stream.port, *owner)) return;
     owner->imu_port = stream.port;
     owner->imu_topic = stream.topic;
   }
@@ -265,9 +270,11 @@ class Search
                        { return candidate->decoder->kind(packet) == PacketKind::Imu; });
   }
 
-  /** Less than 0 if its metadata name the port; a sensor's two ports usually follow each other. */
+  /** Less than 0 if its metadata name the port; a sensor's two ports usually follow each other. All topics of a name
+   * space are at the same distance. */
   static int distanceOf(std::uint16_t port, const FoundLidar& lidar)
   {
+    if (port == 0) return 0;
     return port == lidar.description.imu_port ? -1 : std::abs(int{port} - int{lidar.port});
   }
 
@@ -320,8 +327,11 @@ bool isOfALidar(const SampledStream& stream, const std::vector<FoundLidar>& lida
   return std::any_of(lidars.begin(), lidars.end(),
                      [&](const FoundLidar& lidar)
                      {
+                       if (!stream.topic.empty() && (lidar.topic == stream.topic || lidar.imu_topic == stream.topic))
+                         return true;
                        if (lidar.source != stream.source) return false;
-                       return lidar.port == stream.port || lidar.imu_port == stream.port || sendsOther(lidar);
+                       const bool is_its_port = lidar.port == stream.port || lidar.imu_port == stream.port;
+                       return (stream.port != 0 && is_its_port) || sendsOther(lidar);
                      });
 }
 }  // namespace

@@ -35,14 +35,14 @@ struct FoundLidar
   IpAddress source;
   std::uint16_t port = 0;
   std::uint16_t imu_port = 0;            // 0: no IMU packet came
-  std::string topic, imu_topic;          // of a bag, which the ports stand for; empty in a capture
+  std::string topic, imu_topic;          // of a bag, instead of ports; empty in a capture
   bool source_matters = false;           // another lidar sends to the same port
   std::optional<Timestamp> first_stamp;  // of its valid blocks, by its own clock
 };
 
 struct LidarsFound
 {
-  std::vector<FoundLidar> lidars;          // by port, then source
+  std::vector<FoundLidar> lidars;          // by port, source, topic
   std::vector<MetadataCandidate> unheard;  // of sensors that none of the packets are of
   std::vector<MetadataCandidate> faulty;   // that cannot be read
   bool left_streams_out = false;           // that may be lidars': notes say which

@@ -14,7 +14,7 @@ namespace
 constexpr std::size_t kMostOrigins = 1000;
 constexpr std::size_t kMostStrangersTold = 20;
 constexpr int kPacketsElsewhere = 50;  // at a wrong port, until it is told: a tenth of a second
-constexpr std::size_t kMostPortsWatched = 100;
+constexpr std::size_t kMostPlacesWatched = 100;
 
 /** How badly a decoder understands a packet: only the candidates that understand it best are kept. */
 int strangeness(PacketKind kind)
@@ -39,18 +39,40 @@ bool isUnderstood(PacketKind kind) { return strangeness(kind) == 0; }
 
 bool listensTo(const LidarAddress& address, const DatagramView& datagram)
 {
-  if (address.source && *address.source != datagram.source) return false;
-  const std::uint16_t port = datagram.destination_port;
-  return port != 0 && (port == address.lidar_port || port == address.imu_port);
+  return (!address.source || *address.source == datagram.source) &&
+         address.receives(datagram.destination_port, datagram.topic);
+}
+
+/** "port 7502", "topic /left/packets" */
+std::string placeOf(std::uint16_t port, std::string_view topic)
+{
+  return topic.empty() ? fmt::format("port {}", port) : fmt::format("topic {}", topic);
 }
 
 void refuseWithoutPort(const std::string& label, const LidarAddress& address)
 {
-  if (address.lidar_port == 0)
+  if (address.lidar_port == 0 && address.topic.empty())
     throw std::invalid_argument(
         fmt::format("lidar '{}' has no UDP port: give its key 'port', or metadata that names one", label));
 }
 }  // namespace
+
+bool LidarAddress::receives(std::uint16_t port, std::string_view message_topic) const
+{
+  if (!message_topic.empty()) return message_topic == topic || message_topic == imu_topic;
+  return port != 0 && (port == lidar_port || port == imu_port);
+}
+
+std::string Origin::text() const
+{
+  return topic.empty() ? fmt::format("from {} to port {}", source.text(), destination_port)
+                       : fmt::format("on topic {}", topic);
+}
+
+Origin originOf(const DatagramView& datagram)
+{
+  return {datagram.destination_port, datagram.source, std::string(datagram.topic)};
+}
 
 PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars)
   : lidars_(std::move(lidars)), senders_(lidars_.size()), of_other_senders_(lidars_.size(), 0), heard_(lidars_.size())
@@ -119,7 +141,7 @@ void PacketRouter::warnOfSender(LidarIndex lidar, const IpAddress& source, const
 /** A network can have more senders than memory should be spent on. */
 Origin PacketRouter::countedOrigin(const DatagramView& datagram) const
 {
-  const Origin origin{datagram.destination_port, datagram.source};
+  const Origin origin = originOf(datagram);
   return unmatched_.size() < kMostOrigins || unmatched_.count(origin) > 0 ? origin : Origin{};
 }
 
@@ -194,14 +216,16 @@ void PacketRouter::noticeWrongPort(const DatagramView& datagram)
   }
   if (unheard.size() != 1) return;
   const auto [lidar, kind] = unheard.front();
-  const std::uint16_t port = datagram.destination_port;
-  if (!isToldNow(lidar, kind, port)) return;
+  if (!isToldNow(lidar, kind, datagram)) return;
   const LidarAddress& address = lidars_[lidar].address;
   const bool is_imu = kind == PacketKind::Imu;
-  warnings_.push_back(fmt::format("lidar '{}': its {}packets come to port {}, not to {}: set {}_{} = {}",
-                                  lidars_[lidar].label, is_imu ? "IMU " : "", port,
-                                  is_imu ? address.imu_port : address.lidar_port, address.key,
-                                  is_imu ? "imu_port" : "port", port));
+  const std::string key = fmt::format("{}{}", address.key, is_imu ? "_imu" : "");
+  const std::string of = fmt::format("lidar '{}': its {}packets come", lidars_[lidar].label, is_imu ? "IMU " : "");
+  const std::uint16_t port = datagram.destination_port;
+  warnings_.push_back(datagram.topic.empty()
+                          ? fmt::format("{} to port {}, not to {}: set {}_port = {}", of, port,
+                                        is_imu ? address.imu_port : address.lidar_port, key, port)
+                          : fmt::format("{} on topic {}: set {}_topic = {}", of, datagram.topic, key, datagram.topic));
 }
 
 /** At the port of a lidar that is not heard, by the serial number: the metadata are another sensor's. */
@@ -212,18 +236,20 @@ void PacketRouter::noticeOtherSensor(const DatagramView& datagram)
     const PacketDecoder& decoder = *lidars_[candidate.lidar].decoder;
     if (candidate.kind != PacketKind::Foreign || heard_[candidate.lidar].lidar) continue;
     const auto serial = decoder.header(datagram.payload).serial;
-    const std::uint16_t port = datagram.destination_port;
-    if (!serial || !decoder.isIntact(datagram.payload) || !isToldNow(candidate.lidar, candidate.kind, port)) continue;
+    if (!serial || !decoder.isIntact(datagram.payload) || !isToldNow(candidate.lidar, candidate.kind, datagram))
+      continue;
     warnings_.push_back(
-        fmt::format("lidar '{}': packets to port {} are of serial number {}, its metadata are of {}: give those of {}",
-                    lidars_[candidate.lidar].label, port, *serial, decoder.description().serial, *serial));
+        fmt::format("lidar '{}': packets to {} are of serial number {}, its metadata are of {}: give those of {}",
+                    lidars_[candidate.lidar].label, placeOf(datagram.destination_port, datagram.topic), *serial,
+                    decoder.description().serial, *serial));
   }
 }
 
 /** Once, after so many of these packets. */
-bool PacketRouter::isToldNow(LidarIndex lidar, PacketKind kind, std::uint16_t port)
+bool PacketRouter::isToldNow(LidarIndex lidar, PacketKind kind, const DatagramView& datagram)
 {
-  return elsewhere_.size() < kMostPortsWatched && ++elsewhere_[{lidar, kind, port}] == kPacketsElsewhere;
+  if (elsewhere_.size() >= kMostPlacesWatched) return false;
+  return ++elsewhere_[{lidar, kind, placeOf(datagram.destination_port, datagram.topic)}] == kPacketsElsewhere;
 }
 
 bool PacketRouter::isElsewhere(LidarIndex lidar) const
@@ -231,7 +257,7 @@ bool PacketRouter::isElsewhere(LidarIndex lidar) const
   return std::any_of(elsewhere_.begin(), elsewhere_.end(),
                      [&](const auto& found)
                      {
-                       const auto& [of, kind, port] = found.first;
+                       const auto& [of, kind, place] = found.first;
                        return of == lidar && kind == PacketKind::Lidar;
                      });
 }
@@ -240,13 +266,13 @@ bool PacketRouter::isElsewhere(LidarIndex lidar) const
  */
 void PacketRouter::warnOfAmbiguity(const DatagramView& datagram, const Candidates& candidates)
 {
-  if (!ambiguous_ports_.insert(datagram.destination_port).second) return;
+  const std::string place = placeOf(datagram.destination_port, datagram.topic);
+  if (!ambiguous_places_.insert(place).second) return;
   std::vector<std::string> labels;
   for (const Candidate& candidate : candidates) labels.push_back(lidars_[candidate.lidar].label);
   warnings_.push_back(fmt::format(
-      "a lidar packet from {} at port {} may be of '{}': it holds no serial number, and is left out and counted, as "
-      "all "
+      "a lidar packet from {} at {} may be of '{}': it holds no serial number, and is left out and counted, as all "
       "like it; give each of these lidars its key 'address' (the sensor's own IP address) or a 'port' of its own",
-      datagram.source.text(), datagram.destination_port, fmt::join(labels, "' or '")));
+      datagram.source.text(), place, fmt::join(labels, "' or '")));
 }
 }  // namespace scanloom

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -16,10 +17,16 @@ namespace scanloom
 /** Where a lidar's packets arrive. */
 struct LidarAddress
 {
-  std::uint16_t lidar_port = 0;     // never 0
+  std::uint16_t lidar_port = 0;     // 0 only where there is a topic
   std::uint16_t imu_port = 0;       // may be the same; 0 if there is none
   std::optional<IpAddress> source;  // of the sensor; needed where sensors send to the same port
   std::string key{};                // of its keys in the configuration: "lidar2" of lidar2_port; empty if there is none
+  std::string topic{}, imu_topic{};  // of a bag, instead of the ports
+
+  bool hasImu() const { return imu_port != 0 || !imu_topic.empty(); }
+
+  /** Whether datagrams to this port or messages of this topic are for the lidar. */
+  bool receives(std::uint16_t port, std::string_view message_topic) const;
 };
 
 struct RoutedLidar
@@ -29,32 +36,38 @@ struct RoutedLidar
   const PacketDecoder* decoder = nullptr;  // must outlive the router; null: not known yet, it gets no datagram
 };
 
-/** Sender and port of datagrams. */
+/** Sender and port of datagrams, or the topic of messages. */
 struct Origin
 {
   std::uint16_t destination_port = 0;
   IpAddress source;
+  std::string topic{};
 
   bool operator==(const Origin& other) const
   {
-    return destination_port == other.destination_port && source == other.source;
+    return destination_port == other.destination_port && source == other.source && topic == other.topic;
   }
   bool operator<(const Origin& other) const
   {
-    return std::tie(destination_port, source) < std::tie(other.destination_port, other.source);
+    return std::tie(destination_port, source, topic) < std::tie(other.destination_port, other.source, other.topic);
   }
+
+  /** "from 10.0.0.7 to port 7502", or "on topic /left/packets". */
+  std::string text() const;
 };
 
+Origin originOf(const DatagramView&);
+
 /**
- * Decides which lidar has sent a datagram, and classifies and reads it once. Tests go from cheap to dear: port and
- * configured source address; size, type and serial number; the checksum, for the lidars that are left; and last the
- * source address: where several could have sent it, and against strangers that copy a lidar's serial number (see
+ * Decides which lidar has sent a datagram, and classifies and reads it once. Tests go from cheap to dear: port or
+ * topic, configured source address; size, type and serial number; the checksum, for the lidars that are left; and last
+ * the source address: where several could have sent it, and against strangers that copy a lidar's serial number (see
  * LidarSender).
  */
 class PacketRouter
 {
  public:
-  /** Throws std::invalid_argument if a lidar has no lidar_port. */
+  /** Throws std::invalid_argument if a lidar has neither lidar_port nor topic. */
   explicit PacketRouter(std::vector<RoutedLidar> lidars);
 
   /** None for a datagram that no lidar has sent, that several could have sent, or that comes from a second sender. */
@@ -93,7 +106,7 @@ class PacketRouter
   void noticeWrongPort(const DatagramView&);
   void noticeOtherSensor(const DatagramView&);
   bool isElsewhere(LidarIndex) const;
-  bool isToldNow(LidarIndex, PacketKind, std::uint16_t port);
+  bool isToldNow(LidarIndex, PacketKind, const DatagramView&);
   LidarSender::Verdict judgeSender(const Candidate&, const DatagramView&);
   Origin countedOrigin(const DatagramView&) const;
   void warnOfAmbiguity(const DatagramView&, const Candidates&);
@@ -104,9 +117,9 @@ class PacketRouter
   std::map<Origin, std::uint64_t> unmatched_;
   std::vector<std::uint64_t> of_other_senders_;  // of each lidar
   std::vector<Heard> heard_;                     // of each lidar
-  std::map<std::tuple<LidarIndex, PacketKind, std::uint16_t>, int>
-      elsewhere_;  // packets at another port, and those of another sensor (Foreign) at its port, up to a limit
-  std::set<std::uint16_t> ambiguous_ports_;               // that were told
+  std::map<std::tuple<LidarIndex, PacketKind, std::string>, int>
+      elsewhere_;  // packets at another place, and those of another sensor (Foreign) at its own, up to a limit
+  std::set<std::string> ambiguous_places_;                // that were told
   std::set<std::pair<LidarIndex, IpAddress>> strangers_;  // that were told, up to a limit
   std::vector<std::string> warnings_;
 };

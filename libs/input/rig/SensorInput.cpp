@@ -30,7 +30,7 @@ SensorSetup setupOf(const Rig& rig)
   if (rig.body_T_imu) setup.body_T_imu[SensorImu::kBody] = *rig.body_T_imu;
   for (LidarIndex i = 0; i < rig.lidars.size(); ++i)
   {
-    if (!rig.lidars[i].decoder || rig.addresses[i].imu_port == 0) continue;
+    if (!rig.lidars[i].decoder || !rig.addresses[i].hasImu()) continue;
     const LidarDescription& lidar = rig.lidars[i].decoder->description();
     setup.body_T_imu[static_cast<int>(i)] = lidar.body_T_sensor * lidar.sensor_T_imu;
   }

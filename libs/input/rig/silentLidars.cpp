@@ -48,9 +48,9 @@ std::vector<std::string> silentLidars(const RigAccount& account)
   strangers.resize(std::min(strangers.size(), kSendersNamed));
   for (const auto& [origin, datagrams] : strangers)
     lines.push_back(fmt::format(
-        "{} datagrams from {} to port {} are of no lidar: another port, serial number, product id or format "
-        "than its metadata say ('scanloom info CAPTURE --metadata FILE' tells more)",
-        datagrams, origin.source.text(), origin.destination_port));
+        "{} datagrams {} are of no lidar: another port, serial number, product id or format than its metadata say "
+        "('scanloom info CAPTURE --metadata FILE' tells more)",
+        datagrams, origin.text()));
   return lines;
 }
 }  // namespace scanloom

@@ -88,6 +88,43 @@ TEST(PacketRouter, tellsLidarsApartByPort)
   EXPECT_EQ(route(router, datagram("?b", 7504)), "1!");
 }
 
+Datagram message(const std::string& packet, const std::string& topic)
+{
+  return {Timestamp{}, {}, 0, 0, {packet.begin(), packet.end()}, topic};
+}
+
+LidarAddress onTopics(const std::string& key, const std::string& topic, const std::string& imu_topic)
+{
+  LidarAddress address;
+  address.key = key;
+  address.topic = topic;
+  address.imu_topic = imu_topic;
+  return address;
+}
+
+TEST(PacketRouter, tellsLidarsOfBagsApartByTopic)
+{
+  PacketRouter router = twoLidars(onTopics("lidar1", "/l", "/l/imu"), onTopics("lidar2", "/r", ""));
+  EXPECT_EQ(route(router, message("L-", "/l")), "0L");
+  EXPECT_EQ(route(router, message("I-", "/l/imu")), "0I");
+  EXPECT_EQ(route(router, message("L-", "/r")), "1L");
+  EXPECT_EQ(route(router, datagram("L-", 7502)), "none");
+  EXPECT_EQ(route(router, message("DDS", "/other")), "none");
+  EXPECT_EQ(router.unmatched().count({0, {}, "/other"}), 1u);
+}
+
+TEST(PacketRouter, namesTheTopicToSetIfALidarIsHeardOnAnotherOneOnly)
+{
+  PacketRouter router = twoLidars(onTopics("lidar1", "/l", ""), onTopics("lidar2", "/wrong", ""));
+  for (int i = 0; i < 60; ++i)
+  {
+    route(router, message("La", "/l"));
+    EXPECT_EQ(route(router, message("Lb", "/r")), "none");
+  }
+  EXPECT_THAT(router.takeWarnings(),
+              testing::ElementsAre("lidar 'right': its packets come on topic /r: set lidar2_topic = /r"));
+}
+
 TEST(PacketRouter, countsByPortAndSourceWhatIsNoLidars)
 {
   PacketRouter router = twoLidars({7502, 7503, {}}, {7504, 7505, {}});

@@ -180,6 +180,13 @@ Timestamp stampOf(double time, const TimeUnit& unit, double first, Timestamp hea
 }
 }  // namespace
 
+std::pair<Timestamp, Timestamp> TimedCloud::span() const
+{
+  const auto [earliest, latest] = std::minmax_element(
+      points.begin(), points.end(), [](const TimedPoint& a, const TimedPoint& b) { return a.stamp < b.stamp; });
+  return {earliest->stamp, latest->stamp};
+}
+
 bool isCloudType(const std::string& type) { return type == "sensor_msgs/PointCloud2"; }
 
 TimedCloud timedCloudOf(const BagTopic& topic, Bytes message)

@@ -4,6 +4,7 @@
 #include "input/lidar/CloudPacket.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace scanloom
@@ -21,6 +22,9 @@ struct TimedCloud
   std::string time_is;             // "field 't': uint32, ns after the header's stamp"
   bool one_instant = false;        // all points have one time: the motion within the turn is not known
   int channels = 1;                // of the field ring, channel or line
+
+  /** The stamps of its earliest and its latest point. It must have one. */
+  std::pair<Timestamp, Timestamp> span() const;
 };
 
 bool isCloudType(const std::string& type);

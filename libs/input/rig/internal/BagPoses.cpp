@@ -66,7 +66,7 @@ std::string bodyImuTopic(const BagContents& bags, const std::vector<FoundLidar>&
   {
     return std::any_of(lidars.begin(), lidars.end(),
                        [&](const FoundLidar& lidar)
-                       { return lidar.imu_port != 0 && nameSpaceOf(lidar.topic) == nameSpaceOf(imu.name); });
+                       { return !lidar.imu_topic.empty() && nameSpaceOf(lidar.topic) == nameSpaceOf(imu.name); });
   };
   imus.erase(std::remove_if(imus.begin(), imus.end(), is_of_a_lidar), imus.end());
   const auto better = [&](const TopicContents& a, const TopicContents& b)

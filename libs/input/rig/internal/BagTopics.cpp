@@ -8,32 +8,27 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
+#include <set>
 #include <stdexcept>
 
 namespace scanloom
 {
 namespace
 {
-using TopicPorts = std::map<std::string, std::uint16_t>;
+using Topics = std::set<std::string>;
 using RecordingPaths = std::vector<std::filesystem::path>;
 
-std::string topicsAmong(const TopicPorts& ports)
+std::string listed(const Topics& topics)
 {
-  std::vector<std::string> names;
-  for (const auto& [topic, port] : ports) names.push_back(topic);
-  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+  return topics.empty() ? "none" : fmt::format("{}", fmt::join(topics, ", "));
 }
 
-void setPort(const std::string& key, const std::string& topic, const TopicPorts& ports, int& port)
+void refuseUnknown(const std::string& key, const std::string& topic, const Topics& topics)
 {
-  if (topic.empty()) return;
-  const auto found = ports.find(topic);
-  if (found == ports.end())
+  if (!topic.empty() && topics.count(topic) == 0)
     throw ConfigError(
         fmt::format("{} = {}: no bag of pcap_input has such a topic with packets of a lidar; there are: {}", key, topic,
-                    topicsAmong(ports)));
-  port = found->second;
+                    listed(topics)));
 }
 
 void readMetadata(const RecordingPaths& recordings, RigSensor& lidar)
@@ -51,13 +46,12 @@ void readMetadata(const RecordingPaths& recordings, RigSensor& lidar)
 }
 
 /** Topics have no default as ports have. */
-void setOnlyPort(const TopicPorts& ports, RigSensor& lidar)
+std::string onlyTopic(const Topics& topics, const std::string& key)
 {
-  if (lidar.options.port != 0) return;
-  if (ports.size() != 1)
-    throw ConfigError(fmt::format("{}_topic is missing: the bag's topics with packets of lidars are: {}", lidar.key,
-                                  topicsAmong(ports)));
-  lidar.options.port = ports.begin()->second;
+  if (topics.size() != 1)
+    throw ConfigError(
+        fmt::format("{}_topic is missing: the bag's topics with packets of lidars are: {}", key, listed(topics)));
+  return *topics.begin();
 }
 }  // namespace
 
@@ -69,12 +63,12 @@ void resolveTopics(const RecordingPaths& recordings, std::vector<RigSensor>& lid
   { return !lidar.options.topic.empty() || !lidar.options.imu_topic.empty() || topicNamedBy(lidar.options.metadata); };
   if (!all_bags && std::none_of(lidars.begin(), lidars.end(), namesTopics)) return;
 
-  const TopicPorts ports = portsOfTopics(recordings);
+  const Topics topics = packetTopicsOf(recordings);
   for (RigSensor& lidar : lidars)
   {
-    setPort(lidar.key + "_topic", lidar.options.topic, ports, lidar.options.port);
-    setPort(lidar.key + "_imu_topic", lidar.options.imu_topic, ports, lidar.options.imu_port);
-    if (all_bags) setOnlyPort(ports, lidar);
+    refuseUnknown(lidar.key + "_topic", lidar.options.topic, topics);
+    refuseUnknown(lidar.key + "_imu_topic", lidar.options.imu_topic, topics);
+    if (all_bags && lidar.options.topic.empty()) lidar.options.topic = onlyTopic(topics, lidar.key);
     readMetadata(recordings, lidar);
   }
 }

@@ -9,9 +9,8 @@
 namespace scanloom
 {
 /**
- * Of lidars in bags: the keys 'topic' and 'imu_topic' become the ports that stand for the topics (BagPackets.h), and a
- * topic named by 'metadata' is read. A lidar without port and topic gets the only topic with packets. Throws
- * ConfigError, naming the topics there are, for a topic that no bag has and for a missing one.
+ * Of lidars in bags: a topic named by 'metadata' is read, and a lidar without 'topic' gets the only topic with packets
+ * (BagPackets.h). Throws ConfigError, naming the topics there are, for a topic that no bag has and for a missing one.
  */
 void resolveTopics(const std::vector<std::filesystem::path>& recordings, std::vector<RigSensor>&);
 

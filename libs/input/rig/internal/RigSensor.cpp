@@ -29,6 +29,9 @@ LidarAddress addressOf(const RigSensor& lidar, const PacketDecoder* decoder)
 {
   LidarAddress address;
   address.key = lidar.key;
+  address.topic = lidar.options.topic;
+  address.imu_topic = lidar.options.imu_topic;
+  if (!address.topic.empty()) return address;
   address.lidar_port = portOf(lidar.options.port, decoder, &LidarDescription::lidar_port, defaultPorts().lidar);
   address.imu_port = portOf(lidar.options.imu_port, decoder, &LidarDescription::imu_port, defaultPorts().imu);
   if (const auto sensor = sensorOf(lidar.options)) address.source = sensor->address.ip;

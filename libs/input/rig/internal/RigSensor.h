@@ -22,8 +22,9 @@ struct RigSensor
 std::shared_ptr<const PacketDecoder> decoderOf(const RigSensor&);
 
 /**
- * Where its packets arrive: as configured, else as its metadata say; while they are not known, at the default ports of
- * sensors that can be asked. Throws ConfigError if neither the configuration nor its metadata name a port.
+ * Where its packets arrive: on its topics of a bag, or at ports as configured, else as its metadata say; while they are
+ * not known, at the default ports of sensors that can be asked. Throws ConfigError if neither the configuration nor its
+ * metadata name a port.
  */
 LidarAddress addressOf(const RigSensor&, const PacketDecoder*);
 

@@ -2,6 +2,7 @@
 
 #include "input/bags/BagPackets.h"
 #include "input/packets/MergedCaptures.h"
+#include "input/rig/PacketRouter.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -27,7 +28,7 @@ bool isKept(std::uint64_t number) { return number < kFirst || (number < 1024 && 
 std::vector<SampledStream> streamsOf(const std::vector<std::filesystem::path>& captures)
 {
   MergedCaptures datagrams(datagramsOf(captures));
-  std::map<std::pair<IpAddress, std::uint16_t>, SampledStream> streams;
+  std::map<Origin, SampledStream> streams;
   std::optional<Timestamp> first;
   std::uint64_t looked_at = 0;
   for (Datagram datagram; datagrams.next(datagram);)
@@ -35,16 +36,15 @@ std::vector<SampledStream> streamsOf(const std::vector<std::filesystem::path>& c
     if (!first) first = datagram.received;
     if (datagram.received - *first > kLookedAt && looked_at >= kLeastLookedAt) break;
     ++looked_at;
-    const std::pair origin{datagram.source, datagram.destination_port};
+    const Origin origin = originOf(datagram);
     if (streams.size() >= kMostStreams && streams.count(origin) == 0) continue;
     SampledStream& stream =
-        streams.try_emplace(origin, SampledStream{origin.first, origin.second, "", 0, {}}).first->second;
+        streams.try_emplace(origin, SampledStream{origin.source, origin.destination_port, origin.topic, 0, {}})
+            .first->second;
     if (isKept(stream.datagrams++)) stream.samples.push_back(datagram.payload);
   }
   if (const CaptureCounters counters = datagrams.counters(); !first && !counters.damages.empty())
     throw std::runtime_error(fmt::format("{}", fmt::join(counters.damages, "\n")));
-  for (const auto& [topic, port] : portsOfTopics(captures))
-    if (const auto stream = streams.find({IpAddress{}, port}); stream != streams.end()) stream->second.topic = topic;
   std::vector<SampledStream> result;
   for (auto& [origin, stream] : streams) result.push_back(std::move(stream));
   return result;

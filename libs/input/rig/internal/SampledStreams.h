@@ -15,13 +15,13 @@ struct SampledStream
 
   IpAddress source;
   std::uint16_t port = 0;  // destination
-  std::string topic;       // of a bag, which the port stands for; empty in a capture
+  std::string topic;       // of a bag, instead of source and port; empty in a capture
   std::uint64_t datagrams = 0;
   std::vector<Packet> samples;  // the first ones, and then ever fewer
 };
 
 /**
- * What the first ten seconds of captures hold, or their first 2000 datagrams; by source, then port. Throws what
+ * What the first ten seconds of captures hold, or their first 2000 datagrams; by port, source, topic. Throws what
  * MergedCaptures throws, and std::runtime_error with the damages if these leave no datagram.
  */
 std::vector<SampledStream> streamsOf(const std::vector<std::filesystem::path>& captures);
