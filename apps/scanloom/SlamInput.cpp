@@ -3,12 +3,7 @@
 #include "Devices.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Progress.h"
-#include "input/rig/CloudsInput.h"
-#include "input/rig/ReadAhead.h"
-#include "input/rig/Rig.h"
 #include "input/rig/RigOptions.h"
-#include "input/rig/openRig.h"
-#include "mrpt/observations/RawlogInput.h"
 #include "run/run/ImuInUse.h"
 
 #include <fmt/format.h>
@@ -31,40 +26,19 @@ std::optional<std::string> imuSection(const Configuration& configuration, const 
         "sections [{}] and [{}] both have a driver: only one, the IMU, can be beside the lidars", found[0], found[1]));
   return found.empty() ? std::nullopt : std::optional(found.front());
 }
-
-SlamInput openLive(const Rig& rig, const Configuration& configuration, const std::string& section)
-{
-  std::unique_ptr<SensorInput> sensors = openRig(rig);
-  if (const std::optional<std::string> imu = imuSection(configuration, section))
-    sensors = devices().addImu(std::move(sensors), configuration, *imu);
-  return {std::move(sensors), 0, true};
-}
-
-std::unique_ptr<SensorInput> readAhead(std::unique_ptr<SensorInput> input)
-{
-  return std::make_unique<ReadAhead>(std::move(input));
-}
 }  // namespace
 
-SlamInput openInput(const RecordingFiles& files, const std::vector<std::string>& lidars,
-                    const Configuration& configuration, Duration body_imu_ahead)
+SlamInput openForSlam(const InputSource& source, const Configuration& configuration)
 {
-  if (!files.rawlogs.empty()) return {readAhead(std::make_unique<RawlogInput>(files.rawlogs.front(), lidars))};
-  if (!files.clouds.empty())
-  {
-    if (!lidars.empty()) throw UsageError("clouds do not tell lidars apart: all lidars are used");
-    return {readAhead(std::make_unique<CloudsInput>(files.clouds))};
-  }
-  const std::string section = rigSection(configuration);
-  Rig rig = makeRig(readRigSettings(configuration, section), lidars);
-  rig.body_imu_ahead = body_imu_ahead;
-  if (rig.captures.empty()) return openLive(rig, configuration, section);
-  const std::uint64_t megabytes = megabytesOf(rig.captures);
-  return {readAhead(openRig(rig)), megabytes};
+  SlamInput input{openInput(source), megabytesOf(source.rig.captures), source.isLive()};
+  if (!input.live) return input;
+  if (const std::optional<std::string> imu = imuSection(configuration, rigSection(configuration)))
+    input.sensors = devices().addImu(std::move(input.sensors), configuration, *imu);
+  return input;
 }
 
-void refuseUnknownImu(const SlamInput& input, const SlamOptions& options)
+void refuseUnknownImu(const SensorInput& input, const SlamOptions& options)
 {
-  chosenImu(*input.sensors, options.imu, fromSeconds(1e-3 * options.imu_delay_ms));
+  chosenImu(input, options.imu, fromSeconds(1e-3 * options.imu_delay_ms));
 }
 }  // namespace scanloom

@@ -1,9 +1,8 @@
-/** What `slam` reads: its settings, and its sensors. `doctor` reads rawlogs and clouds in the same way. */
+/** What `slam` reads: its settings, and its sensors. */
 #pragma once
 #include "Arguments.h"
-#include "input/rig/RecordingFiles.h"
-#include "input/rig/SensorInput.h"
 #include "mrpt/maps/OctoMapExport.h"
+#include "mrpt/observations/openInput.h"
 #include "run/run/OutputOptions.h"
 #include "run/run/SlamRun.h"
 
@@ -35,14 +34,9 @@ struct SlamInput
   bool live = false;
 };
 
-/**
- * The rawlog or the clouds of `files`, or the rig of the configuration, which reads the captures or live lidars.
- * @param lidars names of those to use; empty: all.
- * @param body_imu_ahead of captures (Rig).
- */
-SlamInput openInput(const RecordingFiles& files, const std::vector<std::string>& lidars, const Configuration&,
-                    Duration body_imu_ahead = {});
+/** The source, live with the IMU that the configuration describes beside the lidars. */
+SlamInput openForSlam(const InputSource&, const Configuration&);
 
 /** Throws ConfigError if the settings name an IMU that the input does not have. */
-void refuseUnknownImu(const SlamInput&, const SlamOptions&);
+void refuseUnknownImu(const SensorInput&, const SlamOptions&);
 }  // namespace scanloom

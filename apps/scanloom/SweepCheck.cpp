@@ -5,7 +5,6 @@
 #include "Settings.h"
 #include "SlamInput.h"
 #include "base/core/ConfigError.h"
-#include "input/rig/Rig.h"
 #include "lab/simulation/RecordingFolder.h"
 #include "lab/simulation/checkedScene.h"
 #include "lab/study/PlannedDrive.h"
@@ -116,14 +115,11 @@ std::vector<std::string> namesIn(const std::string& lidars)
 
 void openAsRun(const Loaded<SlamVerbSettings>& loaded, const RecordingFiles& files, const std::string& lidars)
 {
-  const std::vector<std::string> names = namesIn(lidars);
-  if (files.rawlogs.empty() && files.clouds.empty())
-  {
-    const std::string section = rigSection(loaded.configuration);
-    if (makeRig(readRigSettings(loaded.configuration, section), names).captures.empty())
-      throw UsageError(fmt::format("[{}] pcap_input is not set: the runs would wait for live lidars", section));
-  }
-  refuseUnknownImu(openInput(files, names, loaded.configuration), loaded.settings.slam);
+  const InputSource source = sourceOf(files, loaded.configuration, namesIn(lidars));
+  if (source.isLive())
+    throw UsageError(fmt::format("[{}] pcap_input is not set: the runs would wait for live lidars",
+                                 rigSection(loaded.configuration)));
+  refuseUnknownImu(*openInput(source), loaded.settings.slam);
 }
 
 /** The command of a run has it already. */

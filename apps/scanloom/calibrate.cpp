@@ -11,9 +11,7 @@
 #include "calibration/MountReport.h"
 #include "calibration/StaticMount.h"
 #include "input/rig/InputDisplay.h"
-#include "input/rig/ReadAhead.h"
-#include "input/rig/Rig.h"
-#include "input/rig/openRig.h"
+#include "mrpt/observations/openInput.h"
 #include "run/run/Calibration.h"
 #include "run/run/ImuCalibration.h"
 #include "run/run/MountPicture.h"
@@ -50,13 +48,14 @@ std::size_t indexOf(const std::string& name, const std::vector<MountedLidar>& li
 }
 
 /** With the pose of the body's own IMU, if there is one; a lidar's comes with the lidar. */
-CalibrationDrive driven(const Rig& rig, const SlamSettings& settings, Calibration& calibration)
+CalibrationDrive driven(const InputSource& source, const SlamSettings& settings, Calibration& calibration)
 {
+  const Rig& rig = source.rig;
   const std::uint64_t megabytes = megabytesOf(rig.captures);
   std::optional<InputDisplay> display;
   const OpenInput open = [&]
   {
-    auto input = std::make_unique<ReadAhead>(openRig(rig));
+    auto input = openInput(source);
     display.emplace("calibrate", *input, megabytes, "MB");
     return input;
   };
@@ -176,8 +175,9 @@ int runDrive(const CalibrateArguments& arguments)
 {
   const RecordingFiles recording = arguments.recording.given() ? filesOf(arguments.recording) : RecordingFiles{};
   const Loaded<SlamSettings> loaded = load<SlamSettings>(arguments.configuration, recording, Poses::TakenAsZero);
-  const Rig rig = makeRig(readRigSettings(loaded.configuration, rigSection(loaded.configuration)));
-  if (rig.captures.empty()) throw UsageError("calibrate reads captures: record a drive first ('scanloom record')");
+  const InputSource source = sourceOf(recording, loaded.configuration);
+  const Rig& rig = source.rig;
+  if (source.isLive()) throw UsageError("calibrate reads captures: record a drive first ('scanloom record')");
   Calibration calibration;
   calibration.lidars = mountedLidars(setupOf(rig).header.lidars);
   refuseExisting(arguments.output, resultFiles(calibration.lidars));
@@ -188,7 +188,7 @@ int runDrive(const CalibrateArguments& arguments)
   }
   catchInterruption();
   calibration.reference = indexOf(arguments.reference, calibration.lidars);
-  const CalibrationDrive drive = driven(rig, loaded.settings, calibration);
+  const CalibrationDrive drive = driven(source, loaded.settings, calibration);
   if (interrupted()) return kInterrupted;
   if (calibration.imu && calibration.imu->outcome == ImuMountOutcome::Contradicted)
     return contradicted(*calibration.imu);

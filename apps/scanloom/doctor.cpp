@@ -2,7 +2,6 @@
 #include "Arguments.h"
 #include "Options.h"
 #include "Settings.h"
-#include "SlamInput.h"
 #include "Verb.h"
 #include "base/core/AtomicFile.h"
 #include "base/core/Interruption.h"
@@ -12,6 +11,7 @@
 #include "diagnosis/Listening.h"
 #include "diagnosis/RawlogCheck.h"
 #include "diagnosis/ScanEvidence.h"
+#include "mrpt/observations/openInput.h"
 #include "warn.h"
 
 #include <fmt/format.h>
@@ -49,7 +49,7 @@ struct DoctorSettings : DoctorLimits
 
 Rig rigOf(const Configuration& configuration)
 {
-  Rig rig = makeRig(readRigSettings(configuration, rigSection(configuration)));
+  Rig rig = sourceOf({}, configuration).rig;
   for (const RigSensor& sensor : rig.sensors)
     if (!sensor.metadata)
       throw std::runtime_error(
@@ -83,9 +83,9 @@ RigEvidence listen(const Rig& rig, bool poses_known, const DoctorArguments& argu
 /** Clouds name no body frame. */
 RigEvidence readClouds(const RecordingFiles& recording, const Configuration& configuration)
 {
-  const SlamInput input = openInput(recording, {}, configuration);
-  RigEvidence evidence = scanEvidence(*input.sensors, false, [] { return !interrupted(); });
-  for (const std::string& warning : input.sensors->takeWarnings()) warn(warning);
+  const std::unique_ptr<SensorInput> input = openInput(sourceOf(recording, configuration));
+  RigEvidence evidence = scanEvidence(*input, false, [] { return !interrupted(); });
+  for (const std::string& warning : input->takeWarnings()) warn(warning);
   return evidence;
 }
 

@@ -6,9 +6,9 @@
 #include "base/core/ConfigError.h"
 #include "input/bags/BagContents.h"
 #include "input/packets/CaptureReport.h"
-#include "input/rig/CloudsInput.h"
 #include "input/rig/FoundLidars.h"
 #include "mrpt/edit/RawlogReport.h"
+#include "mrpt/observations/openInput.h"
 #include "warn.h"
 
 #include <fmt/format.h>
@@ -86,11 +86,11 @@ int printCaptureInfo(const RecordingFiles& files, const InfoArguments& arguments
 int printCloudsInfo(const RecordingFiles& files, const InfoArguments& arguments)
 {
   if (arguments.json) throw UsageError("--json is for captures, bags and rawlogs: clouds are just counted");
-  CloudsInput clouds(files.clouds);
+  const std::unique_ptr<SensorInput> clouds = openInput(sourceOf(files, {}));
   std::size_t count = 0, points = 0;
   std::optional<Timestamp> first;
   Timestamp last;
-  while (const auto event = clouds.next())
+  while (const auto event = clouds->next())
   {
     const Scan& scan = std::get<Scan>(*event);
     points += scan.points.size();
@@ -100,8 +100,8 @@ int printCloudsInfo(const RecordingFiles& files, const InfoArguments& arguments)
   }
   fmt::print("{} clouds, {} points, from {:.3f} to {:.3f} s\n", count, points,
              seconds(first.value_or(last).time_since_epoch()), seconds(last.time_since_epoch()));
-  for (const std::string& note : clouds.takeWarnings()) fmt::print("  {}\n", note);
-  return clouds.account().input.at(kDamagedInputs) == 0 ? kDone : kQualityGate;
+  for (const std::string& note : clouds->takeWarnings()) fmt::print("  {}\n", note);
+  return clouds->account().input.at(kDamagedInputs) == 0 ? kDone : kQualityGate;
 }
 
 int printRawlogInfo(const std::filesystem::path& rawlog, bool json)

@@ -8,13 +8,12 @@
 #include "base/core/AtomicFile.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
-#include "input/rig/CloudsInput.h"
 #include "input/rig/InputDisplay.h"
-#include "input/rig/openRig.h"
 #include "input/rig/silentLidars.h"
 #include "mrpt/observations/RawlogWriter.h"
 #include "mrpt/observations/RigObservations.h"
 #include "mrpt/observations/RigRecording.h"
+#include "mrpt/observations/openInput.h"
 #include "warn.h"
 
 #include <fmt/format.h>
@@ -67,25 +66,14 @@ struct RecordArguments
   bool json = false;
 };
 
-/** The input that the arguments name. */
-struct Source
-{
-  DriverOptions driver;
-  Rig rig;
-  std::filesystem::path capture;   // that is written with the rawlog; empty: none
-  RecordingFiles::Paths clouds{};  // if not empty, the rest is
-
-  bool isLive() const { return rig.captures.empty() && clouds.empty(); }
-};
-
-std::unique_ptr<InputDisplay> displayOf(const Source& source, SensorInput& input)
+std::unique_ptr<InputDisplay> displayOf(const InputSource& source, SensorInput& input)
 {
   if (source.isLive()) return std::make_unique<InputDisplay>("record", input);
   if (!source.clouds.empty()) return std::make_unique<InputDisplay>("record", input, source.clouds.size(), "clouds");
   return std::make_unique<InputDisplay>("record", input, megabytesOf(source.rig.captures), "MB");
 }
 
-Recorded record(SensorInput& input, const Source& source, const RecordArguments& arguments, RawlogWriter& writer)
+Recorded record(SensorInput& input, const InputSource& source, const RecordArguments& arguments, RawlogWriter& writer)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -161,40 +149,30 @@ void report(const RecordArguments& arguments, const Recorded& recorded, const Ri
     if (count > 0 && what != "datagrams") fmt::print("  {}: {}\n", what, count);
 }
 
-std::vector<std::filesystem::path> filesReadFor(const Rig& rig, const RigSettings& settings,
+std::vector<std::filesystem::path> filesReadFor(const InputSource& source, const RigSettings& settings,
                                                 const RecordArguments& arguments)
 {
   std::vector<std::filesystem::path> files = arguments.configuration.files;
-  files.insert(files.end(), rig.captures.begin(), rig.captures.end());
+  files.insert(files.end(), source.clouds.begin(), source.clouds.end());
+  files.insert(files.end(), source.rig.captures.begin(), source.rig.captures.end());
   for (const LidarOptions& lidar : settings.lidars) files.emplace_back(lidar.metadata);
   files.emplace_back(settings.rig.extrinsics);
   files.emplace_back(settings.rig.imu_csv);
   return files;
 }
 
-Source openSource(const RecordArguments& arguments, const RecordingFiles& recording, const Configuration& configuration)
+InputSource sourceFor(const RecordArguments& arguments, const RecordingFiles& recording,
+                      const Configuration& configuration)
 {
-  if (!recording.clouds.empty())
-  {
-    if (!arguments.lidars.empty()) throw UsageError("clouds do not tell lidars apart: all lidars are used");
-    refuseExisting({arguments.output}, arguments.overwrite);
-    refuseInputsAsOutputs(recording.clouds, {arguments.output});
-    return {{}, {}, {}, recording.clouds};
-  }
-  const RigSettings settings = readRigSettings(configuration, rigSection(configuration));
-  const bool live = settings.rig.pcap_input.empty();
+  RigSettings settings;  // none of clouds
+  if (recording.clouds.empty()) settings = readRigSettings(configuration, rigSection(configuration));
   std::vector<std::filesystem::path> outputs{arguments.output};
-  if (live && !settings.rig.pcap_output.empty()) outputs.emplace_back(settings.rig.pcap_output);
+  if (settings.rig.pcap_input.empty() && !settings.rig.pcap_output.empty())
+    outputs.emplace_back(settings.rig.pcap_output);
   refuseExisting(outputs, arguments.overwrite);
-  Rig rig = makeRig(settings, arguments.lidars);
-  refuseInputsAsOutputs(filesReadFor(rig, settings, arguments), outputs);
-  return {settings.driver, std::move(rig), live ? settings.rig.pcap_output : ""};
-}
-
-std::unique_ptr<SensorInput> inputOf(const Source& source)
-{
-  if (!source.clouds.empty()) return std::make_unique<CloudsInput>(source.clouds);
-  return openRig(source.rig);
+  InputSource source = sourceOf(recording, configuration, arguments.lidars);
+  refuseInputsAsOutputs(filesReadFor(source, settings, arguments), outputs);
+  return source;
 }
 
 RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& driver, bool live)
@@ -238,7 +216,7 @@ int run(RecordArguments arguments)
   const RecordingFiles recording = recordingOf(arguments.recording);
   if (arguments.output.empty()) arguments.output = defaultRawlog(arguments.recording);
   const Loaded<RecordSettings> loaded = load<RecordSettings>(arguments.configuration, recording);
-  const Source source = openSource(arguments, recording, loaded.configuration);
+  const InputSource source = sourceFor(arguments, recording, loaded.configuration);
   refuseOtherFormat(arguments.output);
   const bool live = source.isLive();
   if (!live) refuseSeconds(arguments.seconds);
@@ -250,8 +228,8 @@ int run(RecordArguments arguments)
   }
 
   catchInterruption();
-  ReplacedCapture replaced(source.capture);
-  const std::unique_ptr<SensorInput> input = inputOf(source);
+  ReplacedCapture replaced(live ? source.rig.live.capture : std::filesystem::path());
+  const std::unique_ptr<SensorInput> input = openInput(source);
   RawlogWriter writer(arguments.output, input->setup().header, options);
   if (const auto& earlier = writer.earlierPart(); !earlier.empty())
     warn(fmt::format("an earlier recording did not end: what it left is now {}", earlier.string()));

@@ -183,6 +183,15 @@ std::filesystem::path defaultFolder(const RecordingArguments& recording)
   return besideRecording(recording, "_slam");
 }
 
+SlamInput inputOf(const RecordingFiles& recording, const SlamArguments& arguments,
+                  const Loaded<SlamVerbSettings>& loaded)
+{
+  InputSource source = sourceOf(recording, loaded.configuration, arguments.lidars);
+  // With the samples that tell the start, scans need not wait for it in memory.
+  source.rig.body_imu_ahead = fromSeconds(loaded.settings.start.duration);
+  return openForSlam(source, loaded.configuration);
+}
+
 int run(SlamArguments arguments)
 {
   if (arguments.every_nth > 0)
@@ -194,13 +203,11 @@ int run(SlamArguments arguments)
   std::vector<std::string> names{kConfigurationFile};
   for (std::string& name : SlamFiles::names(loaded.settings.output)) names.push_back(std::move(name));
   refuseExisting(arguments.output, names);
-  // With the samples that tell the start, scans need not wait for it in memory.
-  const Duration to_start = fromSeconds(loaded.settings.start.duration);
-  const SlamInput input = openInput(recording, arguments.lidars, loaded.configuration, to_start);
+  const SlamInput input = inputOf(recording, arguments, loaded);
   if (!input.live) refuseSeconds(arguments.seconds);
   if (arguments.configuration.dry_run)
   {
-    refuseUnknownImu(input, loaded.settings.slam);
+    refuseUnknownImu(*input.sensors, loaded.settings.slam);
     std::cout << toIni(loaded);
     return kDone;
   }

@@ -12,16 +12,12 @@
 #include "base/formats/TrajectoryReader.h"
 #include "base/formats/TrajectoryWriter.h"
 #include "input/bags/BagReader.h"
-#include "input/rig/CloudsInput.h"
-#include "input/rig/Rig.h"
-#include "input/rig/RigOptions.h"
-#include "input/rig/openRig.h"
 #include "mrpt/edit/CloudObservation.h"
 #include "mrpt/maps/OctoMapFile.h"
 #include "mrpt/maps/SceneFile.h"
 #include "mrpt/maps/SimpleMapReader.h"
 #include "mrpt/observations/ObservationReader.h"
-#include "mrpt/observations/RawlogInput.h"
+#include "mrpt/observations/openInput.h"
 #include "run/page/Player.h"
 #include "warn.h"
 
@@ -66,31 +62,17 @@ std::vector<Eigen::Vector3f> positionsOf(const PointCloud& cloud)
   return positions;
 }
 
-/** Of captures, or of clouds in a folder. */
-RecordingFiles recordingIn(const Path& path)
+InputSource sourceAt(const Path& path)
 {
-  RecordingFiles files = filesOf(std::vector<Path>{path});
-  if (files.captures.empty() && files.clouds.empty())
-    throw UsageError(fmt::format("{}: holds no capture, bag or cloud: name its rawlog", path.string()));
-  return files;
-}
-
-Rig rigOf(const RecordingFiles& files)
-{
+  const RecordingFiles files = filesOf(RecordingArguments{{path}, {}}, Clouds::Taken);
   Configuration configuration;
   addCaptures(files, configuration);
-  return makeRig(readRigSettings(configuration, rigSection(configuration)));
-}
-
-Player::Open openerOf(const RecordingFiles& files)
-{
-  if (files.captures.empty()) return [clouds = files.clouds] { return std::make_unique<CloudsInput>(clouds); };
-  return [rig = rigOf(files)] { return openRig(rig); };
+  return sourceOf(files, configuration);
 }
 
 void addRecordedScan(SceneBuilder& scene, const Path& path, std::uint64_t wanted)
 {
-  const std::unique_ptr<SensorInput> input = openerOf(recordingIn(path))();
+  const std::unique_ptr<SensorInput> input = openInput(sourceAt(path));
   std::uint64_t scans = 0;
   while (const std::optional<SensorEvent> event = input->next())
     if (const auto* scan = std::get_if<Scan>(&*event); scan && scans++ == wanted)
@@ -148,15 +130,16 @@ int show(const mrpt::opengl::COpenGLScene::Ptr& scene, const ViewArguments& argu
   return interrupted() ? kInterrupted : kDone;
 }
 
+bool isRecording(const Path& file) { return file.extension() == ".rawlog" || isOfPackets(file); }
+
 Player::Open openerOf(const Path& file)
 {
-  if (isOfPackets(file)) return openerOf(recordingIn(file));
-  if (file.extension() == ".rawlog") return [file] { return std::make_unique<RawlogInput>(file); };
-  throw UsageError(fmt::format(
-      "{}: --web plays a capture, a bag, a folder of these or a .rawlog; others are shown without it", file.string()));
+  if (!isRecording(file))
+    throw UsageError(
+        fmt::format("{}: --web plays a capture, a bag, a folder of these or a .rawlog; others are shown without it",
+                    file.string()));
+  return [source = sourceAt(file)] { return openInput(source); };
 }
-
-bool isRecording(const Path& file) { return file.extension() == ".rawlog" || isOfPackets(file); }
 
 int play(const ViewArguments& arguments)
 {

@@ -2,7 +2,7 @@
 
 #include "input/bags/BagPackets.h"
 #include "input/packets/MergedCaptures.h"
-#include "input/rig/RigLive.h"
+#include "input/rig/receiverOptions.h"
 
 #include <chrono>
 

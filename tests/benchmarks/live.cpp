@@ -12,7 +12,7 @@
  */
 #include "LoopbackLidars.h"
 #include "PageReaders.h"
-#include "input/rig/RigLive.h"
+#include "input/rig/internal/RigLive.h"
 #include "mrpt/observations/RawlogWriter.h"
 #include "mrpt/observations/RigObservations.h"
 #include "run/page/WatchedInput.h"

@@ -1,7 +1,7 @@
 #include "support/SceneInput.h"
 
 #include "input/rig/Extrinsics.h"
-#include "input/rig/RigStream.h"
+#include "input/rig/internal/RigStream.h"
 #include "lab/simulation/internal/ScenePackets.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "input/rig/openRig.h"
 
-#include "input/rig/RigLive.h"
+#include "input/rig/internal/RigLive.h"
 #include "input/rig/internal/RigReplay.h"
 
 namespace scanloom

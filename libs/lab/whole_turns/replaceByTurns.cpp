@@ -1,11 +1,9 @@
 #include "lab/whole_turns/replaceByTurns.h"
 
 #include "input/rig/RecognisedRig.h"
-#include "input/rig/Rig.h"
-#include "input/rig/RigOptions.h"
-#include "input/rig/openRig.h"
 #include "mrpt/observations/RawlogWriter.h"
 #include "mrpt/observations/RigObservations.h"
+#include "mrpt/observations/openInput.h"
 
 namespace scanloom
 {
@@ -32,8 +30,7 @@ void replaceByTurns(const std::filesystem::path& folder, TurnGrouping grouping)
 {
   const RecordingFiles files = filesOf({folder});
   const Configuration configuration = Configuration::fromText(recogniseRig(files).ini, "recognised");
-  const Rig rig = makeRig(readRigSettings(configuration, kRecognisedSection));
-  writeTurns(*openRig(rig), grouping, folder / "recording.rawlog");
+  writeTurns(*openInput(sourceOf(files, configuration)), grouping, folder / "recording.rawlog");
   for (const auto& capture : files.captures) std::filesystem::remove(capture);
 }
 }  // namespace scanloom

@@ -1,6 +1,6 @@
 /** A rig of lidars on this computer's own network, and what they send. */
 #pragma once
-#include "input/rig/RigLive.h"
+#include "input/rig/internal/RigLive.h"
 #include "input/rig/internal/RigReplay.h"
 #include "support/FakeLidar.h"
 #include "support/UdpSender.h"

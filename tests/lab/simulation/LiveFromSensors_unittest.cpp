@@ -12,7 +12,7 @@
 
 #include "input/lidar/OusterEncoder.h"
 #include "input/lidar/OusterMetadata.h"
-#include "input/rig/RigLive.h"
+#include "input/rig/internal/RigLive.h"
 #include "input/rig/internal/RigReplay.h"
 #include "lab/simulation/internal/AssumedOuster.h"
 #include "support/FakeSensor.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include "input/rig/Rig.h"
-#include "input/rig/RigStream.h"
 #include "input/rig/internal/PacedCaptures.h"
+#include "input/rig/internal/RigStream.h"
 
 #include <atomic>
 

@@ -1,4 +1,4 @@
-#include "input/rig/RigStream.h"
+#include "input/rig/internal/RigStream.h"
 
 #include <fmt/format.h>
 

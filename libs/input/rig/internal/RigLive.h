@@ -1,9 +1,9 @@
 #pragma once
 #include "base/core/BoundedQueue.h"
 #include "input/packets/UdpReceiver.h"
-#include "input/rig/RigStream.h"
 #include "input/rig/internal/LiveCapture.h"
 #include "input/rig/internal/LiveSensors.h"
+#include "input/rig/internal/RigStream.h"
 
 #include <atomic>
 #include <memory>
@@ -18,9 +18,6 @@ struct ReceivedEvent
   SensorEvent event;
   Timestamp newest;  // when the newest datagram was received that it was made of
 };
-
-/** The ports of a rig's lidars, and from which addresses each is received. */
-UdpReceiverOptions receiverOptions(const Rig&);
 
 /**
  * A rig's sockets through the batcher. One thread receives (UdpReceiver), one merges the datagrams in the order of the
