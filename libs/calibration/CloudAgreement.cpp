@@ -50,7 +50,7 @@ Minimum alignTurns(const Turns& turns, const Rigid& guess, double d2, std::size_
   std::vector<CellCorrespondences> pairs;
   for (std::size_t i = 0; i < turns.a.size(); ++i)
     if (i != left_out) pairs.emplace_back(turns.b[i], turns.a[i], options.neighbours);
-  return minimise(pairs, guess, options);
+  return minimise(std::move(pairs), guess, options);
 }
 
 struct Movement

@@ -1,5 +1,7 @@
 #include "calibration/Mount.h"
 
+#include "estimation/ndt/ForestCorrections.h"
+
 namespace scanloom
 {
 namespace
@@ -38,7 +40,11 @@ std::optional<View> viewFrom(const LidarScan& scan, const Mount& mount, const Tr
     view.points.emplace_back(rotation * scan.points[i] + translation);
   }
   const std::optional<Rigid> here_T_sensor = sensorAt(scan.middle());
-  if (stems == Stems::OnAxes && here_T_sensor) view.viewpoint = here_T_sensor->translation;
+  if (stems == Stems::OnAxes && here_T_sensor)
+  {
+    view.viewpoint = here_T_sensor->translation;
+    view.corrections = forestCorrections();
+  }
   return view;
 }
 }  // namespace scanloom

@@ -14,7 +14,7 @@ struct Mount
   double clock_offset = 0;  // s: its stamps are so much later than the reference's for the same instant
 };
 
-/** How views show stems (ndt/StemAxisCorrection.h). */
+/** How views show stems (forestCorrections). */
 enum class Stems
 {
   AsSeen,  // best where both lidars see the same sides: moved by few points each, they put a lidar 6 mm off, not 3 mm

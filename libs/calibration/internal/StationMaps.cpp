@@ -44,6 +44,7 @@ std::vector<View> inThinCells(const std::vector<View>& views, const NdtMap& map,
   {
     std::copy_if(views[i].points.begin(), views[i].points.end(), std::back_inserter(kept[i].points), inThin);
     kept[i].viewpoint = views[i].viewpoint;
+    kept[i].corrections = views[i].corrections;
   }
   return kept;
 }

@@ -42,21 +42,19 @@ Shifts shiftsOf(const Eigen::Matrix3d& guess, const Eigen::Matrix3d& clouds, dou
   return {most(first), most(second), step * first, step * second};
 }
 
+Rigid moved(const Rigid& pose, const Eigen::Vector3d& by) { return pose * Rigid{Eigen::Quaterniond::Identity(), by}; }
+
 /** The score at every shift of a rectangle; 0 outside the ellipse. */
 class Scores
 {
  public:
-  Scores(CellCorrespondences& correspondences, const Rigid& centre, const Shifts& shifts) : shifts_(shifts)
+  /** `scoreAt`: of a shift. */
+  template <typename ScoreAt>
+  Scores(const Shifts& shifts, ScoreAt&& scoreAt) : shifts_(shifts)
   {
     for (int i = -shifts.most_along_first; i <= shifts.most_along_first; ++i)
       for (int j = -shifts.most_along_second; j <= shifts.most_along_second; ++j)
-        values_.push_back(
-            shifts.inside(i, j) ? -normalEquations(correspondences, moved(centre, shifts.at(i, j)), kBroad).value : 0);
-  }
-
-  static Rigid moved(const Rigid& pose, const Eigen::Vector3d& by)
-  {
-    return pose * Rigid{Eigen::Quaterniond::Identity(), by};
+        values_.push_back(shifts.inside(i, j) ? scoreAt(shifts.at(i, j)) : 0);
   }
 
   double at(int i, int j) const
@@ -101,7 +99,8 @@ std::vector<Rigid> ambiguousPoses(const RegistrationLevel& level, const Registra
   CellCorrespondences correspondences(level.target, level.source, options.neighbours);
   const double broad = -normalEquations(correspondences, best, kBroad).value;
   const double narrow = -normalEquations(correspondences, best, options.d2).value;
-  const Scores scores(correspondences, centre, shifts);
+  const Scores scores(shifts, [&](const Eigen::Vector3d& shift)
+                      { return -normalEquations(correspondences, moved(centre, shift), kBroad).value; });
   RegistrationOptions wide = options;
   wide.d2 = kBroad;
   std::vector<Rigid> rivals;
@@ -109,7 +108,7 @@ std::vector<Rigid> ambiguousPoses(const RegistrationLevel& level, const Registra
     for (int j = -shifts.most_along_second; j <= shifts.most_along_second; ++j)
     {
       if (scores.at(i, j) < kCandidateShare * broad || !scores.isMaximum(i, j)) continue;
-      const Minimum near = minimise(correspondences, Scores::moved(centre, shifts.at(i, j)), {}, wide, {});
+      const Minimum near = minimise(correspondences, moved(centre, shifts.at(i, j)), {}, wide, {});
       const Minimum there = minimise(correspondences, near.target_T_source, {}, options, {});
       const double apart = boxMinus(there.target_T_source, best).head<3>().norm();
       if (apart > step && -there.equations.value >= options.rival_share * narrow)

@@ -21,14 +21,6 @@ TurnedCell turnedCell(const GaussianCell& cell, const Eigen::Matrix3d& rotation,
   return {mean.x(), mean.y(), mean.z(), entry(0, 0), entry(0, 1), entry(0, 2), entry(1, 1), entry(1, 2), entry(2, 2)};
 }
 
-void put(const GaussianCell& cell, TargetBlock& block, std::size_t lane)
-{
-  block.x[lane] = cell.mean.x(), block.y[lane] = cell.mean.y(), block.z[lane] = cell.mean.z();
-  const Eigen::Matrix3d& c = cell.covariance;
-  block.xx[lane] = c(0, 0), block.xy[lane] = c(0, 1), block.xz[lane] = c(0, 2);
-  block.yy[lane] = c(1, 1), block.yz[lane] = c(1, 2), block.zz[lane] = c(2, 2);
-}
-
 /** No cell of any map. */
 Eigen::Vector3i noCentre() { return Eigen::Vector3i::Constant(std::numeric_limits<int>::min()); }
 
@@ -99,13 +91,14 @@ void CellCorrespondences::moveTo(const Rigid& target_T_source, std::size_t index
     TurnedCell& cell = chunk.cells[i];
     cell = turnedCell(source_[chunk.first + i], rotation, target_T_source.translation);
     const Eigen::Vector3i centre = target_.indexOf({cell.x, cell.y, cell.z});
-    if (centre != chunk.centres[i]) lookUp(chunk, i, centre);
+    if (centre != chunk.centres[i]) lookUp(index, i, centre);
   }
 }
 
 /** Blocks that are too few for the new neighbours stay behind unused; that is rare within a registration. */
-void CellCorrespondences::lookUp(Chunk& chunk, std::size_t i, const Eigen::Vector3i& centre)
+void CellCorrespondences::lookUp(std::size_t index, std::size_t i, const Eigen::Vector3i& centre)
 {
+  Chunk& chunk = chunks_[index];
   std::uint32_t* found = chunk.found.data() + i * static_cast<std::size_t>(neighbours_);
   const std::size_t count = findAround(centre, found);
   chunk.centres[i] = centre;
@@ -129,7 +122,9 @@ void CellCorrespondences::lookUp(Chunk& chunk, std::size_t i, const Eigen::Vecto
   range.count = blocks;
   static const GaussianCell kNowhere = nowhere();
   for (std::size_t k = 0; k < blocks * TargetBlock::kLanes; ++k)
-    put(k < count ? target_.cells()[found[k]] : kNowhere, chunk.blocks[range.first + k / TargetBlock::kLanes],
-        k % TargetBlock::kLanes);
+  {
+    const GaussianCell& cell = k < count ? target_.cells()[found[k]] : kNowhere;
+    chunk.blocks[range.first + k / TargetBlock::kLanes].set(k % TargetBlock::kLanes, cell.mean, cell.covariance);
+  }
 }
 }  // namespace scanloom

@@ -83,7 +83,7 @@ class CellCorrespondences
   int neighbours() const { return neighbours_; }
 
  private:
-  void lookUp(Chunk&, std::size_t i, const Eigen::Vector3i& centre);
+  void lookUp(std::size_t chunk, std::size_t i, const Eigen::Vector3i& centre);
   std::size_t findAround(const Eigen::Vector3i& centre, std::uint32_t* found) const;
 
   const NdtMap& target_;

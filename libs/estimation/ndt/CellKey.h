@@ -25,7 +25,7 @@ struct CellKey
     return key;
   }
 
-  /** From biased indices of one cell, or of a vector of cells. */
+  /** From biased indices of one cell, or of a vector of cells (which no ABI returns alike on every processor). */
   template <typename Bits>
   static void compose(const Bits& x, const Bits& y, const Bits& z, Bits& key)
   {

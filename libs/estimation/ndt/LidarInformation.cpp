@@ -51,8 +51,7 @@ struct Evidence
 /** Covariance of a cell's force due to the noise of its mean and, taken as equal, of the target's. */
 Symmetric3 forceNoise(const Symmetric3& pull, const TurnedCell& c, std::uint32_t points)
 {
-  Symmetric3 noise;
-  sandwich(pull, {c.xx, c.xy, c.xz, c.yy, c.yz, c.zz}, noise);
+  const Symmetric3 noise = sandwich(pull, {c.xx, c.xy, c.xz, c.yy, c.yz, c.zz});
   return scaled(noise, 2 / std::min<double>(points, kMostIndependentPoints));
 }
 
@@ -76,7 +75,7 @@ std::vector<SymmetricBlock> structuresOf(const CellCorrespondences& all, const C
     std::size_t lane = 0;
     for (const std::uint32_t j : all.of(chunk.first + i))
     {
-      put(all.target()[j].structure, *block, lane);
+      block->set(lane, all.target()[j].structure);
       if (++lane == TargetBlock::kLanes) ++block, lane = 0;
     }
   }
@@ -89,7 +88,7 @@ InformationSums gather(const CellCorrespondences& all, std::size_t index, const 
 {
   const CellCorrespondences::Chunk& chunk = all.chunk(index);
   const Matrix3d rotation = target_T_source.rotation.toRotationMatrix();
-  gatherEvidence(chunk.pairs(), structuresOf(all, chunk).data(), d2, cells);
+  gatherPairs(chunk.pairs(), structuresOf(all, chunk).data(), d2, cells);
   InformationSums sums;
   for (std::size_t i = 0; i < chunk.cells.size(); ++i)
   {
@@ -97,8 +96,7 @@ InformationSums gather(const CellCorrespondences& all, std::size_t index, const 
     const GaussianCell& source = all.source()[chunk.first + i];
     const TurnedCell& c = chunk.cells[i];
     const Vector3d v = armOf(c, target_T_source);
-    Symmetric3 structured;
-    sandwich(turned(source.structure, rotation), cells[i].structured, structured);
+    const Symmetric3 structured = sandwich(turned(source.structure, rotation), cells[i].structured);
     // Weighted by points, because far cells that one row of beams crosses look thin in directions without structure.
     const double points = source.points;
     sums.resistance.add(scaled(cells[i].weight, points), v.x(), v.y(), v.z());

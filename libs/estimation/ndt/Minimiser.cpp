@@ -18,7 +18,7 @@ constexpr double kSlack = 0.02;
 
 using Pairs = std::vector<CellCorrespondences*>;
 
-NormalEquations at(const Rigid& pose, const Pairs& pairs, const PosePrior& expectation, double d2)
+NormalEquations at(const Rigid& pose, const Pairs& pairs, const PosePrior& prior, double d2)
 {
   NormalEquations sum;
   for (CellCorrespondences* correspondences : pairs)
@@ -29,8 +29,7 @@ NormalEquations at(const Rigid& pose, const Pairs& pairs, const PosePrior& expec
     sum.curvature += one.curvature;
     sum.met_points += one.met_points;
   }
-  expectation.addTo(sum, pose, d2);
-  return sum;
+  return prior.addedTo(sum, pose, d2);
 }
 
 /** In metres, within the range of the projector `free`. */
@@ -57,13 +56,13 @@ double shrinkingOf(const Vector6d& step, const Vector6d& before)
   return std::min(kMost, along / before.squaredNorm());
 }
 
-Minimum minimise(const Pairs& pairs, const Rigid& start, const PosePrior& expectation,
-                 const RegistrationOptions& options, const std::vector<Vector6d>& locked)
+Minimum minimise(const Pairs& pairs, const Rigid& start, const PosePrior& prior, const RegistrationOptions& options,
+                 const std::vector<Vector6d>& locked)
 {
   Matrix6d free = Matrix6d::Identity();
   for (const Vector6d& direction : locked) free -= direction * direction.transpose();
 
-  Minimum here{start, at(start, pairs, expectation, options.d2), 0, false};
+  Minimum here{start, at(start, pairs, prior, options.d2), 0, false};
   double damping = 0;
   Vector6d before = Vector6d::Zero();  // the last step; zero if the next is not comparable with it
   while (here.equations.met_points > 0 && here.iterations < options.max_iterations)
@@ -81,7 +80,7 @@ Minimum minimise(const Pairs& pairs, const Rigid& start, const PosePrior& expect
       here.converged = true;
       break;
     }
-    const NormalEquations there = at(candidate, pairs, expectation, options.d2);
+    const NormalEquations there = at(candidate, pairs, prior, options.d2);
     if (there.value <= here.equations.value + kSlack * std::abs(here.equations.value))
     {
       here.target_T_source = candidate;
@@ -103,24 +102,25 @@ PosePrior::PosePrior(const PoseGuess& guess) : pose_(guess.target_T_source)
   if (guess.covariance) information_ = inverse(*guess.covariance);
 }
 
-void PosePrior::addTo(NormalEquations& equations, const Rigid& target_T_source, double d2) const
+NormalEquations PosePrior::addedTo(NormalEquations equations, const Rigid& target_T_source, double d2) const
 {
-  if (information_.isZero(0)) return;
+  if (information_.isZero(0)) return equations;
   // The Jacobian of boxMinus is taken as the identity: an error of 5 % at 6 degrees.
   const Vector6d off = boxMinus(target_T_source, pose_);
   const Matrix6d weight = scorePerInformation(d2) * information_;
   equations.value += 0.5 * off.dot(weight * off);
   equations.gradient += weight * off;
   equations.curvature += weight;
+  return equations;
 }
 
-Minimum minimise(CellCorrespondences& correspondences, const Rigid& start, const PosePrior& expectation,
+Minimum minimise(CellCorrespondences& correspondences, const Rigid& start, const PosePrior& prior,
                  const RegistrationOptions& options, const std::vector<Vector6d>& locked)
 {
-  return minimise(Pairs{&correspondences}, start, expectation, options, locked);
+  return minimise(Pairs{&correspondences}, start, prior, options, locked);
 }
 
-Minimum minimise(std::vector<CellCorrespondences>& all, const Rigid& start, const RegistrationOptions& options)
+Minimum minimise(std::vector<CellCorrespondences> all, const Rigid& start, const RegistrationOptions& options)
 {
   Pairs pairs;
   for (CellCorrespondences& correspondences : all) pairs.push_back(&correspondences);

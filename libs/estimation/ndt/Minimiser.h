@@ -22,7 +22,7 @@ class PosePrior
   PosePrior() = default;
   explicit PosePrior(const PoseGuess&);
 
-  void addTo(NormalEquations&, const Rigid& target_T_source, double d2) const;
+  NormalEquations addedTo(NormalEquations, const Rigid& target_T_source, double d2) const;
 
  private:
   Rigid pose_;
@@ -34,5 +34,5 @@ Minimum minimise(CellCorrespondences&, const Rigid& start, const PosePrior&, con
                  const std::vector<Vector6d>& locked);
 
 /** One pose for several pairs of maps. */
-Minimum minimise(std::vector<CellCorrespondences>&, const Rigid& start, const RegistrationOptions&);
+Minimum minimise(std::vector<CellCorrespondences>, const Rigid& start, const RegistrationOptions&);
 }  // namespace scanloom

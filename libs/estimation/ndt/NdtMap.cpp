@@ -1,9 +1,7 @@
 #include "estimation/ndt/NdtMap.h"
 
 #include "base/core/forAll.h"
-#include "estimation/ndt/internal/FadingDensity.h"
 #include "estimation/ndt/internal/RingSpread.h"
-#include "estimation/ndt/internal/StemAxisCorrection.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -13,6 +11,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace scanloom
 {
@@ -72,26 +71,55 @@ struct AxisInBlock
   std::uint64_t centre = 0;
 };
 
+struct SplitAxis
+{
+  std::array<AxisInBlock, 2> parts;
+  std::size_t count = 0;
+};
+
 /** `spread`: from the four indices of an axis to bits of the 64 cells. */
 template <typename Spread>
-int splitAxis(std::int64_t index, Spread&& spread, std::array<AxisInBlock, 2>& parts)
+SplitAxis splitAxis(std::int64_t index, Spread&& spread)
 {
-  int count = 0;
+  SplitAxis split;
   for (std::int64_t i = index - 1; i <= index + 1; ++i)
   {
     const std::uint64_t biased = CellKey::biased(i), block = biased >> 2;
-    if (count == 0 || parts[static_cast<std::size_t>(count - 1)].block != block)
-      parts[static_cast<std::size_t>(count++)] = {block, 0, 0};
-    AxisInBlock& part = parts[static_cast<std::size_t>(count - 1)];
+    if (split.count == 0 || split.parts[split.count - 1].block != block) split.parts[split.count++] = {block, 0, 0};
+    AxisInBlock& part = split.parts[split.count - 1];
     part.around |= spread(biased & 3);
     if (i == index) part.centre = spread(biased & 3);
   }
-  return count;
+  return split;
+}
+
+/** Corrected as the view says, and widened across its rings. */
+std::vector<Bin> asSeen(std::vector<Bin> bins, const View& view, const Sight& sight,
+                        const Eigen::Matrix3d& grid_R_points)
+{
+  constexpr std::size_t kGrain = 256;
+  const CellCorrections& corrections = view.corrections;
+  if (corrections.of_all) bins = corrections.of_all(std::move(bins), sight);
+  std::optional<Rings> rings = view.rings;
+  if (rings) rings->axis = grid_R_points * rings->axis;
+  if (!rings && !corrections.shift_of) return bins;
+  forAll(bins.size(), kGrain,
+         [&](std::size_t i)
+         {
+           if (bins[i].moments.n < 2) return;
+           MeanAndCovariance seen = meanAndCovariance(bins[i], sight.edge);
+           if (corrections.shift_of && bins[i].moments.n >= sight.least_points)
+           {
+             bins[i] = moved(bins[i], corrections.shift_of(seen, sight));
+             seen.mean = meanOf(bins[i], sight.edge);  // the covariance stays
+           }
+           if (rings) bins[i] = widenedAcrossRings(bins[i], seen, sight, *rings);
+         });
+  return bins;
 }
 
 BinnedPoints binned(const std::vector<View>& views, const Eigen::Matrix3d& grid_R_points, const NdtOptions& options)
 {
-  const Eigen::Vector3d up = grid_R_points.col(2);
   const std::int64_t cell_quanta = quantaOfCell(options);
   const int least_points = std::max(options.min_points, GaussianCell::kMinPointsForCovariance);
   std::vector<std::vector<Bin>> counted(views.size());
@@ -99,14 +127,10 @@ BinnedPoints binned(const std::vector<View>& views, const Eigen::Matrix3d& grid_
       std::size_t{0}, views.size(),
       [&](std::size_t i)
       {
-        const View& view = views[i];
-        counted[i] = countInto(coordinatesOf(view.points), cell_quanta, grid_R_points);
-        if (!view.viewpoint) return;
-        const Eigen::Vector3d viewpoint = grid_R_points * *view.viewpoint;
-        correctNearSideBias(counted[i], cell_quanta, viewpoint, up, least_points);
-        undoFading(counted[i], cell_quanta, viewpoint, least_points);
-        if (view.rings)
-          widenAcrossRings(counted[i], cell_quanta, viewpoint, {grid_R_points * view.rings->axis, view.rings->spacing});
+        counted[i] = countInto(coordinatesOf(views[i].points), cell_quanta, grid_R_points);
+        if (!views[i].viewpoint) return;
+        const Sight sight{edgeOf(cell_quanta), grid_R_points * *views[i].viewpoint, grid_R_points.col(2), least_points};
+        counted[i] = asSeen(std::move(counted[i]), views[i], sight, grid_R_points);
       });
   std::vector<Bin> all;
   for (std::vector<Bin>& bins : counted) all = all.empty() ? std::move(bins) : sumOf(all, bins);
@@ -274,20 +298,15 @@ std::size_t NdtMap::findAround(const Eigen::Vector3i& index, int neighbours, std
   // Neighbours of a cell at the border have no index; such cells are too far away to matter.
   if (!CellKey::fits(index.minCoeff() - std::int64_t{1}) || !CellKey::fits(index.maxCoeff() + std::int64_t{1}))
     return 0;
-  std::array<AxisInBlock, 2> along_x, along_y, along_z;
-  const int xs = splitAxis(
-      index.x(), [](std::uint64_t i) { return 0x1111111111111111U << i; }, along_x);
-  const int ys = splitAxis(
-      index.y(), [](std::uint64_t i) { return 0x000f000f000f000fU << (4 * i); }, along_y);
-  const int zs = splitAxis(
-      index.z(), [](std::uint64_t i) { return std::uint64_t{0xffff} << (16 * i); }, along_z);
+  const SplitAxis along_x = splitAxis(index.x(), [](std::uint64_t i) { return 0x1111111111111111U << i; });
+  const SplitAxis along_y = splitAxis(index.y(), [](std::uint64_t i) { return 0x000f000f000f000fU << (4 * i); });
+  const SplitAxis along_z = splitAxis(index.z(), [](std::uint64_t i) { return std::uint64_t{0xffff} << (16 * i); });
   std::uint32_t* end = found;
-  for (int k = 0; k < zs; ++k)
-    for (int j = 0; j < ys; ++j)
-      for (int i = 0; i < xs; ++i)
+  for (std::size_t k = 0; k < along_z.count; ++k)
+    for (std::size_t j = 0; j < along_y.count; ++j)
+      for (std::size_t i = 0; i < along_x.count; ++i)
       {
-        const AxisInBlock &x = along_x[static_cast<std::size_t>(i)], &y = along_y[static_cast<std::size_t>(j)],
-                          &z = along_z[static_cast<std::size_t>(k)];
+        const AxisInBlock &x = along_x.parts[i], &y = along_y.parts[j], &z = along_z.parts[k];
         const std::uint64_t wanted =
             neighbours == 27 ? x.around & y.around & z.around
             : neighbours == 7

@@ -36,10 +36,8 @@ struct NdtOptions
 };
 
 /**
- * The views' points, counted into cells. For views with a viewpoint, points of stems and poles are moved onto their
- * axes (correctNearSideBias), and means half-way to where they were if points did not get fewer with the range
- * (undoFading); with rings, cells are widened across them (widenAcrossRings). Throws std::invalid_argument if an option
- * is out of its bounds.
+ * The views' points, counted into cells. Those of views with a viewpoint are corrected as each View says; with rings,
+ * cells are widened across them (widenedAcrossRings). Throws std::invalid_argument if an option is out of its bounds.
  */
 BinnedPoints binned(const std::vector<View>&, const NdtOptions&);
 

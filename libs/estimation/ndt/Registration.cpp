@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace scanloom
 {
@@ -38,84 +39,109 @@ Minimum after(const Minimum& first, Minimum minimum)
   return minimum;
 }
 
-/** `widely`: with the wide score first, because the start may be far off; `locked` as in minimise(). */
-Minimum search(CellCorrespondences& correspondences, const Rigid& start, bool widely, const PosePrior& expectation,
-               const RegistrationOptions& options, const std::vector<Vector6d>& locked)
+/** Searches on one level, which go on with the correspondences of those before. */
+class LevelSearch
 {
-  if (!widely || options.first_d2 >= options.d2) return minimise(correspondences, start, expectation, options, locked);
-  RegistrationOptions wide = options;
-  wide.d2 = options.first_d2;
-  wide.tolerance = kLoose * options.tolerance;
-  const Minimum first = minimise(correspondences, start, expectation, wide, locked);
-  return after(first, minimise(correspondences, first.target_T_source, expectation, options, locked));
-}
+ public:
+  using Directions = std::vector<Vector6d>;
 
-/**
- * Where the start is near, which first_d2 = d2 says: among the cells that both maps have there, and once more from the
- * end of that search if it is far from the start. Elsewhere, and of source cells that are larger than the target's,
- * which have several for their own: among all cells.
- */
-Minimum searchCommon(CellCorrespondences& correspondences, const Rigid& start, bool widely,
-                     const PosePrior& expectation, const RegistrationOptions& options,
-                     const std::vector<Vector6d>& locked)
-{
-  const bool is_large = correspondences.sourceEdge() > correspondences.targetMap().options().cell_size;
-  if (is_large || options.first_d2 < options.d2)
-    return search(correspondences, start, widely, expectation, options, locked);
-  correspondences.keepCommon(start);
-  const Minimum first = minimise(correspondences, start, expectation, options, locked);
-  const double moved = boxMinus(first.target_T_source, start).cwiseQuotient(stepOfMetres()).norm();
-  if (moved < kStillNear * correspondences.sourceEdge()) return first;
-  correspondences.keepCommon(first.target_T_source);
-  return after(first, minimise(correspondences, first.target_T_source, expectation, options, locked));
-}
+  LevelSearch(const RegistrationLevel& level, const PosePrior& prior, int neighbours)
+    : correspondences_(level.target, level.source, neighbours), prior_(prior)
+  {
+  }
+
+  /** `widely`: with the wide score first, because the start may be far off; `locked` as in minimise(). */
+  Minimum from(const Rigid& start, bool widely, const RegistrationOptions& options, const Directions& locked)
+  {
+    if (!widely || options.first_d2 >= options.d2) return closeTo(start, options, locked);
+    RegistrationOptions wide = options;
+    wide.d2 = options.first_d2;
+    wide.tolerance = kLoose * options.tolerance;
+    const Minimum first = closeTo(start, wide, locked);
+    return after(first, closeTo(first.target_T_source, options, locked));
+  }
+
+  /**
+   * Where the start is near, which first_d2 = d2 says: among the cells that both maps have there, and once more from
+   * the end of that search if it is far from the start. Elsewhere, and of source cells that are larger than the
+   * target's, which have several for their own: among all cells.
+   */
+  Minimum amongCommon(const Rigid& start, bool widely, const RegistrationOptions& options, const Directions& locked)
+  {
+    const bool is_large = correspondences_.sourceEdge() > correspondences_.targetMap().options().cell_size;
+    if (is_large || options.first_d2 < options.d2) return from(start, widely, options, locked);
+    correspondences_.keepCommon(start);
+    const Minimum first = closeTo(start, options, locked);
+    const double moved = boxMinus(first.target_T_source, start).cwiseQuotient(stepOfMetres()).norm();
+    if (moved < kStillNear * correspondences_.sourceEdge()) return first;
+    correspondences_.keepCommon(first.target_T_source);
+    return after(first, closeTo(first.target_T_source, options, locked));
+  }
+
+  Minimum closeTo(const Rigid& start, const RegistrationOptions& options, const Directions& locked)
+  {
+    return minimise(correspondences_, start, prior_, options, locked);
+  }
+
+  /** Moved to where the last search ended. */
+  const CellCorrespondences& correspondences() const { return correspondences_; }
+
+ private:
+  CellCorrespondences correspondences_;
+  const PosePrior& prior_;
+};
 
 /**
  * The step into the minimum by the score's second derivative, which the search has not; none where the objective is not
  * convex, or where it leads farther than a search that ended with `tolerance` (m) can be off.
  */
-std::optional<Vector6d> lastStep(const Rigid& pose, const LidarInformation& lidar, const PosePrior& expectation,
-                                 double d2, double tolerance)
+std::optional<Vector6d> lastStep(const Rigid& pose, const LidarInformation& lidar, const PosePrior& prior, double d2,
+                                 double tolerance)
 {
   constexpr double kFarthestStep = 10;
   NormalEquations equations{0, lidar.gradient, lidar.curvature, 0};
-  expectation.addTo(equations, pose, d2);
+  equations = prior.addedTo(equations, pose, d2);
   const std::optional<Vector6d> back = solvePositive(equations.curvature, equations.gradient);
   if (!back || back->cwiseQuotient(stepOfMetres()).norm() > kFarthestStep * tolerance) return std::nullopt;
   return -*back;
 }
 
 /** The search ends early, because the covariance has what a better last step takes. */
-Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool widely, const PosePrior& expectation,
+Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool widely, const PosePrior& prior,
                    const RegistrationOptions& options)
 {
   RegistrationOptions early = options;
   early.tolerance = kEarly * options.tolerance;
-  CellCorrespondences correspondences(level.target, level.source, options.neighbours);
-  Minimum minimum = searchCommon(correspondences, start, widely, expectation, early, {});
-  LidarInformation lidar = lidarInformation(correspondences, minimum.target_T_source, options.d2);
+  LevelSearch search(level, prior, options.neighbours);
+  Minimum minimum = search.amongCommon(start, widely, early, {});
+  const LidarInformation lidar = lidarInformation(search.correspondences(), minimum.target_T_source, options.d2);
   if (!lidar.degenerate.empty())  // motion along such a direction was noise: again without it
-    return {after(minimum, searchCommon(correspondences, start, widely, expectation, options, lidar.degenerate)),
-            lidar};
+    return {after(minimum, search.amongCommon(start, widely, options, lidar.degenerate)), lidar};
   Rigid& pose = minimum.target_T_source;
-  if (const std::optional<Vector6d> step = lastStep(pose, lidar, expectation, options.d2, early.tolerance))
+  if (const std::optional<Vector6d> step = lastStep(pose, lidar, prior, options.d2, early.tolerance))
     pose = boxPlus(pose, *step);
   else
-    minimum = after(minimum, minimise(correspondences, pose, expectation, options, {}));
+    minimum = after(minimum, search.closeTo(pose, options, {}));
   return {minimum, lidar};
 }
 
-/** The start of the next level. `may_slide`: a coarser level left a direction open. */
-Minimum approach(const RegistrationLevel& level, const Rigid& start, bool widely, const PosePrior& expectation,
-                 const RegistrationOptions& options, bool& may_slide)
+/** The start of the next level. */
+struct Approached
 {
-  CellCorrespondences correspondences(level.target, level.source, options.neighbours);
-  const Minimum minimum = search(correspondences, start, widely, expectation, options, {});
-  if (!may_slide) return minimum;
-  const auto degenerate = degenerateDirections(correspondences, minimum.target_T_source, options.d2);
-  may_slide = !degenerate.empty();
-  if (!may_slide) return minimum;
-  return after(minimum, search(correspondences, start, widely, expectation, options, degenerate));
+  Minimum minimum;
+  bool may_slide;  // this level left a direction open
+};
+
+/** `may_slide`: so did a coarser level. */
+Approached approach(const RegistrationLevel& level, const Rigid& start, bool widely, const PosePrior& prior,
+                    const RegistrationOptions& options, bool may_slide)
+{
+  LevelSearch search(level, prior, options.neighbours);
+  const Minimum minimum = search.from(start, widely, options, {});
+  if (!may_slide) return {minimum, false};
+  const auto degenerate = degenerateDirections(search.correspondences(), minimum.target_T_source, options.d2);
+  if (degenerate.empty()) return {minimum, false};
+  return {after(minimum, search.from(start, widely, options, degenerate)), true};
 }
 
 double overlapOf(const Minimum& minimum, const NdtMap& source)
@@ -150,12 +176,12 @@ RegistrationResult resultOf(const Aligned& aligned, const NdtMap& source, const 
 }
 
 /** Takes the pose that is nearest to the guess, and adds the distances to the others to the covariance. */
-void weighRivals(const RegistrationLevel& level, const PoseGuess& guess, const RegistrationOptions& options,
-                 RegistrationResult& result)
+RegistrationResult weighedAgainstRivals(RegistrationResult result, const RegistrationLevel& level,
+                                        const PoseGuess& guess, const RegistrationOptions& options)
 {
-  if (result.outcome == Outcome::LowOverlap) return;
+  if (result.outcome == Outcome::LowOverlap) return result;
   result.rivals = ambiguousPoses(level, result, guess, options);
-  if (result.rivals.empty()) return;
+  if (result.rivals.empty()) return result;
   for (Rigid& rival : result.rivals)
     if (surprise(guess, rival) < surprise(guess, result.target_T_source)) std::swap(rival, result.target_T_source);
   result.outcome = Outcome::Degenerate;
@@ -169,6 +195,7 @@ void weighRivals(const RegistrationLevel& level, const PoseGuess& guess, const R
     if (direction.norm() > kNew) result.degenerate_directions.push_back(direction.normalized());
   }
   result.information = inverse(result.covariance);
+  return result;
 }
 
 /** The finest level with cells that are large enough for the deviations of the guess. */
@@ -235,7 +262,7 @@ RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& level
                                      const RegistrationOptions& options)
 {
   if (levels.empty()) throw std::invalid_argument("alignCoarseToFine: at least one level is needed");
-  const PosePrior expectation(guess);
+  const PosePrior prior(guess);
   RegistrationOptions coarse = options;
   coarse.tolerance = kLoose * options.tolerance;
   Rigid pose = guess.target_T_source;
@@ -246,15 +273,15 @@ RegistrationResult alignCoarseToFine(const std::vector<RegistrationLevel>& level
   for (std::size_t i = first; i < last; ++i)
   {
     if (i == turns) pose = bestTurnOf(levels[i], pose, guess);
-    const Minimum minimum = approach(levels[i], pose, i == first, expectation, coarse, may_slide);
+    const auto [minimum, slides] = approach(levels[i], pose, i == first, prior, coarse, may_slide);
+    may_slide = slides;
     iterations += minimum.iterations;
     if (overlapOf(minimum, levels[i].source) >= options.min_overlap) pose = minimum.target_T_source;
   }
-  const Aligned aligned = alignLevel(levels[last], pose, first == last, expectation, options);
+  const Aligned aligned = alignLevel(levels[last], pose, first == last, prior, options);
   RegistrationResult result = resultOf(aligned, levels[last].source, options);
   result.iterations += iterations;
-  weighRivals(levels[last], guess, options, result);
-  return result;
+  return weighedAgainstRivals(std::move(result), levels[last], guess, options);
 }
 
 PoseGuess::PoseGuess(const Rigid& pose, const Matrix6d& its_covariance)

@@ -60,7 +60,8 @@ std::optional<Rings> ringsOf(const View& view, const std::vector<std::uint8_t>& 
 }
 }  // namespace
 
-std::vector<View> viewsOf(const PointCloud& cloud, const std::vector<Rigid>& cloud_T_lidar)
+std::vector<View> viewsOf(const PointCloud& cloud, const std::vector<Rigid>& cloud_T_lidar,
+                          const CellCorrections& corrections)
 {
   const std::size_t lidars = cloud_T_lidar.size();
   std::vector<View> views(lidars + 1);
@@ -78,6 +79,7 @@ std::vector<View> viewsOf(const PointCloud& cloud, const std::vector<Rigid>& clo
                         rings.push_back(cloud.ring[i]);
                       }
                       if (v == lidars) return;
+                      views[v].corrections = corrections;
                       views[v].viewpoint = cloud_T_lidar[v].translation;
                       views[v].rings = ringsOf(views[v], rings, cloud_T_lidar[v]);
                     });
@@ -89,6 +91,7 @@ View movedBy(const Rigid& target_T_view, const View& view)
   // In double up to the target's frame: far from the origin a float rotation alone would cost millimetres.
   const Eigen::Matrix3d rotation = target_T_view.rotation.toRotationMatrix();
   View moved;
+  moved.corrections = view.corrections;
   moved.points.reserve(view.points.size());
   for (const Eigen::Vector3f& p : view.points)
     moved.points.emplace_back((rotation * p.cast<double>() + target_T_view.translation).cast<float>());

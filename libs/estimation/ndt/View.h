@@ -2,6 +2,7 @@
 #pragma once
 #include "base/core/PointCloud.h"
 #include "base/core/Rigid.h"
+#include "estimation/ndt/CellCorrections.h"
 
 #include <Eigen/Core>
 
@@ -23,10 +24,11 @@ struct View
   std::vector<Eigen::Vector3f> points;
   std::optional<Eigen::Vector3d> viewpoint;  // none: unknown
   std::optional<Rings> rings{};              // none: unknown, or a single ring; only with a viewpoint
+  CellCorrections corrections{};             // only with a viewpoint
 };
 
 /** By sensor_id; `cloud_T_lidar` likewise. Lidars without a pose share the last view. */
-std::vector<View> viewsOf(const PointCloud&, const std::vector<Rigid>& cloud_T_lidar);
+std::vector<View> viewsOf(const PointCloud&, const std::vector<Rigid>& cloud_T_lidar, const CellCorrections& = {});
 
 /** In the target's frame. */
 View movedBy(const Rigid& target_T_view, const View&);

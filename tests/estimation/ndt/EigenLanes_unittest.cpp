@@ -36,8 +36,8 @@ std::vector<EigenBlock> solved(const std::vector<Matrix3d>& matrices, Kernel ker
   std::vector<SymmetricBlock> blocks(matrices.size() / SymmetricBlock::kLanes);
   std::vector<EigenBlock> results(blocks.size());
   for (std::size_t i = 0; i < matrices.size(); ++i)
-    put(matrices[i], blocks[i / SymmetricBlock::kLanes], i % SymmetricBlock::kLanes);
-  for (std::size_t i = 0; i < blocks.size(); ++i) eigensystemsOf(blocks[i], results[i], kernel);
+    blocks[i / SymmetricBlock::kLanes].set(i % SymmetricBlock::kLanes, matrices[i]);
+  for (std::size_t i = 0; i < blocks.size(); ++i) results[i] = eigensystemsOf(blocks[i], kernel);
   return results;
 }
 

@@ -42,8 +42,7 @@ TEST(PointCells, areThoseOfIntegerDivisionForEveryKernelAndAnyNumberOfPoints)
     for (const std::size_t count : {values.size() / 3, std::size_t{1}, std::size_t{9}})
     {
       const Coordinates points = triples(values).part(values.size() / 3 - count, count);
-      PointCells located;
-      locate(points, kEdge, Eigen::Matrix3d::Identity(), located, kernel);
+      const PointCells located = locate(points, kEdge, Eigen::Matrix3d::Identity(), kernel);
       for (std::size_t i = 0; i < points.count; ++i)
       {
         const float x = points.x[3 * i], y = points.y[3 * i], z = points.z[3 * i];
@@ -73,9 +72,8 @@ TEST(PointCells, ofATurnedGridAreThoseOfTurnedPointsForEveryKernel)
     for (const float v : {-values[i + 1], -values[i + 2], values[i]}) turned.push_back(v);
   for (const Kernel kernel : runnableKernels())
   {
-    PointCells by_locate, before;
-    locate(triples(values), kEdge, turn, by_locate, kernel);
-    locate(triples(turned), kEdge, Eigen::Matrix3d::Identity(), before, kernel);
+    const PointCells by_locate = locate(triples(values), kEdge, turn, kernel);
+    const PointCells before = locate(triples(turned), kEdge, Eigen::Matrix3d::Identity(), kernel);
     for (std::size_t i = 0; i < values.size() / 3; ++i)
     {
       EXPECT_EQ(by_locate.key[i], before.key[i]);

@@ -136,8 +136,8 @@ std::vector<PairInformation> evidenceOf(const Pairs& pairs, const std::vector<Sy
                                         Kernel kernel)
 {
   std::vector<PairInformation> evidence(pairs.cells.size());
-  gatherEvidence({pairs.cells.data(), pairs.ranges.data(), pairs.cells.size(), pairs.blocks.data()}, structures.data(),
-                 0.05, evidence.data(), kernel);
+  gatherPairs({pairs.cells.data(), pairs.ranges.data(), pairs.cells.size(), pairs.blocks.data()}, structures.data(),
+              0.05, evidence.data(), kernel);
   return evidence;
 }
 

@@ -1,5 +1,6 @@
 #include "estimation/ndt/internal/StemAxisCorrection.h"
 
+#include "estimation/ndt/ForestCorrections.h"
 #include "estimation/ndt/NdtMap.h"
 #include "estimation/ndt/Registration.h"
 
@@ -32,7 +33,7 @@ void look(const Eigen::Vector3d& eye, const Stem& stem, std::vector<Eigen::Vecto
 
 View viewOf(const Stem& stem, const Eigen::Vector3d& eye)
 {
-  View view{{}, eye};
+  View view{{}, eye, {}, forestCorrections()};
   look(eye, stem, view.points);
   return view;
 }
@@ -42,7 +43,7 @@ View viewOf(const Stem& stem, const Eigen::Vector3d& eye)
 View bushOfEvenLeaves(double radius, double extinction)
 {
   constexpr double kStep = 0.002, kPointsPerStep = 0.1;  // m
-  View view{{}, Eigen::Vector3d(8.5, 0.5, 2)};
+  View view{{}, Eigen::Vector3d(8.5, 0.5, 2), {}, forestCorrections()};
   for (double z = 0.025; z < 1; z += 0.05)
     for (double across = -0.975; across < 1; across += 0.05)
     {
@@ -73,7 +74,7 @@ std::vector<Stem> stand()
 /** Of the stand, in the frame of the eye. */
 View viewFrom(const Eigen::Vector3d& eye)
 {
-  View view{{}, eye};
+  View view{{}, eye, {}, forestCorrections()};
   for (const Stem& stem : stand()) look(eye, stem, view.points);
   return movedBy(Rigid::fromXyzYawPitchRoll(-eye.x(), -eye.y(), -eye.z(), 0, 0, 0), view);
 }
@@ -121,7 +122,8 @@ constexpr double kAssumed = 0.03;  // m, depth of what few points are on; like t
 View withTwoFarPoints(const Eigen::Vector3f& direction, double radius)
 {
   const Eigen::Vector3f middle(0.5F, 30.5F, 2.5F);
-  View view{{middle - 0.3F * direction, middle + 0.3F * direction}, Eigen::Vector3d(0.5, 0.5, 2.5)};
+  View view{
+      {middle - 0.3F * direction, middle + 0.3F * direction}, Eigen::Vector3d(0.5, 0.5, 2.5), {}, forestCorrections()};
   for (const double x : {-5.5, -3.5, -1.5, 2.5, 4.5, 6.5}) look(*view.viewpoint, {x, 3.5, radius}, view.points);
   return view;
 }
@@ -154,12 +156,16 @@ TEST(StemAxisCorrection, twoFarPointsLieAsDeepAsIsAssumedIfNoStemIsNearby)
   EXPECT_NEAR(farPointsMoved(view), kAssumed, 1e-4);
 }
 
-TEST(StemAxisCorrection, withoutAViewpointAStemStandsWhereItIsTouched)
+TEST(StemAxisCorrection, withoutAViewpointOrTheCorrectionAStemStandsWhereItIsTouched)
 {
-  View view = viewOf({0.5, 0.5, 0.2}, {8.5, 0.5, 2});
-  view.viewpoint.reset();
-  const NdtMap map({view}, {});
-  for (const GaussianCell& cell : map.cells()) EXPECT_NEAR(cell.mean.x(), 0.5 + M_PI / 4 * 0.2, 1e-3);
+  View unplaced = viewOf({0.5, 0.5, 0.2}, {8.5, 0.5, 2}), uncorrected = unplaced;
+  unplaced.viewpoint.reset();
+  uncorrected.corrections = {};
+  for (const View& view : {unplaced, uncorrected})
+  {
+    const NdtMap map({view}, {});
+    for (const GaussianCell& cell : map.cells()) EXPECT_NEAR(cell.mean.x(), 0.5 + M_PI / 4 * 0.2, 1e-3);
+  }
 }
 
 TEST(StemAxisCorrection, wallsAndFoliageStay)
@@ -173,8 +179,7 @@ TEST(StemAxisCorrection, wallsAndFoliageStay)
   }
   constexpr std::int64_t kMetre = 65536;
   const std::vector<Bin> before = countInto({&points[0].x(), &points[0].y(), &points[0].z(), 3, points.size()}, kMetre);
-  std::vector<Bin> after = before;
-  correctNearSideBias(after, kMetre, {10, 0.5, 0.5}, Eigen::Vector3d::UnitZ(), 4);
+  const std::vector<Bin> after = correctNearSideBias(before, {1, {10, 0.5, 0.5}, Eigen::Vector3d::UnitZ(), 4});
   ASSERT_EQ(after.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(after[i].moments.x, before[i].moments.x);
 }

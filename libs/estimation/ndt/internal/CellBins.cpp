@@ -49,7 +49,7 @@ struct KeyAndPlace
 };
 
 /** Radix sort by the bytes in which the keys differ: half of the time of std::sort. */
-void sortByKey(std::vector<KeyAndPlace>& order)
+std::vector<KeyAndPlace> sortedByKey(std::vector<KeyAndPlace> order)
 {
   std::uint64_t differ = 0;
   for (const KeyAndPlace& o : order) differ |= o.key ^ order.front().key;
@@ -64,6 +64,7 @@ void sortByKey(std::vector<KeyAndPlace>& order)
     for (const KeyAndPlace& o : order) sorted[next[o.key >> shift & 255]++] = o;
     order.swap(sorted);
   }
+  return order;
 }
 
 /** In the order of their keys. */
@@ -73,7 +74,7 @@ std::vector<Bin> sortedBins(const KeyIndex& cells, MomentsOf&& moments_of)
   std::vector<KeyAndPlace> order;
   order.reserve(cells.keys().size());
   for (const std::uint64_t key : cells.keys()) order.push_back({key, static_cast<std::uint32_t>(order.size())});
-  sortByKey(order);
+  order = sortedByKey(std::move(order));
   std::vector<Bin> bins;
   bins.reserve(order.size());
   for (const auto& [key, place] : order) bins.push_back({key, moments_of(place)});
@@ -84,11 +85,10 @@ std::vector<Bin> countPart(const Coordinates& points, std::int64_t cell_quanta, 
 {
   KeyIndex cells;
   std::vector<CentredSums> sums;
-  PointCells located;
   for (std::size_t begin = 0; begin < points.count; begin += PointCells::kPoints)
   {
     const Coordinates batch = points.part(begin, PointCells::kPoints);
-    locate(batch, cell_quanta, grid_R_points, located);
+    const PointCells located = locate(batch, cell_quanta, grid_R_points);
     for (std::size_t i = 0; i < batch.count; ++i)
     {
       if (located.key[i] == PointCells::kNowhere) continue;

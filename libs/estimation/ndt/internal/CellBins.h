@@ -78,20 +78,21 @@ inline std::int64_t quantaOf(double coordinate)
   return static_cast<std::int64_t>(coordinate * (1 / Moments::kQuantum) + 0.5 + static_cast<double>(kBias)) - kBias;
 }
 
-/** Moves the points by `shift` (m); they stay in the bin, wherever that takes them. */
-inline void moveBy(const Eigen::Vector3d& shift, Bin& bin)
+/** The points moved by `shift` (m); they stay in the bin, wherever that takes them. */
+inline Bin moved(const Bin& bin, const Eigen::Vector3d& shift)
 {
-  bin.moments = bin.moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())});
+  return {bin.key, bin.moments.about({quantaOf(shift.x()), quantaOf(shift.y()), quantaOf(shift.z())})};
 }
 
-/** Adds `variance` (m^2) along the unit vector `along` to the points' covariance; their mean stays. */
-inline void widenBy(double variance, const Eigen::Vector3d& along, Bin& bin)
+/** With `variance` (m^2) along the unit vector `along` added to the points' covariance; their mean stays. */
+inline Bin widened(Bin bin, double variance, const Eigen::Vector3d& along)
 {
   Moments& m = bin.moments;
   const double sum = static_cast<double>(m.n - 1) * variance / (Moments::kQuantum * Moments::kQuantum);
   const auto product = [&](int i, int j) { return std::llround(sum * along[i] * along[j]); };
   m.xx += product(0, 0), m.xy += product(0, 1), m.xz += product(0, 2);
   m.yy += product(1, 1), m.yz += product(1, 2), m.zz += product(2, 2);
+  return bin;
 }
 
 /** Division that rounds down, by a multiplication; |a| < 2^50. */

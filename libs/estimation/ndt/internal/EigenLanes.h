@@ -26,5 +26,5 @@ struct alignas(64) EigenBlock
  * By Jacobi's rotations (G. Golub and C. Van Loan: Matrix Computations, 4th edition, 8.5), to 1e-9 of the largest
  * eigenvalue. Entries must be finite, and 0 or above 1e-150 in size. The bits are the same for every kernel.
  */
-void eigensystemsOf(const SymmetricBlock&, EigenBlock&, Kernel = widestKernel());
+EigenBlock eigensystemsOf(const SymmetricBlock&, Kernel = widestKernel());
 }  // namespace scanloom

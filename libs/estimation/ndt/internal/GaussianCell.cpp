@@ -8,15 +8,6 @@ namespace scanloom
 {
 namespace
 {
-template <typename Operation>
-void forEachSum(Moments& a, const Moments& b, Operation&& apply)
-{
-  apply(a.n, b.n);
-  apply(a.x, b.x), apply(a.y, b.y), apply(a.z, b.z);
-  apply(a.xx, b.xx), apply(a.xy, b.xy), apply(a.xz, b.xz);
-  apply(a.yy, b.yy), apply(a.yz, b.yz), apply(a.zz, b.zz);
-}
-
 Eigen::Vector3d meanInQuanta(const Moments& m)
 {
   return Eigen::Vector3d(static_cast<double>(m.x), static_cast<double>(m.y), static_cast<double>(m.z)) /
@@ -29,8 +20,9 @@ Eigen::Matrix3d assumedCovariance(const Eigen::Matrix3d& covariance, std::int64_
   const double n = static_cast<double>(points);
   return ((n - 1) * covariance + kDeviation * kDeviation * Eigen::Matrix3d::Identity()) / n;
 }
-/** Raises eigenvalues that are too small, and sets the structure. */
-void limit(const EigenBlock& eigen, std::size_t lane, double edge, double min_deviation, GaussianCell& cell)
+
+/** With eigenvalues that are too small raised, and its structure. */
+GaussianCell limited(GaussianCell cell, const EigenBlock& eigen, std::size_t lane, double edge, double min_deviation)
 {
   const Eigen::Array3d seen = eigen.valuesOf(lane), variances = seen.max(min_deviation * min_deviation);
   const Eigen::Array3d thin = (1 - variances / (edge * edge / 12)).max(0.0).sqrt();
@@ -41,6 +33,7 @@ void limit(const EigenBlock& eigen, std::size_t lane, double edge, double min_de
     cell.covariance += (variances[i] - seen[i]) * projector;
     cell.structure += thin[i] * projector;
   }
+  return cell;
 }
 }  // namespace
 
@@ -59,15 +52,17 @@ Moments Moments::about(const Eigen::Matrix<std::int64_t, 3, 1>& corner) const
   return m;
 }
 
-Moments& Moments::operator+=(const Moments& other)
+Moments& Moments::operator+=(const Moments& m)
 {
-  forEachSum(*this, other, [](std::int64_t& a, std::int64_t b) { a += b; });
+  n += m.n, x += m.x, y += m.y, z += m.z;
+  xx += m.xx, xy += m.xy, xz += m.xz, yy += m.yy, yz += m.yz, zz += m.zz;
   return *this;
 }
 
-Moments& Moments::operator-=(const Moments& other)
+Moments& Moments::operator-=(const Moments& m)
 {
-  forEachSum(*this, other, [](std::int64_t& a, std::int64_t b) { a -= b; });
+  n -= m.n, x -= m.x, y -= m.y, z -= m.z;
+  xx -= m.xx, xy -= m.xy, xz -= m.xz, yy -= m.yy, yz -= m.yz, zz -= m.zz;
   return *this;
 }
 
@@ -100,11 +95,10 @@ std::array<GaussianCell, kGaussiansAtOnce> gaussiansOf(const CellPoints* cells, 
     const auto [mean, seen] = meanAndCovariance(m, cells[i].corner);
     const bool few = m.n < GaussianCell::kMinPointsForCovariance;
     gaussians[i] = {mean, few ? assumedCovariance(seen, m.n) : seen, static_cast<std::uint32_t>(m.n)};
-    put(gaussians[i].covariance, covariances, i);
+    covariances.set(i, gaussians[i].covariance);
   }
-  EigenBlock eigen;
-  eigensystemsOf(covariances, eigen);
-  for (std::size_t i = 0; i < count; ++i) limit(eigen, i, edge, min_deviation, gaussians[i]);
+  const EigenBlock eigen = eigensystemsOf(covariances);
+  for (std::size_t i = 0; i < count; ++i) gaussians[i] = limited(gaussians[i], eigen, i, edge, min_deviation);
   return gaussians;
 }
 }  // namespace scanloom

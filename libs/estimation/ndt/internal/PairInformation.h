@@ -19,6 +19,6 @@ struct PairInformation
  * Writes one PairInformation per source cell; `structures` are GaussianCell::structure of the blocks' cells, zero where
  * there is none. The bits are the same for every kernel.
  */
-void gatherEvidence(const PairBatch&, const SymmetricBlock* structures, double d2, PairInformation* evidence,
-                    Kernel = widestKernel());
+void gatherPairs(const PairBatch&, const SymmetricBlock* structures, double d2, PairInformation* pairs,
+                 Kernel = widestKernel());
 }  // namespace scanloom

@@ -10,10 +10,18 @@
 
 namespace scanloom
 {
+// Values of vectors never leave a function that is inlined, so how they are returned matters to nobody.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 // Vectors of the compiler: the same operations in the same order, whatever registers the machine has.
 using Lanes = double __attribute__((vector_size(8 * TargetBlock::kLanes)));
 
-SCANLOOM_INLINE void load(const double* from, Lanes& lanes) { std::memcpy(&lanes, from, sizeof lanes); }
+SCANLOOM_INLINE Lanes load(const double* from)
+{
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
 
 using SymmetricLanes = SymmetricOf<Lanes>;
 
@@ -21,7 +29,7 @@ using SymmetricLanes = SymmetricOf<Lanes>;
  * The smaller of two numbers that are not negative, whose bits have the order of the numbers. Not by a comparison: GCC
  * splits comparisons of vectors before it knows the registers of a function's target.
  */
-SCANLOOM_INLINE void keepBelow(double most, Lanes& v)
+SCANLOOM_INLINE Lanes atMost(double most, const Lanes& v)
 {
   using Bits = std::uint64_t __attribute__((vector_size(8 * TargetBlock::kLanes)));
   Bits bits, most_bits;
@@ -30,11 +38,13 @@ SCANLOOM_INLINE void keepBelow(double most, Lanes& v)
   std::memcpy(&most_bits, &most_lanes, sizeof v);
   const Bits keep = -((bits - most_bits) >> 63);
   bits = (bits & keep) | (most_bits & ~keep);
-  std::memcpy(&v, &bits, sizeof v);
+  Lanes kept;
+  std::memcpy(&kept, &bits, sizeof kept);
+  return kept;
 }
 
 /** exp(-h) for h from 0 to 690, to 1e-11: 2^-n exp(r) with |r| <= ln 2 / 2, by Taylor's series. */
-SCANLOOM_INLINE void expOfMinus(const Lanes& h, Lanes& result)
+SCANLOOM_INLINE Lanes expOfMinus(const Lanes& h)
 {
   using Whole = std::int64_t __attribute__((vector_size(8 * TargetBlock::kLanes)));
   constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
@@ -53,7 +63,7 @@ SCANLOOM_INLINE void expOfMinus(const Lanes& h, Lanes& result)
   bits = (kExponentBias - (bits - kBitsOfRound)) << 52;
   Lanes power;
   std::memcpy(&power, &bits, sizeof power);
-  result = sum * power;
+  return sum * power;
 }
 
 /** In a fixed tree. */
@@ -77,18 +87,16 @@ struct PairTerms
   SymmetricLanes b;
 };
 
-SCANLOOM_INLINE void termsOf(const TurnedCell& s, const TargetBlock& block, double d2, PairTerms& terms)
+SCANLOOM_INLINE PairTerms termsOf(const TurnedCell& s, const TargetBlock& block, double d2)
 {
-  Lanes x, y, z, xx, xy, xz, yy, yz, zz;
-  load(block.x, x), load(block.y, y), load(block.z, z);
-  load(block.xx, xx), load(block.xy, xy), load(block.xz, xz);
-  load(block.yy, yy), load(block.yz, yz), load(block.zz, zz);
-  x = s.x - x, y = s.y - y, z = s.z - z;
-  const Lanes apart = s.zz - zz;
-  xx = s.xx + xx, xy = s.xy + xy, xz = s.xz + xz, yy = s.yy + yy, yz = s.yz + yz, zz = s.zz + zz;
+  const Lanes x = s.x - load(block.x), y = s.y - load(block.y), z = s.z - load(block.z);
+  const Lanes apart = s.zz - load(block.zz);
+  const Lanes xx = s.xx + load(block.xx), xy = s.xy + load(block.xy), xz = s.xz + load(block.xz),
+              yy = s.yy + load(block.yy), yz = s.yz + load(block.yz), zz = s.zz + load(block.zz);
 
   // With M, the variance along z is q / zz. The inverse of a symmetric 3x3 by its cofactors, all of them times zz, so
   // that one division does.
+  PairTerms terms;
   SymmetricLanes& b = terms.b;
   const Lanes q = zz * zz + (kMixture * d2) * (apart * apart), xz_zz = xz * zz, yz_zz = yz * zz;
   const Lanes cxx = yy * q - yz * yz_zz, cxy = xz * yz_zz - xy * q, cxz = xy * yz_zz - yy * xz_zz;
@@ -101,8 +109,7 @@ SCANLOOM_INLINE void termsOf(const TurnedCell& s, const TargetBlock& block, doub
   terms.uz = b.xz * x + b.yz * y + b.zz * z;
 
   constexpr double kNothing = 690;  // exp(-690) is still normal
-  Lanes h = (d2 / 2) * (x * terms.ux + y * terms.uy + z * terms.uz);
-  keepBelow(kNothing, h);
-  expOfMinus(h, terms.e);
+  terms.e = expOfMinus(atMost(kNothing, (d2 / 2) * (x * terms.ux + y * terms.uy + z * terms.uz)));
+  return terms;
 }
 }  // namespace scanloom

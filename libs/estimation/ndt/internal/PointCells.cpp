@@ -4,6 +4,7 @@
 #include <limits>
 
 #define INLINE [[gnu::always_inline]] inline
+#pragma GCC diagnostic ignored "-Wpsabi"  // values of vectors never leave a function that is inlined
 
 namespace scanloom
 {
@@ -19,6 +20,7 @@ constexpr std::uint64_t kBitsOfRound = 0x4338000000000000;
 
 struct Axis
 {
+  Lanes place;  // whole quanta from the cell's centre
   Bits biased;  // index of the cell, see CellKey
   Bits fits;    // in its highest bit
 };
@@ -30,14 +32,14 @@ struct Cells
   double turn[3][3];  // from points to the grid
 };
 
-INLINE void along(const Lanes& v, const Cells& cells, double* place, Axis& axis)
+INLINE Axis along(const Lanes& v, const Cells& cells)
 {
   const Lanes quanta = (v * (1 / Moments::kQuantum) + kRound) - kRound;
 
   // Half a quantum off a boundary, a quotient is farther from a whole number (2^-21) than its rounding error (2^-31).
   const Lanes shifted = ((quanta + 0.5) * cells.inverse_edge - 0.5) + kRound;
-  const Lanes from_centre = quanta - (shifted - kRound) * cells.edge - cells.centre;
-  std::memcpy(place, &from_centre, sizeof from_centre);
+  Axis axis;
+  axis.place = quanta - (shifted - kRound) * cells.edge - cells.centre;
   std::memcpy(&axis.biased, &shifted, sizeof shifted);
   axis.biased += static_cast<std::uint64_t>(CellKey::kLimit) - kBitsOfRound;
 
@@ -45,8 +47,10 @@ INLINE void along(const Lanes& v, const Cells& cells, double* place, Axis& axis)
   Bits magnitude;
   std::memcpy(&magnitude, &v, sizeof v);
   axis.fits = (magnitude << 1 >> 1) - cells.bits_of_reach;
+  return axis;
 }
 
+// In place: a second buffer of 16 kB would push the first one out of the cache.
 INLINE void locateAll(std::size_t count, const Cells& cells, PointCells& located)
 {
   const auto& turn = cells.turn;
@@ -56,10 +60,12 @@ INLINE void locateAll(std::size_t count, const Cells& cells, PointCells& located
     std::memcpy(&px, located.x + i, sizeof px);
     std::memcpy(&py, located.y + i, sizeof py);
     std::memcpy(&pz, located.z + i, sizeof pz);
-    Axis x, y, z;
-    along(turn[0][0] * px + turn[0][1] * py + turn[0][2] * pz, cells, located.x + i, x);
-    along(turn[1][0] * px + turn[1][1] * py + turn[1][2] * pz, cells, located.y + i, y);
-    along(turn[2][0] * px + turn[2][1] * py + turn[2][2] * pz, cells, located.z + i, z);
+    const Axis x = along(turn[0][0] * px + turn[0][1] * py + turn[0][2] * pz, cells);
+    const Axis y = along(turn[1][0] * px + turn[1][1] * py + turn[1][2] * pz, cells);
+    const Axis z = along(turn[2][0] * px + turn[2][1] * py + turn[2][2] * pz, cells);
+    std::memcpy(located.x + i, &x.place, sizeof x.place);
+    std::memcpy(located.y + i, &y.place, sizeof y.place);
+    std::memcpy(located.z + i, &z.place, sizeof z.place);
     Bits key;
     CellKey::compose(x.biased, y.biased, z.biased, key);
     key |= ((x.fits & y.fits & z.fits) >> 63) - 1;
@@ -67,9 +73,10 @@ INLINE void locateAll(std::size_t count, const Cells& cells, PointCells& located
   }
 }
 
-/** Separate from the arithmetic: a load that spans several recent stores has to wait for them. */
-void widen(const Coordinates& points, PointCells& located)
+/** The points in double. Separate from the arithmetic: a load that spans several recent stores has to wait for them. */
+PointCells widened(const Coordinates& points)
 {
+  PointCells located;
   std::size_t i = 0;
   for (; i < points.count; ++i)
   {
@@ -78,6 +85,7 @@ void widen(const Coordinates& points, PointCells& located)
     located.z[i] = static_cast<double>(points.z[i * points.stride]);
   }
   for (; i % kLanes != 0; ++i) located.x[i] = located.y[i] = located.z[i] = 0;
+  return located;
 }
 
 void locatePortable(std::size_t count, const Cells& cells, PointCells& located) { locateAll(count, cells, located); }
@@ -93,8 +101,8 @@ SCANLOOM_AVX512 void locateAvx512(std::size_t count, const Cells& cells, PointCe
 }
 }  // namespace
 
-void locate(const Coordinates& points, std::int64_t cell_quanta, const Eigen::Matrix3d& grid_R_points,
-            PointCells& located, Kernel kernel)
+PointCells locate(const Coordinates& points, std::int64_t cell_quanta, const Eigen::Matrix3d& grid_R_points,
+                  Kernel kernel)
 {
   const auto edge = static_cast<double>(cell_quanta);
   const double reach = static_cast<double>(CellKey::kLimit - 1) * edge * Moments::kQuantum;
@@ -102,15 +110,19 @@ void locate(const Coordinates& points, std::int64_t cell_quanta, const Eigen::Ma
   std::memcpy(&cells.bits_of_reach, &reach, sizeof reach);
   for (int row = 0; row < 3; ++row)
     for (int column = 0; column < 3; ++column) cells.turn[row][column] = grid_R_points(row, column);
-  widen(points, located);
+  PointCells located = widened(points);
   switch (kernel)
   {
     case Kernel::Portable:
-      return locatePortable(points.count, cells, located);
+      locatePortable(points.count, cells, located);
+      break;
     case Kernel::Avx2:
-      return locateAvx2(points.count, cells, located);
+      locateAvx2(points.count, cells, located);
+      break;
     case Kernel::Avx512:
-      return locateAvx512(points.count, cells, located);
+      locateAvx512(points.count, cells, located);
+      break;
   }
+  return located;
 }
 }  // namespace scanloom

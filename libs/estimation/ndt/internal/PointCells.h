@@ -24,6 +24,6 @@ struct PointCells
  * At most kPoints points, which `grid_R_points` turns into the frame of the grid; places after them are undefined. The
  * bits are the same for every kernel.
  */
-void locate(const Coordinates&, std::int64_t cell_quanta, const Eigen::Matrix3d& grid_R_points, PointCells&,
-            Kernel = widestKernel());
+PointCells locate(const Coordinates&, std::int64_t cell_quanta, const Eigen::Matrix3d& grid_R_points,
+                  Kernel = widestKernel());
 }  // namespace scanloom

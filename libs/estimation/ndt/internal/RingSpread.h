@@ -1,17 +1,11 @@
 /** Widens cells by what lies between the rings of a lidar. */
 #pragma once
 #include "estimation/ndt/View.h"
-#include "estimation/ndt/internal/CellBins.h"
-
-#include <Eigen/Core>
-
-#include <cstdint>
-#include <vector>
 
 namespace scanloom
 {
 /**
- * Raises the variance of every cell's points across the rings (perpendicular to the view, in the plane of the view and
+ * Raises the variance of a cell's points across the rings (perpendicular to the view, in the plane of the view and
  * the lidar's axis) to that of an even spread over the spacing of the rings there, or over the cell if that is smaller.
  *
  * Far from a lidar a cell holds the points of one ring. On a wall they are a level line, which is where the ring is,
@@ -20,5 +14,5 @@ namespace scanloom
  * accelerometer; within 30 m of way the body is a metre too high, or lost. Widened, they leave the tilt to the IMU
  * (doc/study/localisation.md#between-the-rings).
  */
-void widenAcrossRings(std::vector<Bin>&, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, const Rings&);
+Bin widenedAcrossRings(const Bin&, const MeanAndCovariance&, const Sight&, const Rings&);
 }  // namespace scanloom

@@ -6,14 +6,12 @@ namespace scanloom
 {
 namespace
 {
-SCANLOOM_INLINE void sumCell(const TurnedCell& s, const TargetBlock* block, std::uint32_t count, double d2,
-                             ScoreSums& sums)
+SCANLOOM_INLINE ScoreSums sumCell(const TurnedCell& s, const TargetBlock* block, std::uint32_t count, double d2)
 {
   Lanes score{}, best{}, fx{}, fy{}, fz{}, wxx{}, wxy{}, wxz{}, wyy{}, wyz{}, wzz{};
   for (const TargetBlock* end = block + count; block != end; ++block)
   {
-    PairTerms t;
-    termsOf(s, *block, d2, t);
+    const PairTerms t = termsOf(s, *block, d2);
     const Lanes w = d2 * t.e;
     score += t.e;
     best = t.e > best ? t.e : best;
@@ -23,14 +21,14 @@ SCANLOOM_INLINE void sumCell(const TurnedCell& s, const TargetBlock* block, std:
   }
   double most = 0;
   for (std::size_t i = 0; i < TargetBlock::kLanes; ++i) most = best[i] > most ? best[i] : most;
-  sums = {total(score), most,       total(fx),  total(fy),  total(fz), total(wxx),
+  return {total(score), most,       total(fx),  total(fy),  total(fz), total(wxx),
           total(wxy),   total(wxz), total(wyy), total(wyz), total(wzz)};
 }
 
 SCANLOOM_INLINE void sumAll(const PairBatch& batch, double d2, ScoreSums* sums)
 {
   for (std::size_t i = 0; i < batch.count; ++i)
-    sumCell(batch.cells[i], batch.blocks + batch.ranges[i].first, batch.ranges[i].count, d2, sums[i]);
+    sums[i] = sumCell(batch.cells[i], batch.blocks + batch.ranges[i].first, batch.ranges[i].count, d2);
 }
 
 void sumPortable(const PairBatch& batch, double d2, ScoreSums* sums) { sumAll(batch, d2, sums); }

@@ -14,6 +14,15 @@ struct alignas(64) TargetBlock
 
   double x[kLanes], y[kLanes], z[kLanes];                                         // m, means
   double xx[kLanes], xy[kLanes], xz[kLanes], yy[kLanes], yz[kLanes], zz[kLanes];  // m^2, covariances
+
+  /** `mean` and `covariance`: any with (row) and (row, column). */
+  template <typename Vector, typename Matrix>
+  void set(std::size_t lane, const Vector& mean, const Matrix& covariance)
+  {
+    x[lane] = mean(0), y[lane] = mean(1), z[lane] = mean(2);
+    xx[lane] = covariance(0, 0), xy[lane] = covariance(0, 1), xz[lane] = covariance(0, 2);
+    yy[lane] = covariance(1, 1), yz[lane] = covariance(1, 2), zz[lane] = covariance(2, 2);
+  }
 };
 
 /** A source cell in the target's frame. */

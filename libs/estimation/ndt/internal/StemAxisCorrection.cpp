@@ -4,7 +4,6 @@
 #include "estimation/ndt/internal/EigenLanes.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -48,91 +47,80 @@ double depthOfAxis(double sideways, double along_view)
 
 /** Nothing for a body that is too thick, or seen along its axis. */
 std::optional<ThinBody> thinBodyOf(const MeanAndCovariance& seen, const EigenBlock& eigen, std::size_t lane,
-                                   const Eigen::Vector3d& viewpoint, const Eigen::Vector3d& up)
+                                   const Sight& from)
 {
   const Eigen::Vector3d variances = eigen.valuesOf(lane);
   Eigen::Index longest = 0;
   const double most = variances.maxCoeff(&longest);
   const double second = std::max(variances[(longest + 1) % 3], variances[(longest + 2) % 3]);
   const Eigen::Vector3d axis = eigen.vectorOf(static_cast<std::size_t>(longest), lane);
-  const double range = (seen.mean - viewpoint).norm();
-  const Eigen::Vector3d sight = (seen.mean - viewpoint) / range;
+  const double range = (seen.mean - from.viewpoint).norm();
+  const Eigen::Vector3d sight = (seen.mean - from.viewpoint) / range;
   const Eigen::Vector3d across = sight - sight.dot(axis) * axis;
   if (!(most > kSlimness * kSlimness * second && across.norm() > kLeastAcross)) return std::nullopt;
   const Eigen::Vector3d towards = across.normalized(), sideways = axis.cross(towards);
   const double variance = sideways.dot(seen.covariance * sideways);
   if (3 * variance > kMostRadius * kMostRadius) return std::nullopt;
   return ThinBody{depthOfAxis(variance, towards.dot(seen.covariance * towards)) * towards, range,
-                  std::abs(axis.dot(up)) > kSteep};
+                  std::abs(axis.dot(from.up)) > kSteep};
 }
 
 using Bodies = std::vector<std::optional<ThinBody>>;
 
-/** Cells that may hold a thin body, as many as are decomposed at a time. */
-class Candidates
+/** A cell that may hold a thin body. */
+struct Candidate
 {
- public:
-  Candidates(const Eigen::Vector3d& viewpoint, const Eigen::Vector3d& up, Bodies& bodies)
-    : viewpoint_(viewpoint), up_(up), bodies_(bodies)
-  {
-  }
-
-  void add(std::size_t bin, const MeanAndCovariance& seen)
-  {
-    bins_[count_] = bin, seen_[count_] = seen;
-    put(seen.covariance, covariances_, count_);
-    if (++count_ == SymmetricBlock::kLanes) finish();
-  }
-
-  void finish()
-  {
-    if (count_ == 0) return;
-    EigenBlock eigen;
-    eigensystemsOf(covariances_, eigen);
-    for (std::size_t i = 0; i < count_; ++i) bodies_[bins_[i]] = thinBodyOf(seen_[i], eigen, i, viewpoint_, up_);
-    count_ = 0;
-  }
-
- private:
-  const Eigen::Vector3d& viewpoint_;
-  const Eigen::Vector3d& up_;
-  Bodies& bodies_;
-  std::size_t count_ = 0;
-  std::array<std::size_t, SymmetricBlock::kLanes> bins_;
-  std::array<MeanAndCovariance, SymmetricBlock::kLanes> seen_;
-  SymmetricBlock covariances_{};
+  std::size_t bin;
+  MeanAndCovariance seen;
 };
 
+/** Of bins from `begin` to `end`. */
+std::vector<Candidate> candidatesAmong(const std::vector<Bin>& bins, std::size_t begin, std::size_t end,
+                                       const Sight& sight)
+{
+  std::vector<Candidate> candidates;
+  for (std::size_t i = begin; i < end; ++i)
+  {
+    if (bins[i].moments.n < sight.least_points) continue;
+    const MeanAndCovariance seen = meanAndCovariance(bins[i], sight.edge);
+    if (mayBeThin(seen.covariance)) candidates.push_back({i, seen});
+  }
+  return candidates;
+}
+
 /** By bin. */
-Bodies thinBodiesOf(const std::vector<Bin>& bins, double edge, const Eigen::Vector3d& viewpoint,
-                    const Eigen::Vector3d& up, int least_points)
+Bodies thinBodiesOf(const std::vector<Bin>& bins, const Sight& sight)
 {
   constexpr std::size_t kPart = 128;  // bins, about 20 us
   Bodies bodies(bins.size());
   forAll((bins.size() + kPart - 1) / kPart, 1,
          [&](std::size_t part)
          {
-           Candidates candidates(viewpoint, up, bodies);
-           for (std::size_t i = part * kPart; i < std::min((part + 1) * kPart, bins.size()); ++i)
+           const std::vector<Candidate> candidates =
+               candidatesAmong(bins, part * kPart, std::min((part + 1) * kPart, bins.size()), sight);
+           for (std::size_t first = 0; first < candidates.size(); first += SymmetricBlock::kLanes)
            {
-             if (bins[i].moments.n < least_points) continue;
-             const MeanAndCovariance seen = meanAndCovariance(bins[i], edge);
-             if (mayBeThin(seen.covariance)) candidates.add(i, seen);
+             const std::size_t count = std::min(SymmetricBlock::kLanes, candidates.size() - first);
+             SymmetricBlock covariances{};
+             for (std::size_t i = 0; i < count; ++i) covariances.set(i, candidates[first + i].seen.covariance);
+             const EigenBlock eigen = eigensystemsOf(covariances);
+             for (std::size_t i = 0; i < count; ++i)
+               bodies[candidates[first + i].bin] = thinBodyOf(candidates[first + i].seen, eigen, i, sight);
            }
-           candidates.finish();
          });
   return bodies;
 }
 
 /** The mean depth of the axes of stems nearby (m), as if ten stems with the assumed depth were among them. */
-double typicalDepth(const Bodies& bodies, const std::vector<Bin>& bins, int least_points)
+double typicalDepth(const Bodies& bodies, const std::vector<Bin>& bins, const Sight& sight)
 {
   constexpr double kAssumed = 0.03;  // m
   constexpr double kAssumedStems = 10;
   double sum = kAssumedStems * kAssumed, stems = kAssumedStems;
   for (std::size_t i = 0; i < bodies.size(); ++i)
   {
-    if (!bodies[i] || !bodies[i]->stands || bodies[i]->range > kNear || bins[i].moments.n < 2 * least_points) continue;
+    if (!bodies[i] || !bodies[i]->stands || bodies[i]->range > kNear || bins[i].moments.n < 2 * sight.least_points)
+      continue;
     sum += bodies[i]->to_axis.norm();
     ++stems;
   }
@@ -140,27 +128,26 @@ double typicalDepth(const Bodies& bodies, const std::vector<Bin>& bins, int leas
 }
 
 /** Unit vector from the viewpoint to the points, without its part along `up`. */
-Eigen::Vector3d levelView(const Bin& bin, double edge, const Eigen::Vector3d& viewpoint, const Eigen::Vector3d& up)
+Eigen::Vector3d levelView(const Bin& bin, const Sight& sight)
 {
-  const Eigen::Vector3d view = meanOf(bin, edge) - viewpoint;
-  return (view - view.dot(up) * up).normalized();
+  const Eigen::Vector3d view = meanOf(bin, sight.edge) - sight.viewpoint;
+  return (view - view.dot(sight.up) * sight.up).normalized();
 }
 }  // namespace
 
-void correctNearSideBias(std::vector<Bin>& bins, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint,
-                         const Eigen::Vector3d& up, int least_points)
+std::vector<Bin> correctNearSideBias(std::vector<Bin> bins, const Sight& sight)
 {
   constexpr std::size_t kGrain = 128;
-  const double edge = edgeOf(cell_quanta);
-  const Bodies bodies = thinBodiesOf(bins, edge, viewpoint, up, least_points);
-  const double typical = typicalDepth(bodies, bins, least_points);
+  const Bodies bodies = thinBodiesOf(bins, sight);
+  const double typical = typicalDepth(bodies, bins, sight);
   forAll(bins.size(), kGrain,
          [&](std::size_t i)
          {
            if (bodies[i])
-             moveBy(bodies[i]->to_axis, bins[i]);
-           else if (bins[i].moments.n < least_points)
-             moveBy(typical * levelView(bins[i], edge, viewpoint, up), bins[i]);
+             bins[i] = moved(bins[i], bodies[i]->to_axis);
+           else if (bins[i].moments.n < sight.least_points)
+             bins[i] = moved(bins[i], typical * levelView(bins[i], sight));
          });
+  return bins;
 }
 }  // namespace scanloom

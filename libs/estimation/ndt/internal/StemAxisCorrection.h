@@ -1,11 +1,6 @@
 /** Corrects points of stems, poles and posts from the side that a lidar sees to their axes. */
 #pragma once
-#include "estimation/ndt/internal/CellBins.h"
-
-#include <Eigen/Core>
-
-#include <cstdint>
-#include <vector>
+#include "estimation/ndt/CellCorrections.h"
 
 namespace scanloom
 {
@@ -29,6 +24,5 @@ namespace scanloom
  * which is so roughly), by the mean depth of the stems within 12 m, where ten stems of 3 cm are counted in, since a
  * dense stand shows few.
  */
-void correctNearSideBias(std::vector<Bin>&, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint,
-                         const Eigen::Vector3d& up, int least_points);
+std::vector<Bin> correctNearSideBias(std::vector<Bin>, const Sight&);
 }  // namespace scanloom

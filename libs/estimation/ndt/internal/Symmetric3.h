@@ -16,7 +16,7 @@ using Symmetric3 = SymmetricOf<double>;
 
 /** A B A. */
 template <typename T>
-[[gnu::always_inline]] inline void sandwich(const SymmetricOf<T>& a, const SymmetricOf<T>& b, SymmetricOf<T>& result)
+[[gnu::always_inline]] inline SymmetricOf<T> sandwich(const SymmetricOf<T>& a, const SymmetricOf<T>& b)
 {
   const T xx = a.xx * b.xx + a.xy * b.xy + a.xz * b.xz, xy = a.xx * b.xy + a.xy * b.yy + a.xz * b.yz,
           xz = a.xx * b.xz + a.xy * b.yz + a.xz * b.zz;
@@ -24,12 +24,8 @@ template <typename T>
           yz = a.xy * b.xz + a.yy * b.yz + a.yz * b.zz;
   const T zx = a.xz * b.xx + a.yz * b.xy + a.zz * b.xz, zy = a.xz * b.xy + a.yz * b.yy + a.zz * b.yz,
           zz = a.xz * b.xz + a.yz * b.yz + a.zz * b.zz;
-  result.xx = xx * a.xx + xy * a.xy + xz * a.xz;
-  result.xy = xx * a.xy + xy * a.yy + xz * a.yz;
-  result.xz = xx * a.xz + xy * a.yz + xz * a.zz;
-  result.yy = yx * a.xy + yy * a.yy + yz * a.yz;
-  result.yz = yx * a.xz + yy * a.yz + yz * a.zz;
-  result.zz = zx * a.xz + zy * a.yz + zz * a.zz;
+  return {xx * a.xx + xy * a.xy + xz * a.xz, xx * a.xy + xy * a.yy + xz * a.yz, xx * a.xz + xy * a.yz + xz * a.zz,
+          yx * a.xy + yy * a.yy + yz * a.yz, yx * a.xz + yy * a.yz + yz * a.zz, zx * a.xz + zy * a.yz + zz * a.zz};
 }
 
 /** R m R'. */

@@ -16,7 +16,7 @@ namespace scanloom
 struct TrackingOptions
 {
   bool refine = true;
-  bool stem_axes = true;
+  bool forest = true;
   bool relative = true;
   double correlation = 2.0;
   double gate = 40.0;
@@ -25,9 +25,10 @@ struct TrackingOptions
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.refine, Field{"refine", "", "align every scan a second time, with [fine_cells]"});
-    visit(o.stem_axes,
-          Field{"stem_axes", "",
-                "register stems by their axes and foliage by its middle, not by the side that the lidars see"});
+    visit(o.forest,
+          Field{"forest", "",
+                "register stems by their axes and foliage by its middle, not by the side that the lidars see; false in "
+                "streets and halls"});
     visit(o.relative, Field{"relative", "",
                             "true: a registration is a pose relative to the first keyframe, whose attitude may still "
                             "be corrected by gravity; false: a pose in the map, as in the paper"});

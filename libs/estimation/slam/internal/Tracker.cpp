@@ -2,6 +2,7 @@
 
 #include "base/core/Decompositions.h"
 #include "estimation/graph/PosePriorFactor.h"
+#include "estimation/ndt/ForestCorrections.h"
 #include "estimation/preprocessing/Deskew.h"
 #include "estimation/slam/internal/BodyPoses.h"
 
@@ -88,9 +89,11 @@ StateEstimate estimateOf(DeskewedScan seen, const Prediction& predicted, const C
 }  // namespace
 
 Tracker::Tracker(const SlamSettings& settings, const std::vector<MountedLidar>& lidars)
-  : settings_(settings), health_monitor_(settings)
+  : settings_(settings),
+    health_monitor_(settings),
+    body_T_lidar_(posesOf(lidars)),
+    corrections_(settings.slam.tracking.forest ? forestCorrections() : CellCorrections{})
 {
-  if (settings.slam.tracking.stem_axes) body_T_lidar_ = posesOf(lidars);
 }
 
 TrackerState Tracker::begin(const NavEstimate& start, const MountedImu& imu) const
@@ -140,21 +143,21 @@ DeskewedScan Tracker::deskewToEnd(Scan scan, const TrackerState& before, const s
   const Timestamp end = scan.end();
   const bool complete = scan.complete();
   const auto period = static_cast<std::int32_t>(scan.period.count());
-  PointCloud cloud = times.measure("deskew",
-                                   [&]
-                                   {
-                                     const NavState& from = before.window.smoother.newest();
-                                     const Rigid imu_T_body = before.window.smoother.body_T_imu().inverse();
-                                     const Rigid end_T_map =
-                                         (predictAt(from, samples, {end}).front().map_T_imu * imu_T_body).inverse();
-                                     std::vector<Rigid> end_T_column;
-                                     for (const Rigid& map_T_body : bodyAtColumns(scan, from, samples, imu_T_body))
-                                       end_T_column.push_back(end_T_map * map_T_body);
-                                     PointCloud moved = deskew(std::move(scan), end_T_column);
-                                     for (std::int32_t& t : moved.t) t -= period;  // it counts from the end now
-                                     return moved;
-                                   });
-  std::vector<View> views = times.measure("deskew", [&] { return viewsOf(cloud, body_T_lidar_); });
+  PointCloud cloud = times.measure(
+      "deskew",
+      [&]
+      {
+        const NavState& from = before.window.smoother.newest();
+        const Rigid imu_T_body = before.window.smoother.body_T_imu().inverse();
+        const Rigid end_T_map = (predictAt(from, samples, {end}).front().map_T_imu * imu_T_body).inverse();
+        std::vector<Rigid> end_T_column;
+        for (const Rigid& map_T_body : bodyAtColumns(scan, from, samples, imu_T_body))
+          end_T_column.push_back(end_T_map * map_T_body);
+        PointCloud moved = deskew(std::move(scan), end_T_column);
+        for (std::int32_t& t : moved.t) t -= period;  // it counts from the end now
+        return moved;
+      });
+  std::vector<View> views = times.measure("deskew", [&] { return viewsOf(cloud, body_T_lidar_, corrections_); });
   const int in_a_row = cloud.empty() ? 0 : before.scans_seen + 1;
   return {end, complete, std::move(cloud), std::move(views), in_a_row, times};
 }

@@ -47,6 +47,7 @@ class Tracker
 
   SlamSettings settings_;
   HealthMonitor health_monitor_;
-  std::vector<Rigid> body_T_lidar_;  // empty: points are taken as they are seen
+  std::vector<Rigid> body_T_lidar_;
+  CellCorrections corrections_;
 };
 }  // namespace scanloom

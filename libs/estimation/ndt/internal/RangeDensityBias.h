@@ -1,16 +1,11 @@
-/** Corrects the means of cells for points that get fewer with the distance from the lidar. */
+/** Where a cell's mean is, if points did not get fewer with the distance from the lidar. */
 #pragma once
-#include "estimation/ndt/internal/CellBins.h"
-
-#include <Eigen/Core>
-
-#include <cstdint>
-#include <vector>
+#include "estimation/ndt/CellCorrections.h"
 
 namespace scanloom
 {
 /**
- * Moves the points of every cell by k C u / 2: C their covariance, u the unit vector from the viewpoint to their mean.
+ * The shift k C u / 2 (m) of a cell's points: C their covariance, u the unit vector from the viewpoint to their mean.
  *
  * Of what fills a cell evenly, as leaves do, a lidar sees more on the near side. Rays spread, so points per volume fall
  * with 1 / r^2; and what they hit stops them, so points fall with exp(-mu r). Across one cell both are about a factor
@@ -22,8 +17,7 @@ namespace scanloom
  * where the whole is right, a cube of even leaves, the half leaves 4 cm of 8; where it is too much, in simulated
  * stands, paths come out too long and turn (doc/study/localisation.md).
  *
- * Surfaces stay in their plane: across it C is nearly zero. Cells of fewer points than `least_points` stay, as their
- * covariance is not known. mu is that of young spruce and undergrowth, 0.6 per m.
+ * Surfaces stay in their plane: across it C is nearly zero. mu is that of young spruce and undergrowth, 0.6 per m.
  */
-void undoFading(std::vector<Bin>&, std::int64_t cell_quanta, const Eigen::Vector3d& viewpoint, int least_points);
+Eigen::Vector3d rangeDensityShift(const MeanAndCovariance&, const Sight&);
 }  // namespace scanloom

@@ -1,5 +1,6 @@
-#include "estimation/ndt/internal/FadingDensity.h"
+#include "estimation/ndt/internal/RangeDensityBias.h"
 
+#include "estimation/ndt/ForestCorrections.h"
 #include "estimation/ndt/NdtMap.h"
 #include "estimation/ndt/Registration.h"
 
@@ -8,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-namespace scanloom::fading_density_unittest
+namespace scanloom::range_density_bias_unittest
 {
 namespace
 {
@@ -39,7 +40,7 @@ View hedgesFrom(double along, unsigned seed)
 {
   std::mt19937 random(static_cast<unsigned>(1000 * along) + seed);
   const Eigen::Vector3d eye(along, 0.3, 1.4);
-  View view{{}, eye};
+  View view{{}, eye, {}, forestCorrections()};
   for (int x = -10; x < 14; ++x)
     for (const int y : {-6, -5, 4, 5})
       for (int z = 0; z < 3; ++z)
@@ -60,14 +61,14 @@ double stepFound(const View& target, const View& source, double step)
 }
 }  // namespace
 
-TEST(FadingDensity, leavesHaveTheirMeanHalfAsFarFromTheMiddleFromWhereverTheyAreSeen)
+TEST(RangeDensityBias, leavesHaveTheirMeanHalfAsFarFromTheMiddleFromWhereverTheyAreSeen)
 {
   for (int bearing = 0; bearing < 360; bearing += 40)
   {
     std::mt19937 random(7);
     const double angle = bearing * M_PI / 180;
     const Eigen::Vector3d middle(0.5, 0.5, 0.5), away(std::cos(angle), std::sin(angle), 0.2);
-    View view{{}, middle + 6 * away};
+    View view{{}, middle + 6 * away, {}, forestCorrections()};
     for (int i = 0; i < 20; ++i) addLeaves({0, 0, 0}, 1, *view.viewpoint, random, view);
     const Eigen::Vector3d seen = NdtMap({withoutViewpoint(view)}, {}).cells().front().mean;
     const Eigen::Vector3d moved = NdtMap({view}, {}).cells().front().mean;
@@ -76,7 +77,7 @@ TEST(FadingDensity, leavesHaveTheirMeanHalfAsFarFromTheMiddleFromWhereverTheyAre
   }
 }
 
-TEST(FadingDensity, thePathThroughFoliageIsNotShortened)
+TEST(RangeDensityBias, thePathThroughFoliageIsNotShortened)
 {
   constexpr unsigned kHedges = 8;  // in each the error is another, of 5 mm
   double seen = 0, moved = 0;
@@ -90,21 +91,18 @@ TEST(FadingDensity, thePathThroughFoliageIsNotShortened)
   EXPECT_NEAR(moved, 4, 0.005);
 }
 
-TEST(FadingDensity, aWallStaysInItsPlane)
+TEST(RangeDensityBias, aWallStaysInItsPlane)
 {
-  View view{{}, Eigen::Vector3d(5, 4, 1)};
+  View view{{}, Eigen::Vector3d(5, 4, 1), {}, forestCorrections()};
   for (float y = 0.01F; y < 1; y += 0.05F)
     for (float z = 0.01F; z < 1; z += 0.05F) view.points.emplace_back(0.5F, y, z);
   EXPECT_NEAR(NdtMap({view}, {}).cells().front().mean.x(), 0.5, 1e-4);
 }
 
-TEST(FadingDensity, threePointsStay)
+TEST(RangeDensityBias, threePointsStay)
 {
-  constexpr std::int64_t kMetre = 65536;
-  const std::vector<Eigen::Vector3f> points{{0.2F, 0.5F, 0.5F}, {0.5F, 0.4F, 0.5F}, {0.9F, 0.6F, 0.4F}};
-  const std::vector<Bin> before = countInto({&points[0].x(), &points[0].y(), &points[0].z(), 3, points.size()}, kMetre);
-  std::vector<Bin> after = before;
-  undoFading(after, kMetre, {5, 0, 0}, 4);
-  EXPECT_EQ(after.front().moments.x, before.front().moments.x);
+  View view{{{0.2F, 0.5F, 0.5F}, {0.5F, 0.4F, 0.5F}, {0.9F, 0.6F, 0.4F}}, Eigen::Vector3d(5, 0, 0)};
+  view.corrections.shift_of = forestCorrections().shift_of;
+  EXPECT_EQ(binned({view}, {}).bins.front().moments.x, binned({withoutViewpoint(view)}, {}).bins.front().moments.x);
 }
-}  // namespace scanloom::fading_density_unittest
+}  // namespace scanloom::range_density_bias_unittest

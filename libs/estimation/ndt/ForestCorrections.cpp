@@ -1,0 +1,9 @@
+#include "estimation/ndt/ForestCorrections.h"
+
+#include "estimation/ndt/internal/RangeDensityBias.h"
+#include "estimation/ndt/internal/StemAxisCorrection.h"
+
+namespace scanloom
+{
+CellCorrections forestCorrections() { return {&correctNearSideBias, &rangeDensityShift}; }
+}  // namespace scanloom
