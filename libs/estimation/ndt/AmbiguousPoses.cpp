@@ -1,6 +1,7 @@
 #include "estimation/ndt/AmbiguousPoses.h"
 
 #include "base/core/Decompositions.h"
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/Minimiser.h"
 
 #include <algorithm>
@@ -10,11 +11,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kDeviations = 3;
-constexpr double kFarthest = 5;          // m, for guesses with a huge covariance
-constexpr double kBroad = 0.05;          // d2: maxima as wide as the steps of the grid
-constexpr double kCandidateShare = 0.5;  // smallest share of the best score on the grid
-
 /** Shifts in the source's frame, m: whole steps within an ellipse of three deviations. */
 struct Shifts
 {
@@ -36,8 +32,8 @@ Shifts shiftsOf(const Eigen::Matrix3d& guess, const Eigen::Matrix3d& clouds, dou
   const Eigen::Vector3d first = eigen.vectors.col(2), second = eigen.vectors.col(1);
   const auto most = [&](const Eigen::Vector3d& along)
   {
-    const double reach = kDeviations * std::sqrt(along.dot(guess * along));
-    return static_cast<int>((reach < kFarthest ? reach : kFarthest) / step);
+    const double reach = 3 * std::sqrt(along.dot(guess * along));
+    return static_cast<int>((reach < 5 ? reach : 5) / step);
   };
   return {most(first), most(second), step * first, step * second};
 }
@@ -97,17 +93,17 @@ std::vector<Rigid> ambiguousPoses(const RegistrationLevel& level, const Registra
   // With the rotation of the best pose, because rows of stems are parallel.
   const Rigid centre{best.rotation, guess.target_T_source.translation};
   CellCorrespondences correspondences(level.target, level.source, options.neighbours);
-  const double broad = -normalEquations(correspondences, best, kBroad).value;
+  const double broad = -normalEquations(correspondences, best, fitted::kBroadD2).value;
   const double narrow = -normalEquations(correspondences, best, options.d2).value;
   const Scores scores(shifts, [&](const Eigen::Vector3d& shift)
-                      { return -normalEquations(correspondences, moved(centre, shift), kBroad).value; });
+                      { return -normalEquations(correspondences, moved(centre, shift), fitted::kBroadD2).value; });
   RegistrationOptions wide = options;
-  wide.d2 = kBroad;
+  wide.d2 = fitted::kBroadD2;
   std::vector<Rigid> rivals;
   for (int i = -shifts.most_along_first; i <= shifts.most_along_first; ++i)
     for (int j = -shifts.most_along_second; j <= shifts.most_along_second; ++j)
     {
-      if (scores.at(i, j) < kCandidateShare * broad || !scores.isMaximum(i, j)) continue;
+      if (scores.at(i, j) < fitted::kRivalCandidate * broad || !scores.isMaximum(i, j)) continue;
       const Minimum near = minimise(correspondences, moved(centre, shifts.at(i, j)), {}, wide, {});
       const Minimum there = minimise(correspondences, near.target_T_source, {}, options, {});
       const double apart = boxMinus(there.target_T_source, best).head<3>().norm();

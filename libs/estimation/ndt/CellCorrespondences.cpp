@@ -26,8 +26,8 @@ Eigen::Vector3i noCentre() { return Eigen::Vector3i::Constant(std::numeric_limit
 
 GaussianCell nowhere()
 {
-  constexpr double kFar = 1e9;  // m
-  return {Eigen::Vector3d::Constant(kFar), Eigen::Matrix3d::Identity()};
+  const double far = 1e9;  // m
+  return {Eigen::Vector3d::Constant(far), Eigen::Matrix3d::Identity()};
 }
 }  // namespace
 
@@ -56,14 +56,13 @@ CellCorrespondences::CellCorrespondences(const NdtMap& target, const std::vector
 
 void CellCorrespondences::keepCommon(const Rigid& target_T_source)
 {
-  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> own(source_.size(), kNone);
-  constexpr std::size_t kGrain = 256;
-  forAll(own.size(), kGrain,
+  const std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> own(source_.size(), none);
+  forAll(own.size(), 256,
          [&](std::size_t i) { target_.findAround(target_.indexOf(target_T_source * source_[i].mean), 1, &own[i]); });
   is_common_.assign(target().size(), 0);
   for (const std::uint32_t cell : own)
-    if (cell != kNone) is_common_[cell] = 1;
+    if (cell != none) is_common_[cell] = 1;
   for (Chunk& chunk : chunks_) std::fill(chunk.centres.begin(), chunk.centres.end(), noCentre());
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/core/Decompositions.h"
 #include "base/core/forAll.h"
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/NormalEquations.h"
 #include "estimation/ndt/internal/KeyIndex.h"
 #include "estimation/ndt/internal/PairInformation.h"
@@ -21,24 +22,6 @@ namespace
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Points of one cell share beams, edges and the roughness of the surface: more than this number add no information.
-constexpr double kMostIndependentPoints = 10;
-
-// Factor on the variance for what the model leaves out: makes the mean NEES over pairs of two stands that of chi^2.
-constexpr double kUnmodelled = 1.25;
-
-// Deviations that no scan shows: the mean errors of ranges and beam angles.
-constexpr double kTranslationFloor = 0.0008;                  // m
-constexpr double kRotationFloor = 0.004 * M_PI / 180 * kArm;  // m at kArm
-constexpr double kUnknownDeviation = 10;                      // m, in directions that were not measured
-
-// A direction is degenerate if the share of structure in the resistance against a step is below kDegenerate, or below
-// kDoubtful while a long step keeps the share kUnchanged of the score. Corridors keep 0.92, the densest stand 0.86 in
-// cells of 8 m and 0.79 in those of 2 m.
-constexpr double kDegenerate = 0.1, kDoubtful = 0.35;
-constexpr double kLongStep = 2;  // m, or the size of a cell if that is more
-constexpr double kUnchanged = 0.9;
-
 /** Sums over all pairs, for steps in the target's frame, in m and rad, about the source's origin. */
 struct Evidence
 {
@@ -52,7 +35,8 @@ struct Evidence
 Symmetric3 forceNoise(const Symmetric3& pull, const TurnedCell& c, std::uint32_t points)
 {
   const Symmetric3 noise = sandwich(pull, {c.xx, c.xy, c.xz, c.yy, c.yz, c.zz});
-  return scaled(noise, 2 / std::min<double>(points, kMostIndependentPoints));
+  // Points of one cell share beams, edges and the roughness of the surface: more of them add no information.
+  return scaled(noise, 2 / std::min<double>(points, fitted::kIndependentPoints));
 }
 
 /** From the source's origin to the cell, along the target's axes. */
@@ -159,8 +143,7 @@ struct Place
 
 std::vector<Place> placesOf(const CellCorrespondences& all, const Evidence& evidence, const Rigid& target_T_source)
 {
-  constexpr double kTogether = 6;  // m
-  const auto along = [](double v) { return static_cast<std::int64_t>(std::floor(v / kTogether)); };
+  const auto along = [](double v) { return static_cast<std::int64_t>(std::floor(v / fitted::kPlaceSize)); };
   KeyIndex index;
   std::vector<Place> places;
   for (std::size_t c = 0; c < all.chunks(); ++c)
@@ -214,8 +197,8 @@ Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& curvatur
     return safeInverse(congruent(others, target_of_step)) * (target_of_step.transpose() * place.force);
   };
   std::vector<Vector6d> moved(places.size());
-  constexpr std::size_t kGrain = 32;  // places, about 30 us
-  forAll(places.size(), kGrain, [&](std::size_t i) { moved[i] = movedWithout(places[i]); });
+  const std::size_t grain = 32;  // places, about 30 us
+  forAll(places.size(), grain, [&](std::size_t i) { moved[i] = movedWithout(places[i]); });
 
   Matrix6d covariance = bend * congruent(unsure_means, target_of_step) * bend;
   const double share = 1 - 1 / std::max<double>(1, static_cast<double>(places.size()));
@@ -225,8 +208,8 @@ Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& curvatur
 
 std::vector<GaussianCell> sampleOf(const std::vector<GaussianCell>& cells)
 {
-  constexpr std::size_t kEnough = 1000;  // for a share of the score that is accurate to 0.015
-  const std::size_t every = std::max<std::size_t>(1, cells.size() / kEnough);
+  const std::size_t enough = 1000;  // for a share of the score that is accurate to 0.015
+  const std::size_t every = std::max<std::size_t>(1, cells.size() / enough);
   std::vector<GaussianCell> sample;
   for (std::size_t i = 0; i < cells.size(); i += every) sample.push_back(cells[i]);
   return sample;
@@ -249,7 +232,7 @@ class ScoreAfterStep
   /** Of the steps to both sides along `direction`, the one that keeps more. */
   double keptBy(const Vector6d& direction)
   {
-    const Vector6d step = std::max(kLongStep, pairs_.sourceEdge()) * stepOfMetres().cwiseProduct(direction);
+    const Vector6d step = std::max(2.0, pairs_.sourceEdge()) * stepOfMetres().cwiseProduct(direction);
     const double there = std::min(normalEquations(pairs_, boxPlus(from_, step), d2_).value,
                                   normalEquations(pairs_, boxPlus(from_, -step), d2_).value);
     return here_ < 0 ? there / here_ : 1;
@@ -262,8 +245,12 @@ class ScoreAfterStep
   double d2_, here_;
 };
 
-std::vector<Vector6d> directionsWithoutStructure(const Evidence& evidence, const CellCorrespondences& all,
-                                                 const Rigid& target_T_source, double d2)
+/**
+ * A direction is degenerate if the share of structure in the resistance against a step is below kDegenerate, or below
+ * kDoubtful while a step of 2 m keeps kUnchangedScore.
+ */
+std::vector<Vector6d> degenerateAmong(const Evidence& evidence, const CellCorrespondences& all,
+                                      const Rigid& target_T_source, double d2)
 {
   const Matrix6d target_of_step = targetOfMetres(target_T_source);
   const Matrix6d structure = congruent(evidence.structure, target_of_step);
@@ -272,14 +259,14 @@ std::vector<Vector6d> directionsWithoutStructure(const Evidence& evidence, const
   const Eigensystem6 shares = eigensystem(structure, resistance);
   std::optional<ScoreAfterStep> long_steps;
   std::vector<Vector6d> directions;
-  for (int i = 0; i < 6 && shares.values[i] < kDoubtful; ++i)
+  for (int i = 0; i < 6 && shares.values[i] < fitted::kDoubtful; ++i)
   {
     Vector6d direction = shares.vectors.col(i).normalized();
     for (const Vector6d& before : directions) direction -= before.dot(direction) * before;
     direction.normalize();
-    const bool bare = shares.values[i] < kDegenerate;
-    if (!bare && !long_steps) long_steps.emplace(all, target_T_source, d2);
-    if (bare || long_steps->keptBy(direction) > kUnchanged) directions.push_back(direction);
+    const bool is_bare = shares.values[i] < fitted::kDegenerate;
+    if (!is_bare && !long_steps) long_steps.emplace(all, target_T_source, d2);
+    if (is_bare || long_steps->keptBy(direction) > fitted::kUnchangedScore) directions.push_back(direction);
   }
   return directions;
 }
@@ -299,11 +286,11 @@ double largestDeviation(const Matrix6d& covariance)
   return std::sqrt(eigensystem(metres).values[5]);
 }
 
-double scorePerInformation(double d2) { return d2 / kMostIndependentPoints; }
+double scorePerInformation(double d2) { return d2 / fitted::kIndependentPoints; }
 
 std::vector<Vector6d> degenerateDirections(const CellCorrespondences& all, const Rigid& target_T_source, double d2)
 {
-  return directionsWithoutStructure(evidenceOf(all, target_T_source, d2), all, target_T_source, d2);
+  return degenerateAmong(evidenceOf(all, target_T_source, d2), all, target_T_source, d2);
 }
 
 LidarInformation lidarInformation(const CellCorrespondences& all, const Rigid& target_T_source, double d2)
@@ -314,8 +301,7 @@ LidarInformation lidarInformation(const CellCorrespondences& all, const Rigid& t
   LidarInformation information;
   tbb::parallel_invoke([&] { places = placesOf(all, evidence, target_T_source); },
                        [&] { wrench = wrenchOfDepth(all, evidence, target_T_source); },
-                       [&]
-                       { information.degenerate = directionsWithoutStructure(evidence, all, target_T_source, d2); });
+                       [&] { information.degenerate = degenerateAmong(evidence, all, target_T_source, d2); });
   const Matrix6d target_of_step = targetOfMetres(target_T_source);
   Vector6d gradient = Vector6d::Zero();
   Matrix6d curvature = Matrix6d::Zero();
@@ -323,13 +309,15 @@ LidarInformation lidarInformation(const CellCorrespondences& all, const Rigid& t
   information.gradient = targetOfStep(target_T_source).transpose() * gradient;
   information.curvature = congruent(curvature, targetOfStep(target_T_source));
   const Matrix6d bend = safeInverse(congruent(curvature, target_of_step));
-  Matrix6d metres = kUnmodelled * covarianceOf(places, curvature, bend, evidence.unsure_means, target_of_step);
-  metres.diagonal().head<3>().array() += kTranslationFloor * kTranslationFloor;
-  metres.diagonal().tail<3>().array() += kRotationFloor * kRotationFloor;
+  Matrix6d metres = fitted::kUnmodelled * covarianceOf(places, curvature, bend, evidence.unsure_means, target_of_step);
+  // What no scan shows: the mean errors of ranges and of beam angles.
+  const double rotation_floor = fitted::kRotationFloorDeg * M_PI / 180 * kArm;
+  metres.diagonal().head<3>().array() += fitted::kTranslationFloor * fitted::kTranslationFloor;
+  metres.diagonal().tail<3>().array() += rotation_floor * rotation_floor;
 
   information.viewpoint_bias = -(bend * (target_of_step.transpose() * wrench)).head<3>();
   for (const Vector6d& direction : information.degenerate)
-    metres += kUnknownDeviation * kUnknownDeviation * direction * direction.transpose();
+    metres += 10.0 * 10.0 * direction * direction.transpose();  // m: not measured
   const Matrix6d symmetric = (metres + metres.transpose()) / 2;
   information.covariance = stepOfMetres().asDiagonal() * symmetric * stepOfMetres().asDiagonal();
   return information;

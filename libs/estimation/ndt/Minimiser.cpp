@@ -1,6 +1,7 @@
 #include "estimation/ndt/Minimiser.h"
 
 #include "base/core/Decompositions.h"
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/LidarInformation.h"
 
 #include <Eigen/Cholesky>
@@ -12,10 +13,6 @@ namespace scanloom
 {
 namespace
 {
-// Steps follow the gradient with B held constant. Its zero is not quite the minimum of the score with B turning (which
-// rewards turns that only enlarge B^-1, and leads to worse poses), so near it the score may rise a little.
-constexpr double kSlack = 0.02;
-
 using Pairs = std::vector<CellCorrespondences*>;
 
 NormalEquations at(const Rigid& pose, const Pairs& pairs, const PosePrior& prior, double d2)
@@ -50,10 +47,9 @@ Vector6d dampedStep(const NormalEquations& equations, double damping, const Matr
  */
 double shrinkingOf(const Vector6d& step, const Vector6d& before)
 {
-  constexpr double kLinedUp = 0.8, kMost = 0.7;
   const double along = step.dot(before);
-  if (!(along > kLinedUp * step.norm() * before.norm())) return 0;
-  return std::min(kMost, along / before.squaredNorm());
+  if (!(along > fitted::kParallelSteps * step.norm() * before.norm())) return 0;
+  return std::min(fitted::kMostShrinking, along / before.squaredNorm());
 }
 
 Minimum minimise(const Pairs& pairs, const Rigid& start, const PosePrior& prior, const RegistrationOptions& options,
@@ -81,7 +77,9 @@ Minimum minimise(const Pairs& pairs, const Rigid& start, const PosePrior& prior,
       break;
     }
     const NormalEquations there = at(candidate, pairs, prior, options.d2);
-    if (there.value <= here.equations.value + kSlack * std::abs(here.equations.value))
+    // Steps follow the gradient with B held constant. Its zero is not quite the minimum of the score with B turning
+    // (which rewards turns that only enlarge B^-1, and leads to worse poses), so near it the score may rise a little.
+    if (there.value <= here.equations.value + fitted::kScoreSlack * std::abs(here.equations.value))
     {
       here.target_T_source = candidate;
       here.equations = there;

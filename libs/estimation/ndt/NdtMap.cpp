@@ -97,13 +97,12 @@ SplitAxis splitAxis(std::int64_t index, Spread&& spread)
 std::vector<Bin> asSeen(std::vector<Bin> bins, const View& view, const Sight& sight,
                         const Eigen::Matrix3d& grid_R_points)
 {
-  constexpr std::size_t kGrain = 256;
   const CellCorrections& corrections = view.corrections;
   if (corrections.of_all) bins = corrections.of_all(std::move(bins), sight);
   std::optional<Rings> rings = view.rings;
   if (rings) rings->axis = grid_R_points * rings->axis;
   if (!rings && !corrections.shift_of) return bins;
-  forAll(bins.size(), kGrain,
+  forAll(bins.size(), 256,
          [&](std::size_t i)
          {
            if (bins[i].moments.n < 2) return;
@@ -240,8 +239,8 @@ void NdtMap::combine(const std::vector<Bin>& others, Moments& (Moments::*apply)(
     cells.emplace_back();
   }
   while (mine != bins_.cend()) keep(*mine++);
-  constexpr std::size_t kGrain = 16;  // groups of Gaussians, about 20 us
-  forAll((changed.size() + kGaussiansAtOnce - 1) / kGaussiansAtOnce, kGrain,
+  const std::size_t grain = 16;  // groups of Gaussians, about 20 us
+  forAll((changed.size() + kGaussiansAtOnce - 1) / kGaussiansAtOnce, grain,
          [&](std::size_t group)
          {
            const std::size_t first = group * kGaussiansAtOnce;

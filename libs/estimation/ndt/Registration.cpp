@@ -3,6 +3,7 @@
 #include "base/core/Decompositions.h"
 #include "base/core/Statistics.h"
 #include "estimation/ndt/AmbiguousPoses.h"
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/LidarInformation.h"
 #include "estimation/ndt/Minimiser.h"
 
@@ -17,14 +18,6 @@ namespace scanloom
 namespace
 {
 constexpr double kLoose = 30;  // factor on the tolerance where a more accurate search follows
-constexpr double kEarly = 10;  // the same where a last step by the second derivative follows
-
-// Share of a cell: where a search ends farther from its start, means have moved to other cubes, and the cells that both
-// maps have are chosen anew.
-constexpr double kStillNear = 0.15;
-
-// Share of a level's cell size: a guess that is farther off needs the coarser level before it.
-constexpr double kReachOfCells = 0.3;
 
 struct Aligned
 {
@@ -73,7 +66,8 @@ class LevelSearch
     correspondences_.keepCommon(start);
     const Minimum first = closeTo(start, options, locked);
     const double moved = boxMinus(first.target_T_source, start).cwiseQuotient(stepOfMetres()).norm();
-    if (moved < kStillNear * correspondences_.sourceEdge()) return first;
+    // From farther away means have moved to other cubes: the cells that both maps have are chosen anew.
+    if (moved < fitted::kStillNear * correspondences_.sourceEdge()) return first;
     correspondences_.keepCommon(first.target_T_source);
     return after(first, closeTo(first.target_T_source, options, locked));
   }
@@ -98,11 +92,10 @@ class LevelSearch
 std::optional<Vector6d> lastStep(const Rigid& pose, const LidarInformation& lidar, const PosePrior& prior, double d2,
                                  double tolerance)
 {
-  constexpr double kFarthestStep = 10;
   NormalEquations equations{0, lidar.gradient, lidar.curvature, 0};
   equations = prior.addedTo(equations, pose, d2);
   const std::optional<Vector6d> back = solvePositive(equations.curvature, equations.gradient);
-  if (!back || back->cwiseQuotient(stepOfMetres()).norm() > kFarthestStep * tolerance) return std::nullopt;
+  if (!back || back->cwiseQuotient(stepOfMetres()).norm() > 10 * tolerance) return std::nullopt;
   return -*back;
 }
 
@@ -111,7 +104,7 @@ Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool wide
                    const RegistrationOptions& options)
 {
   RegistrationOptions early = options;
-  early.tolerance = kEarly * options.tolerance;
+  early.tolerance = 10 * options.tolerance;
   LevelSearch search(level, prior, options.neighbours);
   Minimum minimum = search.amongCommon(start, widely, early, {});
   const LidarInformation lidar = lidarInformation(search.correspondences(), minimum.target_T_source, options.d2);
@@ -191,8 +184,8 @@ RegistrationResult weighedAgainstRivals(RegistrationResult result, const Registr
     result.covariance += apart * apart.transpose();
     Vector6d direction = stepOfMetres().cwiseInverse().cwiseProduct(apart).normalized();
     for (const Vector6d& before : result.degenerate_directions) direction -= before.dot(direction) * before;
-    constexpr double kNew = 0.3;
-    if (direction.norm() > kNew) result.degenerate_directions.push_back(direction.normalized());
+    // Else it is along those that are known.
+    if (direction.norm() > 0.3) result.degenerate_directions.push_back(direction.normalized());
   }
   result.information = inverse(result.covariance);
   return result;
@@ -204,16 +197,15 @@ std::size_t firstLevel(const std::vector<RegistrationLevel>& levels, const PoseG
   if (!guess.covariance) return 0;
   const double reach = 3 * largestDeviation(*guess.covariance);
   std::size_t level = levels.size() - 1;
-  while (level > 0 && reach > kReachOfCells * levels[level].source.options().cell_size) --level;
+  while (level > 0 && reach > fitted::kReachOfCells * levels[level].source.options().cell_size) --level;
   return level;
 }
 
 /** The level whose score depends on the heading most clearly: stems differ from their cells, and few leave them. */
 std::size_t levelForTurns(const std::vector<RegistrationLevel>& levels, std::size_t first)
 {
-  constexpr double kCells = 4;  // m
   std::size_t level = first;
-  while (level < levels.size() && levels[level].source.options().cell_size > kCells) ++level;
+  while (level < levels.size() && levels[level].source.options().cell_size > 4) ++level;
   return level;
 }
 
@@ -224,22 +216,19 @@ std::size_t levelForTurns(const std::vector<RegistrationLevel>& levels, std::siz
 Rigid bestTurnOf(const RegistrationLevel& level, const Rigid& pose, const PoseGuess& guess)
 {
   constexpr double kStep = 5 * M_PI / 180, kMost = 5;
-  constexpr double kBroadD2 = 0.05;    // d2
-  constexpr double kStandsOut = 1.04;  // best over median score: 1.03 on bare ground, 1.06 in a dense stand
-  constexpr int kNeighbours = 7;
   const double reach = guess.covariance ? 3 * std::sqrt((*guess.covariance)(5, 5)) / kStep : kMost;
   const int most = static_cast<int>(std::min(reach, kMost));
-  CellCorrespondences correspondences(level.target, level.source, kNeighbours);
+  CellCorrespondences correspondences(level.target, level.source, 7);
   Rigid best = pose;
   std::vector<double> scores;
   double highest = 0;
   for (int turn = -most; turn <= most; ++turn)
   {
     const Rigid there = pose * Rigid::fromXyzYawPitchRoll(0, 0, 0, turn * kStep, 0, 0);
-    scores.push_back(-normalEquations(correspondences, there, kBroadD2).value);
+    scores.push_back(-normalEquations(correspondences, there, fitted::kBroadD2).value);
     if (scores.back() > highest) highest = scores.back(), best = there;
   }
-  return highest > kStandsOut * upperMedian(std::move(scores)) ? best : pose;
+  return highest > fitted::kHeadingStandsOut * upperMedian(std::move(scores)) ? best : pose;
 }
 }  // namespace
 

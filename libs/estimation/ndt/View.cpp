@@ -44,12 +44,12 @@ class RingElevations
 /** `rings`: of the view's points. Some eight stretches of the turn, of whole columns, suffice. */
 std::optional<Rings> ringsOf(const View& view, const std::vector<std::uint8_t>& rings, const Rigid& cloud_T_lidar)
 {
-  constexpr std::size_t kStretch = 512, kStretches = 8;
+  const std::size_t stretch = 512, stretches = 8;
   const Eigen::Vector3d axis = cloud_T_lidar.rotation * Eigen::Vector3d::UnitZ();
-  const std::size_t step = std::max<std::size_t>(1, rings.size() / (kStretch * kStretches)) * kStretch;
+  const std::size_t step = std::max<std::size_t>(1, rings.size() / (stretch * stretches)) * stretch;
   RingElevations elevations;
   for (std::size_t first = 0; first < rings.size(); first += step)
-    for (std::size_t i = first; i < std::min(first + kStretch, rings.size()); ++i)
+    for (std::size_t i = first; i < std::min(first + stretch, rings.size()); ++i)
     {
       const Eigen::Vector3d sight = view.points[i].cast<double>() - cloud_T_lidar.translation;
       const double range = sight.norm();

@@ -18,11 +18,10 @@ void ConstantMotion::update(const StateEstimate& estimate)
 
 std::vector<ImuSample> ConstantMotion::samplesUntil(Timestamp end)
 {
-  constexpr Duration kPeriod = 10ms;
   std::vector<ImuSample> samples;
   while (given_ < end)
   {
-    given_ = std::min(given_ + kPeriod, end);
+    given_ = std::min(given_ + 10ms, end);
     Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
     if (latest_) turned = latest_->map_T_body.rotation * expSo3(seconds(given_ - latest_->stamp) * turn_rate_);
     samples.push_back({given_, turn_rate_, turned.conjugate() * -gravityInMap()});

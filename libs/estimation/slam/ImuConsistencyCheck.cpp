@@ -21,8 +21,7 @@ constexpr double kSigmas = 4;  // beyond doubt
  */
 std::optional<std::string> ofUnits(double scale)
 {
-  constexpr double kFactor = 4;
-  const auto isAbout = [scale](double other) { return scale > other / kFactor && scale < other * kFactor; };
+  const auto isAbout = [scale](double other) { return scale > other / 4 && scale < other * 4; };
   const std::string told = fmt::format("the body turns {:.2g} times as fast as its gyroscope measures: ", scale);
   if (isAbout(kDegree)) return told + "the values are in deg/s, multiply them by 0.0174533";
   if (isAbout(1 / kDegree)) return told + "the values were converted from deg/s twice, multiply them by 57.2958";
@@ -33,16 +32,14 @@ std::optional<std::string> ofUnits(double scale)
 /** By the IMU alone: gravity must turn as the gyroscope measures. */
 std::optional<std::string> ofUnits(const std::vector<ImuSample>& samples)
 {
-  constexpr double kUnsure = 0.2;
   const std::optional<GyroScale> gyro = gyroScale(samples);
-  return gyro && gyro->sigma < kUnsure * std::abs(gyro->scale) ? ofUnits(gyro->scale) : std::nullopt;
+  return gyro && gyro->sigma < 0.2 * std::abs(gyro->scale) ? ofUnits(gyro->scale) : std::nullopt;
 }
 
 std::optional<std::string> ofAxes(const GyroAgreement& a)
 {
-  constexpr double kLeast = 5 * kDegree;
   const double angle = a.rotation.norm();
-  if (angle < kLeast || angle < kSigmas * a.sigma) return std::nullopt;
+  if (angle < 5 * kDegree || angle < kSigmas * a.sigma) return std::nullopt;
   const Eigen::Vector3d axis = a.rotation / angle;
   return fmt::format(
       "it turns about other axes than the lidars: its pose in the body is wrong by {:.1f} deg (+-{:.1f}) about ({:.2f} "
@@ -52,9 +49,9 @@ std::optional<std::string> ofAxes(const GyroAgreement& a)
 
 std::optional<std::string> ofClocks(const GyroAgreement& a)
 {
-  constexpr double kLeast = 0.02;  // s: short drives of right rigs show up to 12 ms
   const double lag = seconds(a.lag);
-  if (std::abs(lag) < kLeast || std::abs(lag) < kSigmas * a.lag_sigma) return std::nullopt;
+  // Short drives of right rigs show up to 12 ms.
+  if (std::abs(lag) < 0.02 || std::abs(lag) < kSigmas * a.lag_sigma) return std::nullopt;
   return fmt::format(
       "its stamps are {:.0f} ms (+-{:.0f}) {} than the lidars': set [slam] imu_delay_ms = {:.0f}, or stamp "
       "both by one clock",
@@ -105,7 +102,6 @@ std::optional<std::string> ImuConsistencyCheck::complaint(const std::optional<Gy
 
 void requireGravity(const std::vector<ImuSample>& samples, const Rigid& body_T_imu)
 {
-  constexpr double kSteepest = 60;  // deg
   const std::optional<Eigen::Vector3d> force = meanForce(samples);
   if (!force) return;
   const ForceUnit unit = forceUnitOf(force->norm());
@@ -113,7 +109,7 @@ void requireGravity(const std::vector<ImuSample>& samples, const Rigid& body_T_i
     throw std::runtime_error(
         fmt::format("the IMU's mean specific force is {:.3g} m/s2: {}", force->norm(), adviceFor(unit)));
   const Eigen::Vector3d up = body_T_imu.rotation * force->normalized();
-  if (degreesBetween(up, Eigen::Vector3d::UnitZ()) > kSteepest)
+  if (degreesBetween(up, Eigen::Vector3d::UnitZ()) > 60)
     throw std::runtime_error(
         fmt::format("by the IMU up is along {} of the body: its pose in the body is wrong by {}, or the signs of its "
                     "accelerometer are",

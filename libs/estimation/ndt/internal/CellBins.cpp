@@ -105,12 +105,12 @@ std::vector<Bin> countPart(const Coordinates& points, std::int64_t cell_quanta, 
 
 std::vector<Bin> countInto(const Coordinates& points, std::int64_t cell_quanta, const Eigen::Matrix3d& grid_R_points)
 {
-  constexpr std::size_t kPart = CentredSums::kMostPoints;
-  const std::size_t parts = (points.count + kPart - 1) / kPart;
+  const std::size_t most = CentredSums::kMostPoints;
+  const std::size_t parts = (points.count + most - 1) / most;
   std::vector<std::vector<Bin>> counted(parts);
   tbb::parallel_for(std::size_t{0}, parts,
                     [&](std::size_t i)
-                    { counted[i] = countPart(points.part(i * kPart, kPart), cell_quanta, grid_R_points); });
+                    { counted[i] = countPart(points.part(i * most, most), cell_quanta, grid_R_points); });
   std::vector<Bin> all;
   for (std::vector<Bin>& part : counted) all = all.empty() ? std::move(part) : sumOf(all, part);
   return all;

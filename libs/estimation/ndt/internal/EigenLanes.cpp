@@ -11,10 +11,9 @@ using Bits = std::uint64_t __attribute__((vector_size(8 * SymmetricBlock::kLanes
 /** 1 / sqrt(x) for positive normal numbers, to 3e-11: a start to 3 % by the exponent, then Newton's steps. */
 SCANLOOM_INLINE Lanes inverseRoot(const Lanes& x)
 {
-  constexpr std::uint64_t kStart = 0x5fe6eb50c7b537a9;  // C. Lomont: Fast inverse square root, 2003
   Bits bits;
   std::memcpy(&bits, &x, sizeof bits);
-  bits = kStart - (bits >> 1);
+  bits = 0x5fe6eb50c7b537a9 - (bits >> 1);  // C. Lomont: Fast inverse square root, 2003
   Lanes result;
   std::memcpy(&result, &bits, sizeof bits);
   const Lanes half = 0.5 * x;
@@ -24,11 +23,10 @@ SCANLOOM_INLINE Lanes inverseRoot(const Lanes& x)
 
 SCANLOOM_INLINE Lanes withSignOf(const Lanes& signed_lanes, const Lanes& positive)
 {
-  constexpr std::uint64_t kSign = std::uint64_t{1} << 63;
   Bits sign, bits;
   std::memcpy(&sign, &signed_lanes, sizeof sign);
   std::memcpy(&bits, &positive, sizeof bits);
-  bits |= sign & kSign;
+  bits |= sign & std::uint64_t{1} << 63;
   Lanes result;
   std::memcpy(&result, &bits, sizeof bits);
   return result;
@@ -48,8 +46,7 @@ SCANLOOM_INLINE Two turned(const Lanes& cosine, const Lanes& sine, const Lanes& 
 /** Turns the axes p and q so that the entry pq becomes 0; r is the third axis. */
 SCANLOOM_INLINE void rotate(Lanes& pp, Lanes& qq, Lanes& pq, Lanes& pr, Lanes& qr, Lanes* p, Lanes* q)
 {
-  constexpr double kNotZero = 1e-300;
-  const Lanes apart = qq - pp, twice = 2 * pq, square = apart * apart + twice * twice + kNotZero;
+  const Lanes apart = qq - pp, twice = 2 * pq, square = apart * apart + twice * twice + 1e-300;  // not zero
   const Lanes length = withSignOf(apart, square * inverseRoot(square));
   const Lanes tangent = twice / (apart + length);
   const Lanes cosine = inverseRoot(1 + tangent * tangent);
@@ -68,12 +65,12 @@ SCANLOOM_INLINE void rotate(Lanes& pp, Lanes& qq, Lanes& pq, Lanes& pr, Lanes& q
 
 SCANLOOM_INLINE EigenBlock solve(const SymmetricBlock& block)
 {
-  constexpr int kSweeps = 4;  // each squares what is left beside the diagonal, and more
+  const int sweeps = 4;  // each squares what is left beside the diagonal, and more
   Lanes xx = load(block.xx), xy = load(block.xy), xz = load(block.xz);
   Lanes yy = load(block.yy), yz = load(block.yz), zz = load(block.zz);
   Lanes v[3][3] = {};
   for (int i = 0; i < 3; ++i) v[i][i] += 1;
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
+  for (int sweep = 0; sweep < sweeps; ++sweep)
   {
     rotate(xx, yy, xy, xz, yz, v[0], v[1]);
     rotate(xx, zz, xz, xy, yz, v[0], v[2]);

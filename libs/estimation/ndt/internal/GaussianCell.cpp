@@ -1,5 +1,6 @@
 #include "estimation/ndt/internal/GaussianCell.h"
 
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/internal/EigenLanes.h"
 
 #include <algorithm>
@@ -16,9 +17,10 @@ Eigen::Vector3d meanInQuanta(const Moments& m)
 
 Eigen::Matrix3d assumedCovariance(const Eigen::Matrix3d& covariance, std::int64_t points)
 {
-  constexpr double kDeviation = 0.08;  // m
   const double n = static_cast<double>(points);
-  return ((n - 1) * covariance + kDeviation * kDeviation * Eigen::Matrix3d::Identity()) / n;
+  return ((n - 1) * covariance +
+          fitted::kSpreadOfFewPoints * fitted::kSpreadOfFewPoints * Eigen::Matrix3d::Identity()) /
+         n;
 }
 
 /** With eigenvalues that are too small raised, and its structure. */

@@ -15,7 +15,7 @@ namespace scanloom
 class KeyIndex
 {
  public:
-  KeyIndex() : slots_(kFirstSlots), shift_(kFirstShift) {}
+  KeyIndex() : slots_(std::size_t{1} << (64 - kFirstShift)), shift_(kFirstShift) {}
 
   /** The number of different keys before the first `key`. */
   std::uint32_t placeOf(std::uint64_t key)
@@ -39,7 +39,6 @@ class KeyIndex
  private:
   static constexpr std::uint32_t kEmpty = 0xffffffff;
   static constexpr int kFirstShift = 64 - 11;
-  static constexpr std::size_t kFirstSlots = std::size_t{1} << (64 - kFirstShift);
   struct Slot
   {
     std::uint64_t key = 0;

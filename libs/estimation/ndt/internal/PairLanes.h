@@ -1,5 +1,6 @@
 /** One source cell against eight target cells: the common part of all kernels over pairs of cells. */
 #pragma once
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/internal/ScoreSums.h"
 #include "estimation/ndt/internal/Symmetric3.h"
 
@@ -15,6 +16,9 @@ namespace scanloom
 
 // Vectors of the compiler: the same operations in the same order, whatever registers the machine has.
 using Lanes = double __attribute__((vector_size(8 * TargetBlock::kLanes)));
+
+constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
+constexpr std::uint64_t kBitsOfRound = 0x4338000000000000;
 
 SCANLOOM_INLINE Lanes load(const double* from)
 {
@@ -47,7 +51,6 @@ SCANLOOM_INLINE Lanes atMost(double most, const Lanes& v)
 SCANLOOM_INLINE Lanes expOfMinus(const Lanes& h)
 {
   using Whole = std::int64_t __attribute__((vector_size(8 * TargetBlock::kLanes)));
-  constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
   constexpr double kLog2E = 1.4426950408889634, kLn2High = 0x1.62e42fefa3800p-1, kLn2Low = 0x1.ef35793c76730p-45;
   constexpr double kOver[] = {1,         1,         1.0 / 2,    1.0 / 6,     1.0 / 24,
                               1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880};  // the factorials
@@ -59,8 +62,8 @@ SCANLOOM_INLINE Lanes expOfMinus(const Lanes& h)
 
   Whole bits;
   std::memcpy(&bits, &shifted, sizeof bits);
-  constexpr std::int64_t kBitsOfRound = 0x4338000000000000, kExponentBias = 1023;
-  bits = (kExponentBias - (bits - kBitsOfRound)) << 52;
+  const std::int64_t exponent_bias = 1023;
+  bits = (exponent_bias - (bits - static_cast<std::int64_t>(kBitsOfRound))) << 52;
   Lanes power;
   std::memcpy(&power, &bits, sizeof power);
   return sum * power;
@@ -71,14 +74,6 @@ SCANLOOM_INLINE double total(const Lanes& v)
 {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }
-
-/**
- * Where one cell is thin along z and the other thick, one side has seen the ground and the other also what grows on it:
- * their means differ by a part of the difference of their deviations. As a variance, (s - t)^2 (s + t)^2 / (s^2 + t^2)
- * of deviations s and t, times this and d2: fitted to drives, at d2 = 1 (doc/study/localisation.md#mixtures). Wide
- * scores, for starts that are far away, need all pairs to find the way.
- */
-constexpr double kMixture = 4;
 
 /** See ScoreSums: e, B and u = Bm. */
 struct PairTerms
@@ -94,11 +89,14 @@ SCANLOOM_INLINE PairTerms termsOf(const TurnedCell& s, const TargetBlock& block,
   const Lanes xx = s.xx + load(block.xx), xy = s.xy + load(block.xy), xz = s.xz + load(block.xz),
               yy = s.yy + load(block.yy), yz = s.yz + load(block.yz), zz = s.zz + load(block.zz);
 
-  // With M, the variance along z is q / zz. The inverse of a symmetric 3x3 by its cofactors, all of them times zz, so
-  // that one division does.
+  // Where one cell is thin along z and the other thick, one side has seen the ground and the other also what grows on
+  // it: their means differ by a part of the difference of their deviations. As a variance M it is (s - t)^2 (s + t)^2 /
+  // (s^2 + t^2) of deviations s and t, times kMixture and d2. Wide scores, for starts that are far away, need all pairs
+  // to find the way. With M, the variance along z is q / zz. The inverse of a symmetric 3x3 by its cofactors, all of
+  // them times zz, so that one division does.
   PairTerms terms;
   SymmetricLanes& b = terms.b;
-  const Lanes q = zz * zz + (kMixture * d2) * (apart * apart), xz_zz = xz * zz, yz_zz = yz * zz;
+  const Lanes q = zz * zz + (fitted::kMixture * d2) * (apart * apart), xz_zz = xz * zz, yz_zz = yz * zz;
   const Lanes cxx = yy * q - yz * yz_zz, cxy = xz * yz_zz - xy * q, cxz = xy * yz_zz - yy * xz_zz;
   const Lanes inverse = 1 / (xx * cxx + xy * cxy + xz * cxz);
   b.xx = inverse * cxx, b.xy = inverse * cxy, b.xz = inverse * cxz;
@@ -108,8 +106,8 @@ SCANLOOM_INLINE PairTerms termsOf(const TurnedCell& s, const TargetBlock& block,
   terms.uy = b.xy * x + b.yy * y + b.yz * z;
   terms.uz = b.xz * x + b.yz * y + b.zz * z;
 
-  constexpr double kNothing = 690;  // exp(-690) is still normal
-  terms.e = expOfMinus(atMost(kNothing, (d2 / 2) * (x * terms.ux + y * terms.uy + z * terms.uz)));
+  // exp(-690) is still normal.
+  terms.e = expOfMinus(atMost(690, (d2 / 2) * (x * terms.ux + y * terms.uy + z * terms.uz)));
   return terms;
 }
 }  // namespace scanloom

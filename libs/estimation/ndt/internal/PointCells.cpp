@@ -1,22 +1,15 @@
 #include "estimation/ndt/internal/PointCells.h"
 
-#include <cstring>
-#include <limits>
+#include "estimation/ndt/internal/PairLanes.h"
 
-#define INLINE [[gnu::always_inline]] inline
-#pragma GCC diagnostic ignored "-Wpsabi"  // values of vectors never leave a function that is inlined
+#include <cstring>
 
 namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kLanes = 8;
 // No comparisons: GCC splits those of vectors before it knows the registers of a function's target.
-using Lanes = double __attribute__((vector_size(8 * kLanes)));
-using Bits = std::uint64_t __attribute__((vector_size(8 * kLanes)));
-
-constexpr double kRound = 0x1.8p52;  // adding and subtracting it rounds to a whole number
-constexpr std::uint64_t kBitsOfRound = 0x4338000000000000;
+using Bits = std::uint64_t __attribute__((vector_size(8 * TargetBlock::kLanes)));
 
 struct Axis
 {
@@ -32,7 +25,7 @@ struct Cells
   double turn[3][3];  // from points to the grid
 };
 
-INLINE Axis along(const Lanes& v, const Cells& cells)
+SCANLOOM_INLINE Axis along(const Lanes& v, const Cells& cells)
 {
   const Lanes quanta = (v * (1 / Moments::kQuantum) + kRound) - kRound;
 
@@ -51,10 +44,10 @@ INLINE Axis along(const Lanes& v, const Cells& cells)
 }
 
 // In place: a second buffer of 16 kB would push the first one out of the cache.
-INLINE void locateAll(std::size_t count, const Cells& cells, PointCells& located)
+SCANLOOM_INLINE void locateAll(std::size_t count, const Cells& cells, PointCells& located)
 {
   const auto& turn = cells.turn;
-  for (std::size_t i = 0; i < count; i += kLanes)
+  for (std::size_t i = 0; i < count; i += TargetBlock::kLanes)
   {
     Lanes px, py, pz;
     std::memcpy(&px, located.x + i, sizeof px);
@@ -84,7 +77,7 @@ PointCells widened(const Coordinates& points)
     located.y[i] = static_cast<double>(points.y[i * points.stride]);
     located.z[i] = static_cast<double>(points.z[i * points.stride]);
   }
-  for (; i % kLanes != 0; ++i) located.x[i] = located.y[i] = located.z[i] = 0;
+  for (; i % TargetBlock::kLanes != 0; ++i) located.x[i] = located.y[i] = located.z[i] = 0;
   return located;
 }
 

@@ -1,6 +1,7 @@
 #include "estimation/ndt/internal/StemAxisCorrection.h"
 
 #include "base/core/forAll.h"
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/internal/EigenLanes.h"
 
 #include <algorithm>
@@ -11,21 +12,14 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kSlimness = 2;       // length over width, as standard deviations
-constexpr double kMostRadius = 0.3;   // m
-constexpr double kLeastAcross = 0.3;  // of the line of sight's unit vector, across the axis
-constexpr double kSteep = 0.8;        // upward part of the axis of a stem
-constexpr double kNear = 12;          // m: two columns or more of most lidars hit a stem of 20 cm
-constexpr double kRangeNoise = 0.04;  // m, standard deviation, of weak returns
-
 /** A cheap test that all thin bodies pass, and few others. */
 bool mayBeThin(const Eigen::Matrix3d& c)
 {
-  constexpr double kSlim = kSlimness * kSlimness;
+  const double slim = fitted::kStemSlimness * fitted::kStemSlimness;
   const double minors = c(0, 0) * c(1, 1) - c(0, 1) * c(0, 1) + c(0, 0) * c(2, 2) - c(0, 2) * c(0, 2) +
                         c(1, 1) * c(2, 2) - c(1, 2) * c(1, 2);
   const double sum = c.trace();
-  return minors * (kSlim + 2) * (kSlim + 2) <= sum * sum * (2 * kSlim + 1);  // equal where both widths are the largest
+  return minors * (slim + 2) * (slim + 2) <= sum * sum * (2 * slim + 1);  // equal where both widths are the largest
 }
 
 /** A thin body in a cell, as a lidar sees it. */
@@ -40,9 +34,9 @@ struct ThinBody
 double depthOfAxis(double sideways, double along_view)
 {
   if (sideways <= 0) return 0;
-  constexpr double kOpaque = 1.36, kSlope = 1.6;
-  const double porous = std::max(0.0, along_view - kRangeNoise * kRangeNoise) / sideways;
-  return std::clamp(kSlope * (1 - porous), 0.0, kOpaque) * std::sqrt(sideways);
+  const double opaque = 1.36;  // pi / 4 sqrt(3)
+  const double porous = std::max(0.0, along_view - fitted::kRangeNoise * fitted::kRangeNoise) / sideways;
+  return std::clamp(fitted::kDepthSlope * (1 - porous), 0.0, opaque) * std::sqrt(sideways);
 }
 
 /** Nothing for a body that is too thick, or seen along its axis. */
@@ -57,12 +51,13 @@ std::optional<ThinBody> thinBodyOf(const MeanAndCovariance& seen, const EigenBlo
   const double range = (seen.mean - from.viewpoint).norm();
   const Eigen::Vector3d sight = (seen.mean - from.viewpoint) / range;
   const Eigen::Vector3d across = sight - sight.dot(axis) * axis;
-  if (!(most > kSlimness * kSlimness * second && across.norm() > kLeastAcross)) return std::nullopt;
+  if (!(most > fitted::kStemSlimness * fitted::kStemSlimness * second && across.norm() > fitted::kStemAcrossSight))
+    return std::nullopt;
   const Eigen::Vector3d towards = across.normalized(), sideways = axis.cross(towards);
   const double variance = sideways.dot(seen.covariance * sideways);
-  if (3 * variance > kMostRadius * kMostRadius) return std::nullopt;
+  if (3 * variance > fitted::kStemRadius * fitted::kStemRadius) return std::nullopt;
   return ThinBody{depthOfAxis(variance, towards.dot(seen.covariance * towards)) * towards, range,
-                  std::abs(axis.dot(from.up)) > kSteep};
+                  std::abs(axis.dot(from.up)) > fitted::kStemUprightness};
 }
 
 using Bodies = std::vector<std::optional<ThinBody>>;
@@ -91,13 +86,13 @@ std::vector<Candidate> candidatesAmong(const std::vector<Bin>& bins, std::size_t
 /** By bin. */
 Bodies thinBodiesOf(const std::vector<Bin>& bins, const Sight& sight)
 {
-  constexpr std::size_t kPart = 128;  // bins, about 20 us
+  const std::size_t in_part = 128;  // bins, about 20 us
   Bodies bodies(bins.size());
-  forAll((bins.size() + kPart - 1) / kPart, 1,
+  forAll((bins.size() + in_part - 1) / in_part, 1,
          [&](std::size_t part)
          {
            const std::vector<Candidate> candidates =
-               candidatesAmong(bins, part * kPart, std::min((part + 1) * kPart, bins.size()), sight);
+               candidatesAmong(bins, part * in_part, std::min((part + 1) * in_part, bins.size()), sight);
            for (std::size_t first = 0; first < candidates.size(); first += SymmetricBlock::kLanes)
            {
              const std::size_t count = std::min(SymmetricBlock::kLanes, candidates.size() - first);
@@ -114,12 +109,11 @@ Bodies thinBodiesOf(const std::vector<Bin>& bins, const Sight& sight)
 /** The mean depth of the axes of stems nearby (m), as if ten stems with the assumed depth were among them. */
 double typicalDepth(const Bodies& bodies, const std::vector<Bin>& bins, const Sight& sight)
 {
-  constexpr double kAssumed = 0.03;  // m
-  constexpr double kAssumedStems = 10;
-  double sum = kAssumedStems * kAssumed, stems = kAssumedStems;
+  double sum = fitted::kAssumedStems * fitted::kAssumedDepth, stems = fitted::kAssumedStems;
   for (std::size_t i = 0; i < bodies.size(); ++i)
   {
-    if (!bodies[i] || !bodies[i]->stands || bodies[i]->range > kNear || bins[i].moments.n < 2 * sight.least_points)
+    if (!bodies[i] || !bodies[i]->stands || bodies[i]->range > fitted::kStemRange ||
+        bins[i].moments.n < 2 * sight.least_points)
       continue;
     sum += bodies[i]->to_axis.norm();
     ++stems;
@@ -137,10 +131,9 @@ Eigen::Vector3d levelView(const Bin& bin, const Sight& sight)
 
 std::vector<Bin> correctNearSideBias(std::vector<Bin> bins, const Sight& sight)
 {
-  constexpr std::size_t kGrain = 128;
   const Bodies bodies = thinBodiesOf(bins, sight);
   const double typical = typicalDepth(bodies, bins, sight);
-  forAll(bins.size(), kGrain,
+  forAll(bins.size(), 128,
          [&](std::size_t i)
          {
            if (bodies[i])

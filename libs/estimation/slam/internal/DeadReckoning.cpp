@@ -4,12 +4,7 @@
 
 namespace scanloom
 {
-namespace
-{
-constexpr double kMostGained = 2 * kMachineSpeed;
-}
-
-bool isPossible(const DeadReckoning& motion) { return motion.gained.norm() < kMostGained; }
+bool isPossible(const DeadReckoning& motion) { return motion.gained.norm() < 2 * kMachineSpeed; }
 
 Eigen::Vector3d meanForce(const DeadReckoning& motion)
 {
@@ -20,6 +15,6 @@ Attitude levelledByMeanForce(const Eigen::Quaterniond& map_R_body, const DeadRec
 {
   if (isPossible(motion)) return {map_R_body};
   const Eigen::Quaterniond correction = rotationBetween(meanForce(motion), Eigen::Vector3d::UnitZ());
-  return {correction * map_R_body, kMostGained / seconds(motion.within) / kGravity};
+  return {correction * map_R_body, 2 * kMachineSpeed / seconds(motion.within) / kGravity};
 }
 }  // namespace scanloom

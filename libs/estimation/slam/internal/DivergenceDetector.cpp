@@ -1,6 +1,7 @@
 #include "estimation/slam/internal/DivergenceDetector.h"
 
 #include "base/core/Decompositions.h"
+#include "estimation/ndt/FittedConstants.h"
 
 #include <cmath>
 
@@ -8,18 +9,9 @@ namespace scanloom
 {
 namespace
 {
-/** An estimate and its registration are apart by more than these. Deviations alone do not matter where both are
- * certain. */
-struct Limits
+bool isBeyond(double metres, double radians, const Vector6d& apart)
 {
-  double metres, radians;
-};
-constexpr Limits kApart{0.1, 0.02}, kFarApart{0.25, 0.05};  // good drives with one lidar: up to 0.21 m for a scan
-constexpr double kDeviations = 8, kManyDeviations = 15;     // and up to 13
-
-bool isBeyond(const Limits& limits, const Vector6d& apart)
-{
-  return apart.head<3>().norm() > limits.metres || apart.tail<3>().norm() > limits.radians;
+  return apart.head<3>().norm() > metres || apart.tail<3>().norm() > radians;
 }
 }  // namespace
 
@@ -28,8 +20,10 @@ void DivergenceDetector::add(const Vector6d& apart, const Matrix6d& covariance)
   const std::optional<Vector6d> weighed = solvePositive(covariance, apart);
   if (!weighed) return;
   const double deviations = std::sqrt(apart.dot(*weighed));
-  const bool is_apart = isBeyond(kApart, apart) && deviations > kDeviations;
-  far_ = is_apart && (isBeyond(kFarApart, apart) || deviations > kManyDeviations);
+  // Deviations alone do not matter where both are certain.
+  const bool is_apart = isBeyond(fitted::kApart, fitted::kApartRadians, apart) && deviations > fitted::kApartDeviations;
+  far_ = is_apart &&
+         (isBeyond(fitted::kFarApart, fitted::kFarApartRadians, apart) || deviations > fitted::kFarApartDeviations);
   evidence_ = is_apart ? evidence_ + (far_ ? 2 : 1) : 0;
 }
 

@@ -15,9 +15,9 @@ namespace
  */
 bool isWhereItIsSaidToBe(const Continued& scan)
 {
-  constexpr double kReach = 2;  // m: an alignment finds the pose from there
   const std::optional<RegistrationResult>& seen = scan.registration.result;
-  return seen && seen->outcome == Outcome::Degenerate && 3 * largestDeviation(scan.body.covariance) < kReach;
+  return seen && seen->outcome == Outcome::Degenerate &&
+         3 * largestDeviation(scan.body.covariance) < 2;  // m: from there an alignment finds the pose
 }
 
 bool isBlind(const Continued& scan)
@@ -125,10 +125,10 @@ Continued HealthMonitor::recovered(Continued scan, const TrackerState& before, c
 /** An error of the IMU stays in the velocity: without a new window the lidar would pull at it for seconds. */
 Continued HealthMonitor::accordingToLidar(Continued scan, const TrackerState& before, Timestamp stamp) const
 {
-  constexpr Duration kAgain = 10s;  // where lidar and IMU always contradict each other, InnovationMonitor must see it
   const RegistrationResult& seen = *scan.registration.result;
   const std::optional<Timestamp>& accepted = scan.trust.lidar_accepted;
-  const bool too_often = accepted && stamp - *accepted < kAgain && !scan.trust.imu_silent;
+  // Where lidar and IMU always contradict each other, InnovationMonitor must see it.
+  const bool too_often = accepted && stamp - *accepted < 10s && !scan.trust.imu_silent;
   if (too_often || !scan.relocalisation.lastSeen() || !isPositiveDefinite(seen.covariance)) return scan;
   const FoundBody found{seen, seen.covariance};
   scan = begunAgainAt(found, std::move(scan), before.last_good);
@@ -142,11 +142,11 @@ Continued HealthMonitor::accordingToLidar(Continued scan, const TrackerState& be
  */
 Continued HealthMonitor::begunAgainAt(const FoundBody& found, Continued scan, const LastGood& last_good) const
 {
-  constexpr double kSmear = 0.15;  // m: the scan, of 0.1 s, was deskewed by a motion that may be wrong by 1.5 m/s
+  const double smear = 0.15;  // m: the scan, of 0.1 s, was deskewed by a motion that may be wrong by 1.5 m/s
   const LastSeen& seen = *scan.relocalisation.lastSeen();
   const MountedImu imu = scan.body.window.imu();
   Matrix6d covariance = found.covariance;
-  covariance.diagonal().head<3>().array() += kSmear * kSmear;
+  covariance.diagonal().head<3>().array() += smear * smear;
   const NavEstimate start = foundAt(seen.map_T_local * found.registration.target_T_source, covariance,
                                     scan.body.window.newest(), seen.bias, imu);
   Window window = begun(start, imu, seen.map_T_local, last_good.since_start);

@@ -9,7 +9,6 @@ namespace scanloom
 namespace
 {
 constexpr Duration kWindow = 10s;
-constexpr std::size_t kFewest = 5;
 }  // namespace
 
 void InnovationMonitor::add(Timestamp stamp, double surprise)
@@ -20,7 +19,7 @@ void InnovationMonitor::add(Timestamp stamp, double surprise)
 
 double InnovationMonitor::median() const
 {
-  if (last_.size() < kFewest || last_.back().first - last_.front().first < kWindow) return 0;
+  if (last_.size() < 5 || last_.back().first - last_.front().first < kWindow) return 0;
   std::vector<double> surprises;
   for (const auto& [stamp, surprise] : last_) surprises.push_back(surprise);
   return upperMedian(std::move(surprises));

@@ -1,15 +1,16 @@
 #include "estimation/slam/internal/MeasurementCorrelation.h"
 
+#include "estimation/ndt/FittedConstants.h"
+
 #include <algorithm>
 
 namespace scanloom
 {
 void MeasurementCorrelation::add(Timestamp stamp, const Eigen::Vector3d& position)
 {
-  constexpr double kPlace = 0.05;  // m: registrations in foliage scatter by 1 to 2 cm
   before_last_ = last_;
   last_ = {stamp, position};
-  if (!in_place_since_ || (in_place_since_->position - position).norm() > kPlace) in_place_since_ = last_;
+  if (!in_place_since_ || (in_place_since_->position - position).norm() > fitted::kPlaceRadius) in_place_since_ = last_;
 }
 
 double MeasurementCorrelation::travel() const
@@ -19,8 +20,8 @@ double MeasurementCorrelation::travel() const
 
 double MeasurementCorrelation::registrationsPerTravel(double length) const
 {
-  constexpr double kLeastTravel = 0.02;  // m: at rest many scans count as one, but not as none
-  return std::max(1.0, length / std::max(travel(), kLeastTravel));
+  // At rest many scans count as one, but not as none.
+  return std::max(1.0, length / std::max(travel(), fitted::kLeastTravel));
 }
 
 double MeasurementCorrelation::registrationsPerTravelOrRest(double length) const

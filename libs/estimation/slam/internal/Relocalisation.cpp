@@ -1,6 +1,7 @@
 #include "estimation/slam/internal/Relocalisation.h"
 
 #include "estimation/imu/MeanForce.h"
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/slam/internal/DeadReckoning.h"
 
 #include <algorithm>
@@ -15,11 +16,10 @@ namespace
  */
 bool isTiltPossible(const Eigen::Quaterniond& local_R_body, const LostBody& lost, const Eigen::Vector3d& up_in_local)
 {
-  constexpr double kWorkingImu = 3;  // deg
   const auto lean = [&](const Eigen::Quaterniond& rotation) { return degreesBetween(rotation * lost.up, up_in_local); };
   const double apart =
       degreesBetween(local_R_body.conjugate() * up_in_local, lost.local_R_body.conjugate() * up_in_local);
-  return apart < kWorkingImu || lean(local_R_body) < lean(lost.local_R_body);
+  return apart < fitted::kWorkingImuDeg || lean(local_R_body) < lean(lost.local_R_body);
 }
 
 std::vector<Rigid> part(const std::vector<Rigid>& all, std::size_t begin, std::size_t end)
@@ -36,14 +36,12 @@ void Relocalisation::changeBias(const ImuBias& bias)
 Search Relocalisation::search(const NdtMap& local_map, const std::vector<View>& views, const LostBody& lost,
                               const ScanRegistrationOptions& options) const
 {
-  constexpr double kFarthest = 10;       // m
-  constexpr double kAsGood = 0.75;       // of the last trusted registration's score
-  constexpr std::size_t kScreened = 30;  // scores, and steps from the best of them: as long as about two alignments
+  const std::size_t screened = 30;  // scores, and steps from the best of them: as long as about two alignments
   if (!last_seen_) return {{}, *this, {}};
   const SearchArea area{{lost.local_R_body, last_seen_->local_T_body.translation},
-                        std::min(kFarthest, kMachineSpeed * seconds(lost.since_trusted))};
+                        std::min(10.0, kMachineSpeed * seconds(lost.since_trusted))};
   const std::vector<Rigid> all = startsWithin(area);
-  const std::size_t begin = next_start_ < all.size() ? next_start_ : 0, end = std::min(all.size(), begin + kScreened);
+  const std::size_t begin = next_start_ < all.size() ? next_start_ : 0, end = std::min(all.size(), begin + screened);
   const std::vector<Rigid> starts = part(all, begin, end);
   const Eigen::Vector3d up = last_seen_->map_T_local.rotation.conjugate() * Eigen::Vector3d::UnitZ();
   const auto isPossible = [&](const Rigid& local_T_body) { return isTiltPossible(local_T_body.rotation, lost, up); };
@@ -52,7 +50,7 @@ Search Relocalisation::search(const NdtMap& local_map, const std::vector<View>& 
   const auto found = search.times.measure(
       "relocalisation",
       [&] { return relocalise(local_map, views, starts, isPossible, options.fine_cells, options.fine); });
-  const bool is_found = found && !(found->score > kAsGood * last_seen_->score);  // scores are negative
+  const bool is_found = found && !(found->score > fitted::kScoreOfPlace * last_seen_->score);  // scores are negative
   search.after.next_start_ = is_found ? 0 : end;
   if (is_found) search.found = FoundBody{*found, covarianceWithin(area, *found)};
   return search;

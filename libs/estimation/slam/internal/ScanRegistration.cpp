@@ -2,6 +2,7 @@
 
 #include "base/core/Angle.h"
 #include "base/core/Decompositions.h"
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/LidarInformation.h"
 #include "estimation/ndt/Minimiser.h"
 #include "estimation/ndt/NormalEquations.h"
@@ -17,11 +18,6 @@ namespace scanloom
 namespace
 {
 constexpr std::array kFactors{8, 4, 2, 1};  // cell sizes of the levels over that of the map, coarse first
-
-constexpr double kStep = 3;  // m between starts: alignment finds a pose within 2 m of its start
-
-// Share of the scan's cell size: from farther away its score leads nowhere, or to the wrong stem.
-constexpr double kReachOfCells = 0.3;
 
 struct Scored
 {
@@ -57,12 +53,12 @@ class Pyramid
    */
   std::vector<Rigid> mostPromising(const std::vector<Rigid>& starts, std::size_t count) const
   {
-    constexpr std::size_t kLevel = 1;
+    const std::size_t level = 1;
     RegistrationOptions few;
-    few.d2 = few.first_d2 = 0.05;
+    few.d2 = few.first_d2 = fitted::kBroadD2;
     few.max_iterations = 5;
     few.neighbours = 7;
-    CellCorrespondences correspondences(targets_[kLevel], sources_[kLevel], few.neighbours);
+    CellCorrespondences correspondences(targets_[level], sources_[level], few.neighbours);
     const auto byScore = [](const Scored& a, const Scored& b) { return a.value < b.value; };  // negative
     std::vector<Scored> best;
     for (const Rigid& start : starts) best.push_back({start, normalEquations(correspondences, start, few.d2).value});
@@ -85,42 +81,37 @@ class Pyramid
 
 bool agrees(const RegistrationResult& result, const PoseGuess& guess)
 {
-  constexpr double kUsualSurprise = 5;  // deviations
-  return result.trustworthy() && surpriseOf(result, guess) < kUsualSurprise;
+  return result.trustworthy() && surpriseOf(result, guess) < fitted::kUsualSurprise;
 }
 
 bool fitsAsWell(const RegistrationResult& result, double score)
 {
-  constexpr double kShare = 0.9;
-  return result.score < kShare * score;  // scores are negative
+  return result.score < fitted::kScoreOfAgreement * score;  // scores are negative
 }
 
 bool isFarFrom(const Rigid& pose, const Rigid& other)
 {
-  constexpr double kMetres = 1, kRadians = 0.1;
   const Vector6d apart = boxMinus(pose, other);
-  return apart.head<3>().norm() > kMetres || apart.tail<3>().norm() > kRadians;
+  return apart.head<3>().norm() > 1 || apart.tail<3>().norm() > 0.1;
 }
 
 /** Stricter than trustworthy(), which suffices only where the pose is known roughly. */
 bool isPlace(const RegistrationResult& result)
 {
-  constexpr double kGoodOverlap = 0.5, kMostDeviation = 0.3;  // m
-  return result.outcome == Outcome::Converged && result.overlap >= kGoodOverlap &&
-         result.covariance.topLeftCorner<3, 3>().trace() < kMostDeviation * kMostDeviation;
+  return result.outcome == Outcome::Converged && result.overlap >= fitted::kOverlapOfPlace &&
+         result.covariance.topLeftCorner<3, 3>().trace() < fitted::kDeviationOfPlace * fitted::kDeviationOfPlace;
 }
 }  // namespace
 
 ScanRegistrationOptions withLimitedEffort(ScanRegistrationOptions options)
 {
-  constexpr int kSteps = 15;
-  options.fine.max_iterations = std::min(options.fine.max_iterations, kSteps);
+  options.fine.max_iterations = std::min(options.fine.max_iterations, 15);
   return options;
 }
 
 bool isWithinReach(const PoseGuess& guess, const NdtOptions& cells)
 {
-  return guess.covariance && 3 * largestDeviation(*guess.covariance) <= kReachOfCells * cells.cell_size;
+  return guess.covariance && 3 * largestDeviation(*guess.covariance) <= fitted::kReachOfCells * cells.cell_size;
 }
 
 Timed<RegistrationResult> registerRoughly(const NdtMap& map, const std::vector<View>& views, const PoseGuess& guess,
@@ -180,22 +171,23 @@ double surpriseOf(const RegistrationResult& registration, const PoseGuess& predi
 
 Matrix6d covarianceWithin(const SearchArea& area, const RegistrationResult& found)
 {
-  constexpr double kMostTilt = 15 * kDegree, kMostTurn = 25 * kDegree;
+  const double tilt = 15 * kDegree, turn = area.headings > 1 ? M_PI : 25 * kDegree;
   Vector6d most;
-  most << Eigen::Vector3d::Constant(area.radius + kStep), kMostTilt, kMostTilt, area.headings > 1 ? M_PI : kMostTurn;
+  most << Eigen::Vector3d::Constant(area.radius + fitted::kStartsApart), tilt, tilt, turn;
   const Matrix6d expected = most.cwiseAbs2().cwiseInverse().asDiagonal();
   return inverseOfPositive(found.information + expected);
 }
 
 std::vector<Rigid> startsWithin(const SearchArea& area)
 {
-  const int reach = static_cast<int>(std::ceil(area.radius / kStep));
+  const int reach = static_cast<int>(std::ceil(area.radius / fitted::kStartsApart));
   std::vector<Rigid> starts;
   for (int heading = 0; heading < area.headings; ++heading)
     for (int x = -reach; x <= reach; ++x)
       for (int y = -reach; y <= reach; ++y)
-        starts.push_back(area.map_T_body *
-                         Rigid::fromXyzYawPitchRoll(x * kStep, y * kStep, 0, 2 * M_PI * heading / area.headings, 0, 0));
+        starts.push_back(area.map_T_body * Rigid::fromXyzYawPitchRoll(x * fitted::kStartsApart,
+                                                                      y * fitted::kStartsApart, 0,
+                                                                      2 * M_PI * heading / area.headings, 0, 0));
   return starts;
 }
 
@@ -204,11 +196,10 @@ std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vecto
                                              const std::function<bool(const Rigid& map_T_body)>& isPossible,
                                              const NdtOptions& cells, const RegistrationOptions& options)
 {
-  constexpr double kRivals = 0.8;     // share of the best score with which another place may be the true one
-  constexpr std::size_t kOthers = 2;  // that are tried only where the first is a place
+  const std::size_t others = 2;  // are tried only where the first is a place
   const Pyramid pyramid(map, views, cells);
   std::vector<RegistrationResult> found;
-  for (const Rigid& start : pyramid.mostPromising(starts, 1 + kOthers))
+  for (const Rigid& start : pyramid.mostPromising(starts, 1 + others))
   {
     RegistrationResult result = pyramid.align(start, options);
     if (isPlace(result) && isPossible(result.target_T_source)) found.push_back(std::move(result));
@@ -217,7 +208,9 @@ std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vecto
   if (found.empty()) return std::nullopt;
   const auto best = std::min_element(found.begin(), found.end(), [](auto& a, auto& b) { return a.score < b.score; });
   const auto isRival = [&](const RegistrationResult& other)
-  { return other.score < kRivals * best->score && isFarFrom(other.target_T_source, best->target_T_source); };
+  {
+    return other.score < fitted::kScoreOfRival * best->score && isFarFrom(other.target_T_source, best->target_T_source);
+  };
   if (std::any_of(found.begin(), found.end(), isRival)) return std::nullopt;
   return *best;
 }

@@ -1,25 +1,19 @@
 #include "estimation/slam/internal/SharedAttitudeNoise.h"
 
 #include "base/core/Angle.h"
+#include "estimation/ndt/FittedConstants.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace scanloom
 {
-namespace
-{
-// Fitted to drives of 120 to 315 m (doc/study/localisation.md).
-constexpr double kTilt = 0.03 * kDegree;  // deviation; with more, one lidar's wrong registrations cost more
-constexpr double kSight = 12;             // m: on less way the same is seen from the same side
-}  // namespace
-
 void SharedAttitudeNoise::add(const RegistrationResult& seen, const Eigen::Vector3d& up_in_source,
                               const Eigen::Vector3d& map_begin, double travel)
 {
   const Eigen::Vector3d back =
       seen.target_T_source.rotation.conjugate() * (map_begin - seen.target_T_source.translation);
-  length_ = std::max(back.norm(), kSight);
+  length_ = std::max(back.norm(), fitted::kSightLength);
   const Eigen::Vector3d across = up_in_source.cross(back);
   if (!(across.norm() > 0)) return;
   sideways_ += std::min(1.0, travel / length_) * (across.normalized().dot(seen.viewpoint_bias) - sideways_);
@@ -32,7 +26,8 @@ Matrix6d SharedAttitudeNoise::covariance(const Eigen::Vector3d& up_in_source) co
   const Eigen::Matrix3d about_up = up_in_source * up_in_source.transpose();
   Matrix6d covariance = Matrix6d::Zero();
   covariance.bottomRightCorner<3, 3>() =
-      std::pow(heading(), 2) * about_up + std::pow(kTilt, 2) * (Eigen::Matrix3d::Identity() - about_up);
+      std::pow(heading(), 2) * about_up +
+      std::pow(fitted::kSharedTiltDeg * kDegree, 2) * (Eigen::Matrix3d::Identity() - about_up);
   return covariance;
 }
 }  // namespace scanloom

@@ -3,6 +3,7 @@
 #include "estimation/graph/PosePriorFactor.h"
 #include "estimation/imu/BiasOfReplacement.h"
 #include "estimation/imu/ImuBuffer.h"
+#include "estimation/ndt/FittedConstants.h"
 
 #include <cmath>
 #include <optional>
@@ -28,15 +29,13 @@ Matrix15d byStateBefore(const Rigid& old_T_new, bool biases_known)
 /** Tilt and bias of the one before are wrong together, and so are they of the new one. */
 Matrix15d covarianceOf(const ImuChange& change, const Matrix15d& known, const Rigid& old_T_new, bool biases_known)
 {
-  constexpr double kTiltAtRest = 0.005, kVelocity = 0.3;      // rad, m/s
-  constexpr double kGyroBias = 0.02, kKnownGyroBias = 0.001;  // rad/s
-  constexpr double kKnownAccelBias = 0.02;                    // m/s2, by the lever's accelerations
-  const double accel_bias = biases_known ? kKnownAccelBias : change.imu.noise.accel_bias_sigma;
+  const double gyro_bias = biases_known ? fitted::kGyroBiasKnown : fitted::kGyroBiasUnknown;
+  const double accel_bias = biases_known ? fitted::kAccelBiasKnown : change.imu.noise.accel_bias_sigma;
   const Matrix15d j = byStateBefore(old_T_new, biases_known);
   Matrix15d covariance = j * known * j.transpose();
-  covariance.diagonal().segment<3>(3).array() += kTiltAtRest * kTiltAtRest;
-  covariance.diagonal().segment<3>(6).array() += kVelocity * kVelocity;
-  covariance.diagonal().segment<3>(9).array() += std::pow(biases_known ? kKnownGyroBias : kGyroBias, 2);
+  covariance.diagonal().segment<3>(3).array() += fitted::kTiltOfChange * fitted::kTiltOfChange;
+  covariance.diagonal().segment<3>(6).array() += fitted::kVelocityOfChange * fitted::kVelocityOfChange;
+  covariance.diagonal().segment<3>(9).array() += gyro_bias * gyro_bias;
   covariance.diagonal().segment<3>(12).array() += accel_bias * accel_bias;
   return covariance;
 }

@@ -2,6 +2,7 @@
 
 #include "base/core/Decompositions.h"
 #include "estimation/graph/PosePriorFactor.h"
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/ForestCorrections.h"
 #include "estimation/preprocessing/Deskew.h"
 #include "estimation/slam/internal/BodyPoses.h"
@@ -25,11 +26,11 @@ Matrix6d errorSinceStart(const Rigid& map_T_body, const Window& window)
  * one side shortens the way, and what is seen from nearer than the map saw it lifts it. */
 Matrix6d scaleError(const Rigid& map_T_body)
 {
-  constexpr double kShare = 6e-4;  // by the NEES of simulated drives (doc/study/localisation.md#consistency)
   const Eigen::Vector3d way = map_T_body.rotation.conjugate() * map_T_body.translation;
   const Eigen::Vector3d up = upInBody(map_T_body) * way.norm();
   Matrix6d covariance = Matrix6d::Zero();
-  covariance.topLeftCorner<3, 3>() = kShare * kShare * (way * way.transpose() + up * up.transpose());
+  covariance.topLeftCorner<3, 3>() =
+      fitted::kScaleError * fitted::kScaleError * (way * way.transpose() + up * up.transpose());
   return covariance;
 }
 Trajectory motionBetween(const Window& before, const Window& after, const std::vector<ImuSample>& samples)

@@ -24,10 +24,9 @@ void WaitingScans::add(Scan scan)
  */
 bool WaitingScans::isCutStart(const Scan& scan)
 {
-  constexpr Duration kPatience = 1s;  // then a lidar may be silent for good
   if (last_end_ || scan.complete()) return false;
   if (!first_start_) first_start_ = scan.start;
-  return scan.start - *first_start_ < kPatience;
+  return scan.start - *first_start_ < 1s;  // then a lidar may be silent for good
 }
 
 bool WaitingScans::isReady(const ImuBuffer& imu) const
