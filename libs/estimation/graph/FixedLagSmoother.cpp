@@ -88,6 +88,7 @@ FixedLagSmoother::FixedLagSmoother(const NavState& initial, const Matrix15d& cov
                                    const ImuNoise& noise, const SmootherOptions& options)
   : body_T_imu_(body_T_imu), noise_(noise), options_(options), states_{initial}
 {
+  // A state that is not finite would spoil the window without a message, and for good.
   requireStart(initial, covariance, options);
   prior_ = priorOf(initial, covariance);
 }
@@ -123,6 +124,7 @@ void FixedLagSmoother::addRelativePose(Timestamp reference, const Rigid& referen
 
 void FixedLagSmoother::add(const LidarPose& lidar_pose)
 {
+  // Counted, not thrown: a failed registration must not stop a machine.
   if (isReasonable(lidar_pose.pose, lidar_pose.information))
     lidar_poses_.push_back(lidar_pose);
   else
@@ -131,6 +133,7 @@ void FixedLagSmoother::add(const LidarPose& lidar_pose)
 
 NavState FixedLagSmoother::optimise()
 {
+  // The first-order correction for the bias ends where the bias has moved too far from its linearisation point.
   for (Preintegration& motion : motions_) motion = corrected(motion, states_[indexOf(motion.from)].bias, noise_);
 
   std::vector<StateBlocks> window = blocks();
@@ -147,6 +150,7 @@ NavState FixedLagSmoother::optimise()
              summary.termination_type == ceres::CONVERGENCE,
              summary.IsSolutionUsable() && finite,
              report_.refused};
+  // Else the predicted states stay, which the IMU alone has made.
   if (report_.usable) states_ = std::move(adjusted);
   return newest();
 }
@@ -179,6 +183,7 @@ Matrix6d FixedLagSmoother::bodyCovarianceAfter(const Matrix6d& before) const
   Matrix6d information = Matrix6d::Zero();
   for (const LidarPose& l : lidar_poses_)
     if (l.stamp == newest().stamp) information += informationOf(l);
+  // (before^-1 + information)^-1 without the inverse of `before`, which may be nearly singular.
   const Matrix6d after = solve(Matrix6d::Identity() + before * information, before);
   return 0.5 * (after + after.transpose());
 }
@@ -203,6 +208,7 @@ void FixedLagSmoother::loosenAnchor(const Matrix6d& step)
 {
   if (!hasAnchor() || anchor_ == newest().stamp)
     throw std::invalid_argument("what lidar poses are relative to cannot move before there is one");
+  // Poses measured before are part of the new prior: their place has not moved.
   const std::size_t index = indexOf(*anchor_);
   replacePrior(loosened(combined(linearFactorsOf(index)), index, movedTo(body_T_imu_, step)));
   dropFactorsOf(*anchor_);

@@ -85,17 +85,18 @@ class FixedLagSmoother
   Rigid anchorBody() const { return bodyAt(anchor()); }
   bool hasAnchor() const { return anchor_.has_value(); }
 
-  /** The newest state after all states were adjusted. Never throws, never NaN: report() tells how it went. */
+  /** The newest state after all states were adjusted. Never throws, never NaN: report() says how it went. */
   NavState optimise();
 
   const NavState& newest() const { return states_.back(); }
   Rigid newestBody() const { return bodyAt(newest()); }
   const std::deque<NavState>& states() const { return states_; }
 
-  /** Of the newest state given all measurements so far, linearised at the present values. */
+  /** Covariance of the newest state given all measurements so far, linearised at the present values. */
   Matrix15d newestCovariance() const;
 
-  /** Of the newest body's pose relative to the anchor's, or to the map without an anchor; tangent of boxPlus at it. */
+  /** Covariance of the newest body's pose relative to the anchor's, or to the map without an anchor; tangent of boxPlus
+   * at it. */
   Matrix6d newestBodyCovariance() const;
 
   /**

@@ -51,7 +51,7 @@ struct Residual
   Vector15d value;  // rotation, velocity, position, gyro bias, accelerometer bias
 };
 
-/** By the tangents of boxPlus(NavState): pose and motion of both states. */
+/** Jacobians by the tangents of boxPlus(NavState): pose and motion of both states. */
 struct Jacobians
 {
   Eigen::Matrix<double, 15, 6> by_from_pose = Eigen::Matrix<double, 15, 6>::Zero();

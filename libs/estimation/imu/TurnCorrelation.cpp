@@ -14,7 +14,7 @@ constexpr Duration kTurnWindow = 100ms;
 constexpr std::size_t kFewestWindows = 10;
 constexpr double kLeastRate = 0.005;  // rad/s, root mean square: above the noise of the gyroscopes in lidars
 
-/** In the body's frame, by the number of the window. */
+/** Rates in the body's frame, by the number of the window. */
 std::map<std::int64_t, Eigen::Vector3d> meanRates(const PlacedGyro& gyro)
 {
   std::map<std::int64_t, std::pair<Eigen::Vector3d, double>> sums;

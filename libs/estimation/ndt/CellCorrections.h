@@ -14,19 +14,19 @@ struct Sight
   double edge;  // m, of a cell
   Eigen::Vector3d viewpoint;
   Eigen::Vector3d up;  // roughly
-  int least_points;    // that tell the covariance of a cell
+  int least_points;    // a cell with fewer has no known covariance
 };
 
 /**
- * Registration knows nothing of what stands in a place: what is known of it is handed in with each View, as functions
- * of its cells. Without any, cells are as they were seen.
+ * Registration knows nothing of trees or walls. What is known of the scene is handed in with each View, as functions of
+ * its cells. Without them, cells are as the lidar saw them.
  */
 struct CellCorrections
 {
-  /** First, of all cells together. */
+  /** Applied first, to all cells together. */
   std::vector<Bin> (*of_all)(std::vector<Bin>, const Sight&) = nullptr;
 
-  /** Then, by how much the points of each cell of `least_points` are moved, m. */
+  /** Applied then: the shift (m) of the points of each cell that has `least_points`. */
   Eigen::Vector3d (*shift_of)(const MeanAndCovariance&, const Sight&) = nullptr;
 };
 }  // namespace scanloom

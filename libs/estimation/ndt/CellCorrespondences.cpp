@@ -66,7 +66,7 @@ void CellCorrespondences::keepCommon(const Rigid& target_T_source)
   for (Chunk& chunk : chunks_) std::fill(chunk.centres.begin(), chunk.centres.end(), noCentre());
 }
 
-/** Those that count; `found` has room for all. */
+/** Writes the cells that count to `found`, which has room for all. */
 std::size_t CellCorrespondences::findAround(const Eigen::Vector3i& centre, std::uint32_t* found) const
 {
   if (std::uint32_t own = 0; !is_common_.empty() && target_.findAround(centre, 1, &own) == 0) return 0;
@@ -103,7 +103,7 @@ void CellCorrespondences::lookUp(std::size_t index, std::size_t i, const Eigen::
   chunk.centres[i] = centre;
   chunk.counts[i] = static_cast<std::uint32_t>(count);
 
-  // The cells that are copied below lie all over the map's megabytes: all are fetched at once.
+  // The cells that are copied below are scattered over the map's megabytes, so all are fetched at once.
   for (std::size_t k = 0; k < count; ++k)
   {
     const GaussianCell& cell = target_.cells()[found[k]];

@@ -179,10 +179,10 @@ Matrix6d safeInverse(const Matrix6d& symmetric)
 }
 
 /**
- * In metres (see stepOfMetres), `bend` is the inverse of the curvature there: the sandwich of the means' noise, plus
- * how far the pose moves when one place after the other is left out (the jackknife by clusters: J. MacKinnon, M.
- * Nielsen and M. Webb, Fast and reliable jackknife and bootstrap methods for cluster-robust inference, Journal of
- * Applied Econometrics 38, 2023).
+ * The covariance in metres (see stepOfMetres); `bend` is the inverse of the curvature. It is the sandwich of the means'
+ * noise, plus how far the pose moves when one place after the other is left out (the jackknife by clusters: J.
+ * MacKinnon, M. Nielsen and M. Webb, Fast and reliable jackknife and bootstrap methods for cluster-robust inference,
+ * Journal of Applied Econometrics 38, 2023).
  */
 Matrix6d covarianceOf(const std::vector<Place>& places, const Matrix6d& curvature, const Matrix6d& bend,
                       const Matrix6d& unsure_means, const Matrix6d& target_of_step)
@@ -229,7 +229,7 @@ class ScoreAfterStep
   {
   }
 
-  /** Of the steps to both sides along `direction`, the one that keeps more. */
+  /** The larger share of those that the steps to both sides along `direction` keep. */
   double keptBy(const Vector6d& direction)
   {
     const Vector6d step = std::max(2.0, pairs_.sourceEdge()) * stepOfMetres().cwiseProduct(direction);

@@ -29,7 +29,7 @@ NormalEquations at(const Rigid& pose, const Pairs& pairs, const PosePrior& prior
   return prior.addedTo(sum, pose, d2);
 }
 
-/** In metres, within the range of the projector `free`. */
+/** The step in metres, within the range of the projector `free`. */
 Vector6d dampedStep(const NormalEquations& equations, double damping, const Matrix6d& free)
 {
   const Vector6d scale = stepOfMetres();

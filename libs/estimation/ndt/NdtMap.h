@@ -42,7 +42,7 @@ struct NdtOptions
 BinnedPoints binned(const std::vector<View>&, const NdtOptions&);
 
 /**
- * How the cubes of a map lie in the frame of its points: along the axes, or turned against them.
+ * Orientation of a map's cubes in the frame of its points: along the axes, or turned against them.
  *
  * Where structure fills cells, as leaves do, their means follow the grid, not the world. If the grids of map and scan
  * are parallel, all of the scan's cells lie off the map's by the same shift, and together they pull towards where both
@@ -69,7 +69,7 @@ class NdtMap
   explicit NdtMap(const NdtOptions&);
   NdtMap(const PointCloud&, const NdtOptions&);
   NdtMap(const std::vector<Eigen::Vector3f>&, const NdtOptions&);
-  /** Of binned(). In a turned grid, cells() are still in the frame of the points; points cannot be added. */
+  /** A map of binned(views). In a turned grid, cells() are still in the frame of the points; points cannot be added. */
   NdtMap(const std::vector<View>&, const NdtOptions&, Grid = Grid::Straight);
 
   /**

@@ -211,7 +211,7 @@ std::size_t levelForTurns(const std::vector<RegistrationLevel>& levels, std::siz
 
 /**
  * The pose with the best of several headings. Alignment finds the tilt from anywhere by the ground, but not the
- * heading: stems that are turned out of their neighbourhoods do not contribute.
+ * heading: stems that are turned out of the cells around theirs do not contribute.
  */
 Rigid bestTurnOf(const RegistrationLevel& level, const Rigid& pose, const PoseGuess& guess)
 {

@@ -88,7 +88,7 @@ std::vector<View> viewsOf(const PointCloud& cloud, const std::vector<Rigid>& clo
 
 View movedBy(const Rigid& target_T_view, const View& view)
 {
-  // In double up to the target's frame: far from the origin a float rotation alone would cost millimetres.
+  // Points are turned in double: far from the origin a rotation in float would cost millimetres.
   const Eigen::Matrix3d rotation = target_T_view.rotation.toRotationMatrix();
   View moved;
   moved.corrections = view.corrections;

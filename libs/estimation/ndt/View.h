@@ -11,7 +11,7 @@
 
 namespace scanloom
 {
-/** How the rings of a spinning lidar lie: of what is between two of them it sees nothing. */
+/** Rings of a spinning lidar, which sees nothing between two of them. */
 struct Rings
 {
   Eigen::Vector3d axis;  // unit vector about which the lidar spins, in the frame of the points
@@ -27,9 +27,9 @@ struct View
   CellCorrections corrections{};             // only with a viewpoint
 };
 
-/** By sensor_id; `cloud_T_lidar` likewise. Lidars without a pose share the last view. */
+/** A view for each lidar, indexed by sensor_id as `cloud_T_lidar` is. Lidars without a pose share the last view. */
 std::vector<View> viewsOf(const PointCloud&, const std::vector<Rigid>& cloud_T_lidar, const CellCorrections& = {});
 
-/** In the target's frame. */
+/** The view in the target's frame. */
 View movedBy(const Rigid& target_T_view, const View&);
 }  // namespace scanloom

@@ -15,21 +15,21 @@ namespace scanloom
 namespace
 {
 constexpr Duration kKept = 60s;
-constexpr double kSigmas = 4;  // beyond doubt
+constexpr double kSigmas = 4;  // 1 in 16 000 by chance
 
 /** `scale`: true turn rates over the gyroscope's. Accelerations of the drive falsify it by some factor; a unit by 57.
  */
 std::optional<std::string> ofUnits(double scale)
 {
   const auto isAbout = [scale](double other) { return scale > other / 4 && scale < other * 4; };
-  const std::string told = fmt::format("the body turns {:.2g} times as fast as its gyroscope measures: ", scale);
-  if (isAbout(kDegree)) return told + "the values are in deg/s, multiply them by 0.0174533";
-  if (isAbout(1 / kDegree)) return told + "the values were converted from deg/s twice, multiply them by 57.2958";
-  if (scale < 0) return told + "its axes are left-handed, change its signs";
+  const std::string finding = fmt::format("the body turns {:.2g} times as fast as its gyroscope measures: ", scale);
+  if (isAbout(kDegree)) return finding + "the values are in deg/s, multiply them by 0.0174533";
+  if (isAbout(1 / kDegree)) return finding + "the values were converted from deg/s twice, multiply them by 57.2958";
+  if (scale < 0) return finding + "its axes are left-handed, change its signs";
   return std::nullopt;
 }
 
-/** By the IMU alone: gravity must turn as the gyroscope measures. */
+/** Units by the IMU alone: gravity must turn as the gyroscope measures. */
 std::optional<std::string> ofUnits(const std::vector<ImuSample>& samples)
 {
   const std::optional<GyroScale> gyro = gyroScale(samples);
@@ -89,13 +89,13 @@ std::optional<GyroAgreement> ImuConsistencyCheck::agreement() const
   return gyroAgreement({turns_.begin(), turns_.end()}, {kept(), body_T_imu_});
 }
 
-std::optional<std::string> ImuConsistencyCheck::complaint(const std::optional<GyroAgreement>& told) const
+std::optional<std::string> ImuConsistencyCheck::complaint(const std::optional<GyroAgreement>& agreement) const
 {
-  if (!told) return ofUnits(kept());
-  if (told->mirrored) return "its axes are left-handed, change its signs";
-  if (const auto units = ofUnits(1 / told->scale)) return units;
-  const std::optional<std::string> axes = ofAxes(*told);
-  if (!axes) return ofClocks(*told);
+  if (!agreement) return ofUnits(kept());
+  if (agreement->mirrored) return "its axes are left-handed, change its signs";
+  if (const auto units = ofUnits(1 / agreement->scale)) return units;
+  const std::optional<std::string> axes = ofAxes(*agreement);
+  if (!axes) return ofClocks(*agreement);
   const std::optional<std::string> units = ofUnits(kept());  // left-handed axes look like a rotation by 180 deg
   return units ? units : axes;
 }

@@ -15,7 +15,7 @@ class ImuConsistencyCheck
  public:
   explicit ImuConsistencyCheck(const Rigid& body_T_imu) : body_T_imu_(body_T_imu) {}
 
-  /** In time order; other samples, and those that are not finite, are ignored. Keeps the last minute. */
+  /** Samples must be in time order; others, and those that are not finite, are ignored. Keeps the last minute. */
   void add(const ImuSample&);
 
   /** Every estimate: two registrations in a row give a turn without the IMU. */

@@ -24,7 +24,7 @@ class LidarInertialSlam
    */
   LidarInertialSlam(const SlamSettings&, const Rigid& body_T_imu, const std::vector<MountedLidar>& lidars);
 
-  /** In time order, as ImuScreening passes them on; a sample out of order or not finite is ignored. */
+  /** Samples come in time order, as ImuScreening passes them on; one out of order or not finite is ignored. */
   void addImu(const ImuSample&);
 
   /** From the newest state on. The local map stays. The biases of the new IMU are computed from those of the old one.
@@ -49,7 +49,7 @@ class LidarInertialSlam
   std::uint64_t recoveries() const { return recoveries_; }
   std::uint64_t mapRestarts() const { return map_restarts_; }
 
-  /** Of the scans that are used, by sensor id. */
+  /** Counts of the scans that are used, by sensor id. */
   const std::vector<CropCounts>& cropped() const { return cropped_; }
 
  private:

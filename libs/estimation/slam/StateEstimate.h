@@ -23,9 +23,9 @@ struct StateEstimate
   Timestamp stamp;  // the scan's end, when the body was at map_T_body
   Rigid map_T_body;
   /**
-   * Of boxMinus(truth, estimate): translation (m), rotation (rad), along the body's axes. Both are poses in the local
-   * map, whose own errors are not included. Without an anchor, as before the first keyframe or with relative = false,
-   * it is of map_T_body.
+   * Covariance of boxMinus(truth, estimate): translation (m), rotation (rad), along the body's axes. Both are poses in
+   * the local map, whose own errors are not included. Without an anchor, as before the first keyframe or with relative
+   * = false, it is of map_T_body.
    */
   Matrix6d covariance = Matrix6d::Zero();
   Matrix6d since_start = Matrix6d::Zero();  // the same of the pose relative to the first one

@@ -123,6 +123,7 @@ LinearFactor loosened(LinearFactor factor, std::size_t state, const Matrix6d& st
   const auto by_pose = factor.jacobian.middleCols<kPoseSize>(columnsOf(place));
   Eigen::MatrixXd covariance = by_pose * step * by_pose.transpose();
   covariance.diagonal().array() += 1;
+  // Divided by the root of that, the residual is in standard deviations again.
   const Eigen::LLT<Eigen::MatrixXd> root(covariance);
   root.matrixL().solveInPlace(factor.jacobian);
   root.matrixL().solveInPlace(factor.residual);
@@ -169,6 +170,7 @@ Eigen::MatrixXd marginalCovariance(const std::vector<LinearFactor>& factors, con
   Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(information.rows(), columnsOf(kept.size()));
   for (std::size_t k = 0; k < kept.size(); ++k)
     wanted.block<kStateSize, kStateSize>(columnOf(kept[k]), columnsOf(k)).setIdentity();
+  // Half of the inverse: the product with its transpose is symmetric to the last bit.
   const Eigen::MatrixXd half = solver.matrixL().solve(scale.asDiagonal() * wanted);
   return half.transpose() * half;
 }

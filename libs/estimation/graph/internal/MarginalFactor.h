@@ -18,7 +18,7 @@ struct MarginalPrior
   Eigen::VectorXd residual;
 };
 
-/** Of a state with this covariance (tangent of boxPlus at it, positive definite). */
+/** The prior of a state with this covariance (tangent of boxPlus at it, positive definite). */
 MarginalPrior priorOf(const NavState&, const Matrix15d& covariance);
 
 /** Blocks: pose and motion of each state in turn. The prior must outlive the factor. */

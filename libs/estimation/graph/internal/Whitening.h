@@ -4,10 +4,11 @@
 
 namespace scanloom
 {
-/** Of a symmetric information matrix that may be singular; eigenvalues below zero by rounding count as zero. */
+/** The whitening of a symmetric information matrix that may be singular; eigenvalues below zero by rounding count as
+ * zero. */
 Matrix6d rootOfInformation(const Matrix6d&);
 
-/** Of the inverse of a positive definite covariance. */
+/** That of the inverse of a positive definite covariance. */
 Matrix9d rootOfInverse(const Matrix9d& covariance);
 Matrix15d rootOfInverse(const Matrix15d& covariance);
 }  // namespace scanloom

@@ -67,7 +67,7 @@ std::vector<KeyAndPlace> sortedByKey(std::vector<KeyAndPlace> order)
   return order;
 }
 
-/** In the order of their keys. */
+/** Bins in the order of their keys; `moments_of`: by their number in `cells`. */
 template <typename MomentsOf>
 std::vector<Bin> sortedBins(const KeyIndex& cells, MomentsOf&& moments_of)
 {

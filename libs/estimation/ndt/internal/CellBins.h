@@ -29,7 +29,7 @@ inline double edgeOf(std::int64_t cell_quanta) { return static_cast<double>(cell
 /** Where a bin of a grid of `edge` (m) begins, m. */
 inline Eigen::Vector3d cornerOf(const Bin& bin, double edge) { return edge * CellKey::indexOf(bin.key).cast<double>(); }
 
-/** Of the points in a bin of a grid of `edge` (m). */
+/** Mean of the points in a bin of a grid of `edge` (m). */
 inline Eigen::Vector3d meanOf(const Bin& bin, double edge) { return meanOf(bin.moments, cornerOf(bin, edge)); }
 inline MeanAndCovariance meanAndCovariance(const Bin& bin, double edge)
 {

@@ -42,8 +42,10 @@ SCANLOOM_INLINE Two turned(const Lanes& cosine, const Lanes& sine, const Lanes& 
   return {cosine * a - sine * b, sine * a + cosine * b};
 }
 
-// In place: eleven vectors are more than the registers hold, and would be copied for each of the twelve calls.
-/** Turns the axes p and q so that the entry pq becomes 0; r is the third axis. */
+/**
+ * Turns the axes p and q so that the entry pq becomes 0; r is the third axis. The lanes are changed in place: eleven
+ * vectors are more than the registers hold, and would be copied for each of the twelve calls.
+ */
 SCANLOOM_INLINE void rotate(Lanes& pp, Lanes& qq, Lanes& pq, Lanes& pr, Lanes& qr, Lanes* p, Lanes* q)
 {
   const Lanes apart = qq - pp, twice = 2 * pq, square = apart * apart + twice * twice + 1e-300;  // not zero

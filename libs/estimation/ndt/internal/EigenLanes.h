@@ -9,7 +9,7 @@
 
 namespace scanloom
 {
-/** In no order: `vectors[i]` is the unit vector of `values[i]`. */
+/** `vectors[i]` is the unit vector of `values[i]`; they are in no order. */
 struct alignas(64) EigenBlock
 {
   double values[3][SymmetricBlock::kLanes];
@@ -23,8 +23,8 @@ struct alignas(64) EigenBlock
 };
 
 /**
- * By Jacobi's rotations (G. Golub and C. Van Loan: Matrix Computations, 4th edition, 8.5), to 1e-9 of the largest
- * eigenvalue. Entries must be finite, and 0 or above 1e-150 in size. The bits are the same for every kernel.
+ * Computed by Jacobi's rotations (G. Golub and C. Van Loan: Matrix Computations, 4th edition, 8.5), to 1e-9 of the
+ * largest eigenvalue. Entries must be finite, and 0 or above 1e-150 in size. The bits are the same for every kernel.
  */
 EigenBlock eigensystemsOf(const SymmetricBlock&, Kernel = widestKernel());
 }  // namespace scanloom

@@ -65,7 +65,7 @@ struct MeanAndCovariance
 /** m, of points whose sums are about `corner`. */
 Eigen::Vector3d meanOf(const Moments&, const Eigen::Vector3d& corner);
 
-/** Of points whose sums are about `corner`. The covariance of a single point is zero. */
+/** Mean and covariance of points whose sums are about `corner`. The covariance of a single point is zero. */
 MeanAndCovariance meanAndCovariance(const Moments&, const Eigen::Vector3d& corner);
 
 /** The points of a cell by their sums about its corner. */

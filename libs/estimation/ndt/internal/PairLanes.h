@@ -69,7 +69,7 @@ SCANLOOM_INLINE Lanes expOfMinus(const Lanes& h)
   return sum * power;
 }
 
-/** In a fixed tree. */
+/** The sum of the lanes, in a fixed tree so that its bits are the same everywhere. */
 SCANLOOM_INLINE double total(const Lanes& v)
 {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));

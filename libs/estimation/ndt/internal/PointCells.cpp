@@ -43,7 +43,7 @@ SCANLOOM_INLINE Axis along(const Lanes& v, const Cells& cells)
   return axis;
 }
 
-// In place: a second buffer of 16 kB would push the first one out of the cache.
+// The buffer is changed in place: a second one of 16 kB would push the first one out of the cache.
 SCANLOOM_INLINE void locateAll(std::size_t count, const Cells& cells, PointCells& located)
 {
   const auto& turn = cells.turn;

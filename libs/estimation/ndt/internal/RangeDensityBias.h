@@ -7,7 +7,7 @@ namespace scanloom
 /**
  * The shift k C u / 2 (m) of a cell's points: C their covariance, u the unit vector from the viewpoint to their mean.
  *
- * Of what fills a cell evenly, as leaves do, a lidar sees more on the near side. Rays spread, so points per volume fall
+ * A lidar sees more of the near side of what fills a cell evenly, as leaves do. Rays spread, so points per volume fall
  * with 1 / r^2; and what they hit stops them, so points fall with exp(-mu r). Across one cell both are about a factor
  * exp(-k u'x), k = mu + 2 / r. Times this factor a normal distribution N(m, C) is N(m - k C u, C): its mean lies nearer
  * by k C u, which turns with the view. A map that was seen from farther back seems to come along, and a drive through

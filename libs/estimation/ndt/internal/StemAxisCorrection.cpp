@@ -69,7 +69,7 @@ struct Candidate
   MeanAndCovariance seen;
 };
 
-/** Of bins from `begin` to `end`. */
+/** Those among the bins from `begin` to `end`. */
 std::vector<Candidate> candidatesAmong(const std::vector<Bin>& bins, std::size_t begin, std::size_t end,
                                        const Sight& sight)
 {
@@ -83,7 +83,7 @@ std::vector<Candidate> candidatesAmong(const std::vector<Bin>& bins, std::size_t
   return candidates;
 }
 
-/** By bin. */
+/** A body, or none, for each bin. */
 Bodies thinBodiesOf(const std::vector<Bin>& bins, const Sight& sight)
 {
   const std::size_t in_part = 128;  // bins, about 20 us

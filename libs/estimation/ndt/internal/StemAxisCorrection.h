@@ -6,11 +6,11 @@ namespace scanloom
 {
 /**
  * Moves the points of every cell that holds a thin body from the side that the lidar sees onto the body's axis; those
- * of a cell with too few points to tell, by as much as stems nearby on average.
+ * of a cell with too few points to tell their spread, by as much as stems nearby on average.
  *
  * A lidar sees only the near side of a stem: the mean of the points lies in front of the axis, and moves along as the
  * lidar passes. Registered against a map of near sides, a drive past stems of 20 cm is measured 0.4 % too short. How
- * far in front is told by the points' spread. Let S be their variance sideways, D along the view, less that of the
+ * far in front follows from the points' spread. Let S be their variance sideways, D along the view, less that of the
  * ranges' noise (4 cm; so bodies of less depth count as opaque). Rays spread evenly over the width 2 r of an opaque
  * stem have S = r^2 / 3, D is nearly zero, and the mean lies (pi/4) r = 1.36 sqrt(S) in front. A bush through which
  * most rays pass is seen alike from all sides: D = S, and the mean lies on the axis. Between them, integrated over

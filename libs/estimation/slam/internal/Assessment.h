@@ -1,4 +1,4 @@
-/** Whether the pose of a scan can be trusted, judged by that scan and the ones before it. */
+/** Whether the pose of a scan can be trusted, assessed by that scan and the ones before it. */
 #pragma once
 #include "base/core/Field.h"
 #include "estimation/slam/StateEstimate.h"
@@ -30,7 +30,7 @@ struct TrustOptions
   }
 };
 
-/** What earlier scans tell about the trust in the next one. */
+/** Results of earlier scans by which the next one is assessed. */
 struct TrustHistory
 {
   Timestamp last_trusted;

@@ -89,7 +89,7 @@ Continued HealthMonitor::assess(const TrackerState& before, const DeskewedScan& 
   return scan.resting_since ? awake(std::move(scan), before.last_good) : scan;
 }
 
-/** With the scan's health, and with what the next scans are judged by. */
+/** The scan with its health, and with what the next scans are assessed by. */
 Continued HealthMonitor::assessed(Continued scan, const DeskewedScan& seen, bool map_is_empty) const
 {
   const bool opens_map = map_is_empty && !seen.cloud.empty();
@@ -189,8 +189,8 @@ Continued HealthMonitor::withoutMap(Continued scan, const TrackerState& before, 
   return scan;
 }
 
-/** At the place before. How far the body may be from there after this `rest` is not for the smoother: it computes with
- * differences of a millimetre. */
+/** The body at its place before. How far it may be from there after this `rest` is not for the smoother: it computes
+ * with differences of a millimetre. */
 BodyEstimate HealthMonitor::resting(const BodyEstimate& body, const Attitude& attitude, const TrackerState& before,
                                     Duration rest) const
 {

@@ -45,8 +45,8 @@ void LocalMap::clear()
   ndt_ = NdtMap(ndt_.options());
 }
 
-/** Of what the newest keyframe sees: keyframes count by the cells that they have in common with it, and by one more,
- * so that there is a mean where it sees none of them. */
+/** Error of what the newest keyframe sees: keyframes count by the cells that they have in common with it, and by one
+ * more, so that there is a mean where it sees none of them. */
 ErrorShares LocalMap::errorOfMap() const
 {
   std::vector<WeightedError> errors;

@@ -37,7 +37,8 @@ class MapDriftModel
    */
   ErrorShares add(ErrorShares map, const Rigid& map_T_body, const Matrix6d& alignment);
 
-  /** Of an error, as a step of a body at the map's origin: movedTo(map_T_body, ...) is as one of a body there. */
+  /** Covariance of an error, as a step of a body at the map's origin: movedTo(map_T_body, ...) is as one of a body
+   * there. */
   Matrix6d covariance(const ErrorShares&) const;
 
  private:

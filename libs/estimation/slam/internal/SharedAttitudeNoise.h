@@ -11,10 +11,10 @@ namespace scanloom
  * Heading: what is seen from one side displaces a registration sideways (RegistrationResult::viewpoint_bias), by other
  * amounts where the map begins than where it ends, because the machine saw both from different places. So the heading
  * errs by such a displacement over the length of the map. With a lidar on each side the displacements cancel, and
- * this doubt is near zero.
+ * this noise is near zero.
  *
- * Tilt: keyframes that lean by a little make the next registrations lean, too. Believed, they are taken for a bias of
- * the accelerometer, and that turns the heading.
+ * Tilt: keyframes that lean by a little make the next registrations lean, too. If the smoother
+ * follows them it takes them for a bias of the accelerometer, and that turns the heading.
  */
 class SharedAttitudeNoise
 {
@@ -23,7 +23,8 @@ class SharedAttitudeNoise
   void add(const RegistrationResult&, const Eigen::Vector3d& up_in_source, const Eigen::Vector3d& map_begin,
            double travel);
 
-  /** Of the error that all registrations to the map share, in the tangent of boxPlus: rad² of the rotation, 0 else. */
+  /** Covariance of the error that all registrations to the map share, in the tangent of boxPlus: rad² of the rotation,
+   * 0 else. */
   Matrix6d covariance(const Eigen::Vector3d& up_in_source) const;
 
   /** m, of the map: registrations on so much way share the error. */

@@ -109,7 +109,7 @@ struct SlamSettings
   }
 
  private:
-  /** Of a consumer's chip, as Ouster's are assumed to be. */
+  /** Noise of a consumer's chip, as Ouster's are assumed to be. */
   static ImuNoise insideLidar()
   {
     ImuNoise noise;
@@ -120,7 +120,8 @@ struct SlamSettings
     noise.accel_bias_sigma = 0.2;
     return noise;
   }
-  /** Of a machine that sways: it turns with up to 8 deg/s and accelerates with 1 m/s2 (assumed to be white noise). */
+  /** Motion of a machine that sways: it turns with up to 8 deg/s and accelerates with 1 m/s2 (assumed to be white
+   * noise). */
   static ImuNoise ofConstantMotion()
   {
     ImuNoise noise;

@@ -63,7 +63,7 @@ Eigen::Vector3d rateAt(Timestamp stamp, const std::vector<ImuSample>& samples, c
   return then.empty() ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(then.front().gyro - bias.gyro);
 }
 
-/** Of a body whose roll and pitch have this deviation (rad), in its frame. */
+/** Covariance of a body's pose whose roll and pitch have this deviation (rad), in its frame. */
 Matrix6d tiltCovariance(const Rigid& map_T_body, double sigma)
 {
   const Eigen::Matrix3d body_R_map = map_T_body.rotation.conjugate().toRotationMatrix();

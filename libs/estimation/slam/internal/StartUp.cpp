@@ -11,7 +11,7 @@ namespace
 {
 constexpr std::size_t kTrialScans = 4;  // enough for a velocity, few enough that it is still that of the first scan
 
-/** In the map frame, by the smoother, whose window still holds the first state after a few scans. */
+/** Velocity of the first state in the map frame: the smoother's window still holds that state after a few scans. */
 Eigen::Vector3d velocityByTrial(const std::deque<Scan>& scans, const ImuBuffer& imu, const Tracker& tracker,
                                 TrackerState state)
 {

@@ -20,7 +20,7 @@ inline Eigen::Vector3d upInBody(const Rigid& map_T_body)
   return map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ();
 }
 
-/** By the IMU alone. */
+/** The state at the scan's end by the IMU alone. */
 struct Prediction
 {
   Window window;  // its newest state is the one at the scan's end
