@@ -3,6 +3,9 @@
 #include "Verb.h"
 #include "base/config/Names.h"
 #include "base/core/ConfigError.h"
+#include "base/core/Interruption.h"
+#include "diagnosis/DoctorFindings.h"
+#include "diagnosis/Listening.h"
 #include "input/rig/RecognisedRig.h"
 #include "warn.h"
 
@@ -60,6 +63,21 @@ std::filesystem::path folderOfOutput()
   return std::filesystem::is_regular_file(output, not_open) ? output.parent_path() : std::filesystem::current_path();
 }
 
+/** The section [crop] with a box around the machine, by what stays in place in the body frame while it drives. */
+std::string cropSectionOf(const RecordingFiles& files)
+{
+  constexpr Duration kLookedAt = 120s;  // of the recording: longer than most stand before they drive
+  const RecognisedRig recognised = recogniseRig(files);
+  if (!recognised.unknown_poses.empty()) return "";
+  const Rig rig = makeRig(readRigSettings(Configuration::fromText(recognised.ini, "recognised"), kRecognisedSection));
+  RigListener listener(rig, true);
+  listenToCaptures(rig, kLookedAt, listener, [](double) { return !interrupted(); });
+  const SelfReturns machine = examine(listener.finish(), {}).machine;
+  const Finding finding = cropFinding(machine);
+  if (finding.verdict <= Verdict::Ok) return fmt::format("\n// [crop], a box around the machine: {}\n", finding.says);
+  return fmt::format("\n[crop]\n// {}\n{}\n", finding.says, cropKeys(machine.box, "\n"));
+}
+
 int printRigOf(const std::vector<std::filesystem::path>& recording)
 {
   const RecordingFiles files = filesOf(recording);
@@ -67,7 +85,8 @@ int printRigOf(const std::vector<std::filesystem::path>& recording)
     throw UsageError(fmt::format("{}: only captures need a configuration of their lidars", recording.front().string()));
   const RecognisedRig rig = recogniseRig(files, folderOfOutput());
   for (const std::string& note : rig.notes) warn(note);
-  std::cout << rig.ini;
+  catchInterruption();
+  std::cout << rig.ini << cropSectionOf(files);
   return kDone;
 }
 

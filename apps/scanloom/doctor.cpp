@@ -35,6 +35,8 @@ struct DoctorArguments
 
 struct DoctorSettings : DoctorLimits
 {
+  CropOptions crop;
+
   template <typename Self, typename Visitor>
   static void sections(Self& s, Visitor&& visit)
   {
@@ -44,6 +46,7 @@ struct DoctorSettings : DoctorLimits
     visit(s.imu, Section{"doctor", meaning});
     visit(s.geometry, Section{"doctor", meaning});
     visit(s.pose, Section{"doctor", meaning});
+    visit(s.crop, Section{"crop", CropOptions::kMeaning});
   }
 };
 
@@ -97,10 +100,10 @@ int report(const Findings& findings, const std::string& json, const DoctorArgume
   return worstOf(findings) == Verdict::NotFit ? kQualityGate : kDone;
 }
 
-int examineRawlog(const std::filesystem::path& rawlog, const DoctorLimits& limits, const DoctorArguments& arguments)
+int examineRawlog(const std::filesystem::path& rawlog, const DoctorSettings& settings, const DoctorArguments& arguments)
 {
   Progress progress("doctor", megabytesOf({rawlog}), "MB");
-  const CheckedRawlog check = checkRawlog(rawlog, limits,
+  const CheckedRawlog check = checkRawlog(rawlog, settings, settings.crop,
                                           [&](std::uint64_t bytes)
                                           {
                                             progress.update(bytes / 1000000);
@@ -129,7 +132,7 @@ int run(const DoctorArguments& arguments)
   if (!recording.rawlogs.empty()) return examineRawlog(recording.rawlogs.front(), loaded.settings, arguments);
   const RigExamination examination =
       examine(rig ? listen(*rig, loaded.sensors.poses_known, arguments) : readClouds(recording, loaded.configuration),
-              loaded.settings);
+              loaded.settings, loaded.settings.crop);
   Findings findings = findingsOf(examination, loaded.settings);
   if (loaded.sensors.not_used > 0)
     findings.push_back({"rig", "sensors", Verdict::NotFit,

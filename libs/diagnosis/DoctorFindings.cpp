@@ -47,6 +47,7 @@ Findings findingsOf(const RigExamination& rig, const DoctorLimits& limits)
             poseFinding(rig.lidars[i].name, rig.lidars[pair.reference].name, pair.agreement, limits.pose));
   }
   for (std::size_t i = 0; i < rig.imus.size(); ++i) append(findings, imuFindings(rig, i, limits.imu));
+  if (rig.poses_known || rig.lidars.size() == 1) findings.push_back(cropFinding(rig.machine));
   for (const std::string& wrong : rig.wrong_keys)
     findings.push_back({"rig", "configuration", Verdict::Warning, wrong, ""});
   if (rig.sockets) findings.push_back(socketFinding(*rig.sockets));

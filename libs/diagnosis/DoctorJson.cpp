@@ -93,11 +93,6 @@ json jsonOf(const LidarExamination& seen)
                          {"range_p95_m", returns->range_p95}};
   if (seen.ground) result["ground"] = jsonOf(*seen.ground);
   if (seen.own_parts.known) result["own_parts"] = {{"share", seen.own_parts.share}};
-  if (!seen.own_parts.box.isEmpty())
-  {
-    result["own_parts"]["box_min_m"] = jsonOf(Eigen::Vector3d(seen.own_parts.box.min()));
-    result["own_parts"]["box_max_m"] = jsonOf(Eigen::Vector3d(seen.own_parts.box.max()));
-  }
   return result;
 }
 
@@ -171,6 +166,12 @@ std::string toJson(const RigExamination& rig, const Findings& findings)
   for (const LidarExamination& lidar : rig.lidars) result["lidars"].push_back(jsonOf(lidar));
   result["imus"] = json::array();
   for (const ImuExamination& imu : rig.imus) result["imus"].push_back(jsonOf(imu));
+  if (rig.machine.known) result["machine"] = {{"share", rig.machine.share}, {"uncropped_share", rig.machine.uncropped}};
+  if (!rig.machine.box.isEmpty())
+  {
+    result["machine"]["box_min_m"] = jsonOf(Eigen::Vector3d(rig.machine.box.min()));
+    result["machine"]["box_max_m"] = jsonOf(Eigen::Vector3d(rig.machine.box.max()));
+  }
   if (rig.sockets)
     result["sockets"] = {{"datagrams", rig.sockets->counters.datagrams},
                          {"filtered", rig.sockets->counters.filtered},

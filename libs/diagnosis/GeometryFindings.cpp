@@ -18,18 +18,10 @@ Finding groundInSensorFrame(const std::string& lidar, const GroundPlane& ground)
 
 Finding ownPartsFinding(const LidarExamination& seen)
 {
-  const SelfReturns& parts = seen.own_parts;
-  if (!parts.known) return {seen.name, "own parts", Verdict::NotMeasured, "only seen while the machine drives"};
-  Finding finding{seen.name, "own parts", Verdict::Ok,
-                  fmt::format("{:.1f} % of the points are on the machine itself", 100 * parts.share)};
-  if (parts.box.isEmpty()) return finding;
-  const Eigen::Array3d least = (10 * parts.box.min().array()).floor() / 10;  // outwards, to 0.1 m
-  const Eigen::Array3d most = (10 * parts.box.max().array()).ceil() / 10;
-  finding.says += fmt::format(
-      "; to leave them out: [crop] min_x = {:.1f} max_x = {:.1f} min_y = {:.1f} max_y = {:.1f} min_z = {:.1f} max_z = "
-      "{:.1f}",
-      least.x(), most.x(), least.y(), most.y(), least.z(), most.z());
-  return finding;
+  if (!seen.own_parts.known)
+    return {seen.name, "own parts", Verdict::NotMeasured, "only seen while the machine drives"};
+  return {seen.name, "own parts", Verdict::Ok,
+          fmt::format("{:.1f} % of the points are on the machine itself", 100 * seen.own_parts.share)};
 }
 
 Finding groundsFinding(const LidarExamination& seen, const LidarExamination& first, const GeometryLimits& limits)

@@ -22,7 +22,7 @@ bool isScaled(const GyroAgreement& a, const ImuLimits& limits)
 bool isTurned(const GyroAgreement& a, const ImuLimits& limits)
 {
   const double angle = a.rotation.norm();
-  return angle > limits.gyro_angle_warning_deg * kDegree && angle > kSigmas * a.sigma;
+  return angle > limits.gyro_angle_not_fit_deg * kDegree && angle > kSigmas * a.sigma;
 }
 
 bool isLate(const GyroAgreement& a, const ImuLimits& limits)
@@ -69,7 +69,8 @@ Finding withFault(Finding finding, const ImuComparison& compared, const std::str
   }
   else if (isTurned(a, limits))
   {
-    if (a.rotation.norm() > limits.gyro_angle_not_fit_deg * kDegree) finding.verdict = Verdict::NotFit;
+    if (a.rotation.norm() - kSigmas * a.sigma > limits.gyro_angle_not_fit_deg * kDegree)
+      finding.verdict = Verdict::NotFit;
     const Eigen::Vector3d axis = a.rotation.normalized();
     finding.mend = fmt::format(
         "its pose in the body (or its lidar's){} is wrong: turn it by {:.1f} deg about ({:.2f} "

@@ -271,7 +271,7 @@ std::string toJson(const RawlogAccount& account)
                    {"damage", account.damage}});
 }
 
-CheckedRawlog checkRawlog(const std::filesystem::path& path, const DoctorLimits& limits,
+CheckedRawlog checkRawlog(const std::filesystem::path& path, const DoctorLimits& limits, const CropOptions& crop,
                           const KeepReading& keep_reading)
 {
   bool stopped = false;
@@ -280,7 +280,7 @@ CheckedRawlog checkRawlog(const std::filesystem::path& path, const DoctorLimits&
   check.findings = findingsOf(check.account);
   if (stopped || !check.account.header) return check;
   RawlogInput input(path);
-  check.rig = examine(scanEvidence(input, true, [] { return true; }), limits);
+  check.rig = examine(scanEvidence(input, true, [] { return true; }), limits, crop);
   const Findings of_rig = findingsOf(check.rig, limits);
   check.findings.insert(check.findings.end(), of_rig.begin(), of_rig.end());
   return check;

@@ -1,8 +1,9 @@
 /** GroundPlane and SelfReturns in worlds of planes and stems. */
 #include "calibration/seenInWorld.h"
-#include "diagnosis/internal/SelfReturns.h"
+#include "diagnosis/SelfReturns.h"
 #include "estimation/imu/MeanForce.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -55,61 +56,94 @@ TEST(GroundPlane, isNotFoundInACrown)
 
 namespace
 {
-/** Drives 2 m from snapshot to snapshot, with a pole on its bonnet. */
-std::vector<RigSnapshot> drive(double step, std::size_t snapshots = 6, double bonnet = 0)
+/** Turns seen at these places along x, with a pole on the machine, and a bonnet of this radius. */
+std::vector<PointCloud> drive(const std::vector<double>& places, double bonnet = 0)
 {
   const Rigid pose = at(0, 0, 0.5);
-  std::vector<RigSnapshot> taken;
-  for (std::size_t k = 0; k < snapshots; ++k)
+  std::vector<PointCloud> turns;
+  for (const double x : places)
   {
     RayWorld world = forest(3, 400);
-    const double x = step * static_cast<double>(k);
     world.stems.push_back({{x + 0.8, 0.3}, 0.1});
     if (bonnet > 0) world.stems.push_back({{x - 1.2, 0}, bonnet});
-    RigSnapshot snapshot(1);
-    snapshot[0].points = seen(world, at(x, 0, 0), pose, pose, k);
-    taken.push_back(std::move(snapshot));
+    turns.push_back(seen(world, at(x, 0, 0), pose, pose, turns.size()));
   }
-  return taken;
+  return turns;
+}
+
+SelfReturns partsIn(const std::vector<PointCloud>& turns, const CropOptions& crop = {})
+{
+  std::vector<const PointCloud*> clouds;
+  for (const PointCloud& turn : turns) clouds.push_back(&turn);
+  return selfReturns(clouds, groundPlane({clouds.front()}, {0, 0, 0.5}), cropOf(crop));
 }
 }  // namespace
 
 TEST(SelfReturns, areWhatDrivesAlong)
 {
-  auto snapshots = drive(2);
-  const auto ground = groundPlane({&snapshots[0][0].points}, {0, 0, 0.5});
-  const SelfReturns parts = markSelfReturns(snapshots, 0, ground);
+  const std::vector<PointCloud> turns = drive({0, 2, 4, 6, 8, 10});
+  const SelfReturns parts = partsIn(turns);
   ASSERT_TRUE(parts.known);
   std::size_t own = 0, pole = 0, found = 0;
-  const PointCloud& cloud = snapshots[3][0].points;
+  const PointCloud& cloud = turns[3];
   for (std::size_t i = 0; i < cloud.size(); ++i)
   {
     const bool is_pole =
         std::hypot(cloud.x[i] - 0.8, cloud.y[i] - 0.3) < 0.15 && cloud.z[i] > -1.4;  // above the ground's margin
-    own += snapshots[3][0].own[i];
+    own += parts.marks[3][i];
     pole += is_pole ? 1 : 0;
-    found += is_pole && snapshots[3][0].own[i] ? 1 : 0;
+    found += is_pole && parts.marks[3][i] ? 1 : 0;
   }
   ASSERT_GT(pole, 100u);
   EXPECT_GT(static_cast<double>(found) / static_cast<double>(pole), 0.97);
   EXPECT_LT(static_cast<double>(own - found) / static_cast<double>(cloud.size()), 0.02);
-  EXPECT_EQ(surroundings(snapshots[3][0]).size(), cloud.size() - own);
+  EXPECT_EQ(surroundings({cloud, parts.marks[3]}).size(), cloud.size() - own);
 }
 
 TEST(SelfReturns, mayBeMostOfWhatIsNear)
 {
-  auto snapshots = drive(2, 6, 0.9);  // of this radius: a bonnet that fills half of the view
-  const auto ground = groundPlane({&snapshots[0][0].points}, {0, 0, 0.5});
-  const SelfReturns parts = markSelfReturns(snapshots, 0, ground);
+  const SelfReturns parts = partsIn(drive({0, 2, 4, 6, 8, 10}, 0.9));  // the bonnet fills half of the view
   ASSERT_TRUE(parts.known);
   EXPECT_GT(parts.share, 0.3);
 }
 
 TEST(SelfReturns, areNotToldWhileTheMachineStands)
 {
-  auto snapshots = drive(0);
-  const auto ground = groundPlane({&snapshots[0][0].points}, {0, 0, 0.5});
-  EXPECT_FALSE(markSelfReturns(snapshots, 0, ground).known);
-  EXPECT_TRUE(snapshots[0][0].own.empty());
+  const SelfReturns parts = partsIn(drive({0, 0, 0, 0, 0, 0}));
+  EXPECT_FALSE(parts.known);
+  EXPECT_TRUE(parts.marks.empty());
+}
+
+TEST(SelfReturns, areNotTheStemsBesideAMachineThatStoodBeforeItDrove)
+{
+  const std::vector<double> stood_mostly{0, 0, 0, 0, 0, 0, 0, 2, 4, 6};
+  const SelfReturns parts = partsIn(drive(stood_mostly));
+  ASSERT_TRUE(parts.known);
+  EXPECT_LT(parts.box.max().x(), 1.2) << "the pole is at 0.8 m";
+  EXPECT_FALSE(partsIn(drive({0, 0, 0, 0, 0, 2})).known) << "too few places";
+}
+
+TEST(SelfReturns, haveOneBoxThatRemovesThemForAllLidars)
+{
+  const SelfReturns left = partsIn(drive({0, 2, 4, 6, 8, 10}, 0.9));
+  SelfReturns right = left;
+  right.box = Eigen::AlignedBox3d(Eigen::Vector3d(-1, -2, 0), Eigen::Vector3d(3, 0, 1));
+  const SelfReturns machine = together({left, right}, {1000, 1000});
+  EXPECT_TRUE(machine.box.contains(left.box));
+  EXPECT_TRUE(machine.box.contains(right.box));
+  EXPECT_NEAR(machine.share, left.share, 1e-9);
+  const Finding finding = cropFinding(machine);
+  EXPECT_EQ(finding.verdict, Verdict::Warning);
+  EXPECT_THAT(finding.mend, testing::HasSubstr("max_x = 3.0"));
+}
+
+TEST(SelfReturns, areNoFindingWhereCropRemovesThem)
+{
+  CropOptions crop;
+  crop.min_x = -2.5, crop.max_x = 1.5, crop.min_y = -1.5, crop.max_y = 1.5, crop.min_z = -3, crop.max_z = 9;
+  const SelfReturns parts = partsIn(drive({0, 2, 4, 6, 8, 10}, 0.9), crop);
+  EXPECT_GT(parts.share, 0.3);
+  EXPECT_LT(parts.uncropped, 0.02);
+  EXPECT_EQ(cropFinding(parts).verdict, Verdict::Ok);
 }
 }  // namespace scanloom::geometry_unittest

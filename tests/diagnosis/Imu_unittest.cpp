@@ -258,6 +258,14 @@ INSTANTIATE_TEST_SUITE_P(
                     ImuFault{"y_reversed", Eigen::Vector3d(1, -1, 1).asDiagonal(), "its turn rate about y is wrong"}),
     [](const auto& fault) { return std::string(fault.param.name); });
 
+TEST(ImuComparison, isNotFitWhereTheyTurnFiveDegreesOffOneAnother)
+{
+  const Rigid turned = Rigid::fromXyzYawPitchRoll(0, 0, 0, 0, 0, 5 * kDegree);
+  const std::vector<ImuSample> a = swayingImu({}), b = swayingImu(turned, 30, 100, 2);
+  const Finding finding = turnsFinding(compareImus({{"a", a, {}}, {"b", b, {}}}, {}).front(), "b", "a", {});
+  EXPECT_EQ(finding.verdict, Verdict::NotFit) << finding.says;
+}
+
 TEST(ImuComparison, ofTwoThatDifferNamesBoth)
 {
   const std::vector<ImuSample> a = swayingImu({}), b = scaled(swayingImu({}, 30, 100, 2), 1.1);

@@ -19,6 +19,14 @@ namespace
 {
 constexpr std::uint16_t kRightPort = 7504;
 
+/** A box around the machine, as in params/dual_os0_recording.ini. */
+CropOptions machine()
+{
+  CropOptions crop;
+  crop.min_x = -4, crop.max_x = 10, crop.min_y = -3, crop.max_y = 3, crop.min_z = -0.5, crop.max_z = 6;
+  return crop;
+}
+
 Rig recordedRig(const std::filesystem::path& folder, const std::string& more_keys = "")
 {
   const std::string f = folder.string();
@@ -75,7 +83,7 @@ Examined examined(const Rig& rig, const Fault& fault = {}, Duration longest = 1h
       for (const Datagram& changed : fault(datagram)) listener.add(changed);
   }
   Examined result;
-  result.rig = examine(listener.finish(), {});
+  result.rig = examine(listener.finish(), {}, machine());
   result.findings = findingsOf(result.rig, {});
   return result;
 }

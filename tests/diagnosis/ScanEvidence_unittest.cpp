@@ -34,7 +34,10 @@ TEST(ScanEvidence, pointsAndImusTellTheSameAsThePacketsDid)
   }
 
   RawlogInput input(temporary / "a.rawlog");
-  const RigExamination seen = examine(scanEvidence(input, true, [] { return true; }), {});
+  CropOptions machine;
+  machine.min_x = -4, machine.max_x = 10, machine.min_y = -3, machine.max_y = 3, machine.min_z = -0.5,
+  machine.max_z = 6;
+  const RigExamination seen = examine(scanEvidence(input, true, [] { return true; }), {}, machine);
   EXPECT_TRUE(input.takeWarnings().empty()) << "nothing is damaged";
   ASSERT_EQ(seen.lidars.size(), 2u);
   for (const LidarExamination& lidar : seen.lidars)

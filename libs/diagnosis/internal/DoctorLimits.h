@@ -77,8 +77,7 @@ struct ImuLimits
   double tilt_not_fit_deg = 45;
   double gyro_scale_factor = 2;
   double gyro_scale_warning = 0.02;
-  double gyro_angle_warning_deg = 3;
-  double gyro_angle_not_fit_deg = 15;
+  double gyro_angle_not_fit_deg = 3;
   double imu_lag_warning_ms = 20;
   double imu_gap_not_fit = 0.5;
 
@@ -103,12 +102,11 @@ struct ImuLimits
           Field{"gyro_scale_warning", "",
                 "error of the turn rates of two IMUs against each other; a corner of 90 deg becomes 2 deg wrong",
                 above(0)});
-    visit(o.gyro_angle_warning_deg,
-          Field{"gyro_angle_warning_deg", "deg",
-                "angle between the turn rates of two IMUs; more than the error of a bracket", above(0)});
     visit(o.gyro_angle_not_fit_deg,
           Field{"gyro_angle_not_fit_deg", "deg",
-                "angle between the turn rates of two IMUs; deskewing turns scans the wrong way", above(0)});
+                "angle between the turn rates of two IMUs, above four standard deviations; more than the error of a "
+                "bracket, half a metre at 10 m if a lidar's pose is wrong with it",
+                above(0)});
     visit(o.imu_lag_warning_ms, Field{"imu_lag_warning_ms", "ms",
                                       "time between two IMUs; at 30 deg/s an attitude error of 0.6 deg", above(0)});
     visit(o.imu_gap_not_fit,

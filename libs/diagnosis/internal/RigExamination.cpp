@@ -105,12 +105,31 @@ std::optional<ReturnStatistics> returnStatistics(const std::vector<RigSnapshot>&
   return statistics;
 }
 
-std::optional<GroundPlane> groundOf(const std::vector<RigSnapshot>& snapshots, std::size_t lidar,
-                                    const LidarDescription& description)
+std::vector<const PointCloud*> turnsOf(const std::vector<RigSnapshot>& snapshots, std::size_t lidar)
 {
-  std::vector<const PointCloud*> clouds;
-  for (const RigSnapshot& snapshot : snapshots) clouds.push_back(&snapshot[lidar].points);
-  return groundPlane(clouds, description.body_T_sensor.translation);
+  std::vector<const PointCloud*> turns;
+  for (const RigSnapshot& snapshot : snapshots) turns.push_back(&snapshot[lidar].points);
+  return turns;
+}
+
+std::vector<MountedLidar> mounted(const std::vector<LidarEvidence>& lidars)
+{
+  std::vector<MountedLidar> placed;
+  for (const LidarEvidence& lidar : lidars) placed.push_back({lidar.name, lidar.lidar.body_T_sensor});
+  return placed;
+}
+
+/** By the points of each. */
+SelfReturns machineSeenBy(const std::vector<LidarExamination>& lidars, const std::vector<RigSnapshot>& snapshots)
+{
+  std::vector<SelfReturns> parts;
+  std::vector<std::size_t> points(lidars.size(), 0);
+  for (std::size_t i = 0; i < lidars.size(); ++i)
+  {
+    parts.push_back(lidars[i].own_parts);
+    for (const RigSnapshot& snapshot : snapshots) points[i] += snapshot[i].points.size();
+  }
+  return together(parts, points);
 }
 
 std::vector<BodyImu> bodyImus(const std::vector<ImuEvidence>& imus)
@@ -130,8 +149,9 @@ PairExamination examinePair(const RigEvidence& evidence, std::size_t lidar, std:
 }
 }  // namespace
 
-RigExamination examine(RigEvidence evidence, const DoctorLimits& limits)
+RigExamination examine(RigEvidence evidence, const DoctorLimits& limits, const CropOptions& crop_options)
 {
+  const Crop crop = cropOf(crop_options, mounted(evidence.lidars));
   RigExamination rig;
   static_cast<RigFacts&>(rig) = evidence;
   for (const LidarEvidence& lidar : evidence.lidars)
@@ -140,10 +160,14 @@ RigExamination examine(RigEvidence evidence, const DoctorLimits& limits)
   for (std::size_t i = 0; i < rig.lidars.size(); ++i)
   {
     rig.lidars[i].returns = returnStatistics(evidence.snapshots, i);
-    rig.lidars[i].ground = groundOf(evidence.snapshots, i, rig.lidars[i].lidar);
-    rig.lidars[i].own_parts = markSelfReturns(evidence.snapshots, i, rig.lidars[i].ground);
+    const std::vector<const PointCloud*> turns = turnsOf(evidence.snapshots, i);
+    rig.lidars[i].ground = groundPlane(turns, rig.lidars[i].lidar.body_T_sensor.translation);
+    SelfReturns& own = rig.lidars[i].own_parts = selfReturns(turns, rig.lidars[i].ground, crop);
+    for (std::size_t k = 0; k < own.marks.size(); ++k) evidence.snapshots[k][i].own = std::move(own.marks[k]);
+    own.marks.clear();
     if (i > 0 && evidence.poses_known) rig.pairs.push_back(examinePair(evidence, i, 0));
   }
+  if (evidence.poses_known || rig.lidars.size() == 1) rig.machine = machineSeenBy(rig.lidars, evidence.snapshots);
   const TimeSpan span = spanOf(evidence.lidars);
   std::vector<ImuTiming> timings;
   for (ImuEvidence& imu : evidence.imus)

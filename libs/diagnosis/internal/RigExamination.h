@@ -10,7 +10,7 @@
 #include "diagnosis/internal/ImuTiming.h"
 #include "diagnosis/internal/RigEvidence.h"
 #include "diagnosis/internal/RotorPhase.h"
-#include "diagnosis/internal/SelfReturns.h"
+#include "diagnosis/SelfReturns.h"
 #include "diagnosis/internal/SensorFlags.h"
 #include "estimation/imu/GyroScale.h"
 #include "estimation/imu/MeanForce.h"
@@ -72,6 +72,7 @@ struct RigExamination : RigFacts
   std::vector<LidarExamination> lidars;
   std::vector<ImuExamination> imus;
   std::vector<PairExamination> pairs;  // each lidar against the first, if poses are known
+  SelfReturns machine;                 // as all lidars see it, if their poses are known
 };
 
 struct DoctorLimits
@@ -83,5 +84,6 @@ struct DoctorLimits
   PoseLimits pose;
 };
 
-RigExamination examine(RigEvidence, const DoctorLimits&);
+/** Throws ConfigError if [crop] names a lidar that there is not. */
+RigExamination examine(RigEvidence, const DoctorLimits&, const CropOptions& = {});
 }  // namespace scanloom

@@ -57,6 +57,11 @@ Crop cropOf(const CropOptions& o, const std::vector<MountedLidar>& lidars)
           o.max_range};
 }
 
+bool removes(const Crop& crop, const PointCloud& points, std::size_t i)
+{
+  return fateOf(points, i, crop) != &CropCounts::kept;
+}
+
 CroppedScan cropOut(Scan scan, const Crop& crop)
 {
   constexpr std::size_t kGrain = 128;  // columns, about 50 us

@@ -23,6 +23,8 @@ struct CropOptions
   double max_range = 100.0;
   std::string lidar_boxes;
 
+  static constexpr const char* kMeaning = "the machine's own points, and the ranges that are used";
+
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
@@ -93,6 +95,9 @@ struct Crop
 
 /** Throws ConfigError if lidar_boxes is not well formed, or names a lidar that is not among `lidars` (by sensor id). */
 Crop cropOf(const CropOptions&, const std::vector<MountedLidar>& lidars = {});
+
+/** Whether the point, in the body frame, is removed. */
+bool removes(const Crop&, const PointCloud&, std::size_t i);
 
 /** The scan without those points. Columns keep their stamps even when they become empty. Ranges are measured from the
  * sensor; a point with range 0 is not tested for them. */

@@ -96,7 +96,7 @@ struct SlamSettings
           Section{"no_imu_noise",
                   "without an IMU: how far the motion may be from constant velocity and turn rate, as if these "
                   "were measured"});
-    visit(s.crop, Section{"crop", "the machine's own points, and the ranges that are used"});
+    visit(s.crop, Section{"crop", CropOptions::kMeaning});
     visit(s.registration.scan_cells, Section{"scan_cells", "NDT cells of a scan for the rough alignment"});
     visit(s.registration.fine_cells, Section{"fine_cells", "NDT cells of a scan for the fine alignment"});
     visit(s.map_cells, Section{"map_cells", "NDT cells of the local map"});

@@ -2,6 +2,7 @@
 
 #include "base/core/Angle.h"
 #include "calibration/GroundFinding.h"
+#include "diagnosis/SelfReturns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,6 +81,30 @@ std::vector<SeenPoints> LidarCheck::seenAround(std::size_t lidar, bool with_itse
   return seen;
 }
 
+std::vector<const PointCloud*> LidarCheck::cloudsOf(std::size_t lidar) const
+{
+  std::vector<const PointCloud*> clouds;
+  for (const Seen& keyframe : keyframes_) clouds.push_back(&keyframe.points[lidar]);
+  return clouds;
+}
+
+std::optional<GroundPlane> LidarCheck::groundOf(std::size_t lidar) const
+{
+  return groundPlane(cloudsOf(lidar), lidars_[lidar].body_T_sensor.translation);
+}
+
+Finding LidarCheck::crop() const
+{
+  std::vector<SelfReturns> parts;
+  std::vector<std::size_t> points(lidars_.size(), 0);
+  for (std::size_t i = 0; i < lidars_.size(); ++i)
+  {
+    parts.push_back(selfReturns(cloudsOf(i), groundOf(i)));
+    for (const PointCloud* cloud : cloudsOf(i)) points[i] += cloud->size();
+  }
+  return cropFinding(together(parts, points));
+}
+
 Findings LidarCheck::compareGrounds() const
 {
   Findings tilted;
@@ -87,9 +112,7 @@ Findings LidarCheck::compareGrounds() const
   std::vector<Eigen::Vector3d> ups;  // of the lidars that see the ground, by what the poses say
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
-    std::vector<const PointCloud*> clouds;
-    for (const Seen& keyframe : keyframes_) clouds.push_back(&keyframe.points[i]);
-    const std::optional<GroundPlane> plane = groundPlane(clouds, lidars_[i].body_T_sensor.translation);
+    const std::optional<GroundPlane> plane = groundOf(i);
     if (!plane) continue;
     for (const Eigen::Vector3d& up : ups) contradict |= up.dot(plane->up) < std::cos(kOfOneGround);
     ups.push_back(plane->up);

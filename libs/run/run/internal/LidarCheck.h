@@ -1,6 +1,7 @@
 #pragma once
 #include "base/core/Keyframe.h"
 #include "base/core/MountedLidar.h"
+#include "calibration/GroundPlane.h"
 #include "calibration/PoseFinding.h"
 
 #include <utility>
@@ -26,6 +27,9 @@ class LidarCheck
   /** In the order of the lidars; of grounds alone before there are three keyframes. */
   Findings compare() const;
 
+  /** What of the machine is in the keyframes, and so in the map. */
+  Finding crop() const;
+
  private:
   struct Seen
   {
@@ -34,6 +38,8 @@ class LidarCheck
   };
 
   Findings compareGrounds() const;
+  std::vector<const PointCloud*> cloudsOf(std::size_t lidar) const;
+  std::optional<GroundPlane> groundOf(std::size_t lidar) const;
 
   /** By keyframe, in its body frame. */
   std::vector<SeenPoints> seenBy(std::size_t lidar) const;

@@ -112,6 +112,10 @@ void RigCheck::checkLidars()
   for (const Finding& finding : findings_)
     if (finding.verdict >= Verdict::Warning)
       blame(fmt::format("the lidar '{}'", finding.about), finding.says + ": " + finding.mend);
+  const Finding crop = lidars_.crop();
+  if (crop.verdict == Verdict::Warning && !told_of_crop_) warn_(crop.says + ": " + crop.mend);
+  told_of_crop_ |= crop.verdict == Verdict::Warning;
+  findings_.push_back(crop);
 }
 
 void RigCheck::checkImuInUse()

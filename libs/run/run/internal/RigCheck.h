@@ -69,6 +69,6 @@ class RigCheck
   Findings findings_;
   std::optional<GyroAgreement> agreement_;
   std::set<std::string> blamed_;
-  bool imu_in_use_is_wrong_ = false;
+  bool imu_in_use_is_wrong_ = false, told_of_crop_ = false;
 };
 }  // namespace scanloom
