@@ -105,13 +105,14 @@ json jsonOf(const ImuExamination& imu)
                  {"lost", t.lost},
                  {"longest_gap_s", seconds(t.longest_gap)},
                  {"backwards", t.backwards},
-                 {"mean_force_in_body", jsonOf(imu.force_in_body)},
-                 {"tilt_deg", degreesBetween(imu.force_in_body, Eigen::Vector3d::UnitZ())}};
+                 {"mean_force_in_body", jsonOf(imu.sound.force_in_body)},
+                 {"tilt_deg", degreesBetween(imu.sound.force_in_body, Eigen::Vector3d::UnitZ())}};
   if (t.rate) result["rate_hz"] = *t.rate;
   if (imu.lidar_share) result["lidar_time_covered"] = *imu.lidar_share;
-  if (imu.gyro_scale)
-    result["gyro_scale"] = {
-        {"scale", imu.gyro_scale->scale}, {"sigma", imu.gyro_scale->sigma}, {"tilt_rate", imu.gyro_scale->tilt_rate}};
+  if (imu.sound.gyro_scale)
+    result["gyro_scale"] = {{"scale", imu.sound.gyro_scale->scale},
+                            {"sigma", imu.sound.gyro_scale->sigma},
+                            {"tilt_rate", imu.sound.gyro_scale->tilt_rate}};
   if (imu.compared && imu.compared->agreement)
   {
     const GyroAgreement& a = *imu.compared->agreement;

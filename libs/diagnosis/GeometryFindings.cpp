@@ -47,8 +47,9 @@ Findings groundFindings(const RigExamination& rig, std::size_t lidar, const Geom
     findings.push_back({seen.name, "returns", Verdict::Ok,
                         fmt::format("{:.1f} % of the shots; 5, 50, 95 % of the returns within {:.1f}, {:.1f}, {:.1f} m",
                                     100 * returns->share, returns->range_p05, returns->range_p50, returns->range_p95)});
-  findings.push_back(rig.poses_known || !seen.ground ? groundFinding(seen.name, seen.ground, limits)
-                                                     : groundInSensorFrame(seen.name, *seen.ground));
+  findings.push_back(rig.poses_known || !seen.ground
+                         ? groundFinding({seen.name, seen.lidar.body_T_sensor}, seen.ground, limits)
+                         : groundInSensorFrame(seen.name, *seen.ground));
   findings.push_back(ownPartsFinding(seen));
   if (lidar > 0 && rig.poses_known && seen.ground && first.ground)
     findings.push_back(groundsFinding(seen, first, limits));

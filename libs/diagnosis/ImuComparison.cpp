@@ -1,6 +1,7 @@
 #include "diagnosis/ImuComparison.h"
 
 #include "base/core/Angle.h"
+#include "diagnosis/internal/ImuSoundness.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,8 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kSigmas = 4;
+constexpr double kSigmas = 4;  // beyond doubt
+constexpr double kUnit = 1.1;  // factor: two gyroscopes tell a unit from a wrong scale
 
 bool isScaled(const GyroAgreement& a, const ImuLimits& limits)
 {
@@ -45,16 +47,6 @@ std::string faultOfHands(const Eigen::Vector3d& reversed)
   return fmt::format("the sign of its turn rate about {} is wrong", "xyz"[largest]);
 }
 
-/** Of turn rates that are `scale` times too large. */
-std::string adviceForScale(double scale)
-{
-  constexpr double kPerDegree = 180 / M_PI;
-  const auto isAbout = [scale](double expected) { return std::abs(scale / expected - 1) < 0.1; };
-  if (isAbout(kPerDegree)) return "they are in deg/s, multiply them by 0.0174533";
-  if (isAbout(1 / kPerDegree)) return "they were converted from deg/s twice, multiply them by 57.2958";
-  return fmt::format("divide them by {:.3f}", scale);
-}
-
 /** What is wrong, and how it is mended; the verdict of `finding` is graded. */
 Finding withFault(Finding finding, const ImuComparison& compared, const std::string& reference, const ImuLimits& limits)
 {
@@ -78,10 +70,10 @@ Finding withFault(Finding finding, const ImuComparison& compared, const std::str
         or_of_other, a.rotation.norm() / kDegree, axis.x(), axis.y(), axis.z());
   }
   else if (isScaled(a, limits))
-    finding.mend =
-        fmt::format("the unit or scale of its turn rates{} is wrong: {}", or_of_other, adviceForScale(a.scale));
+    finding.mend = fmt::format("the unit or scale of its turn rates{} is wrong: {}", or_of_other,
+                               mendOfTurnRates(a.scale, kUnit).value_or(fmt::format("divide them by {:.3f}", a.scale)));
   else
-    finding.mend = "stamp both IMUs by the same clock, or subtract this from the later one's stamps";
+    finding.mend = fmt::format("stamp both by one clock, or set [slam] imu_delay_ms = {:.0f}", 1e3 * seconds(a.lag));
   return finding;
 }
 }  // namespace

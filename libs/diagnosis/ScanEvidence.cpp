@@ -27,6 +27,12 @@ LidarEvidence lidarOf(const RecordedLidar& recorded)
   return evidence;
 }
 
+Rigid configuredPose(int sensor, const SensorSetup& setup)
+{
+  return sensor == SensorImu::kBody ? setup.body_T_imu.at(sensor)
+                                    : setup.header.lidars.at(static_cast<std::size_t>(sensor)).body_T_sensor;
+}
+
 std::string nameOf(int sensor, const std::vector<LidarEvidence>& lidars)
 {
   return sensor == SensorImu::kBody ? "imu" : "imu_" + lidars.at(static_cast<std::size_t>(sensor)).name;
@@ -55,7 +61,8 @@ RigEvidence scanEvidence(SensorInput& input, bool poses_known, const std::functi
   evidence.snapshots = std::move(snapshots).taken();
   const SensorSetup setup = input.setup();
   for (auto& [sensor, of_imu] : samples)
-    evidence.imus.push_back({nameOf(sensor, evidence.lidars), std::move(of_imu), setup.body_T_imu.at(sensor)});
+    evidence.imus.push_back({nameOf(sensor, evidence.lidars), std::move(of_imu), setup.body_T_imu.at(sensor),
+                             configuredPose(sensor, setup)});
   return evidence;
 }
 }  // namespace scanloom

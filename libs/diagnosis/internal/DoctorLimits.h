@@ -1,7 +1,7 @@
 /** Limits of `scanloom doctor`: `_warning` and `_not_fit` belong to the verdicts of that name. */
 #pragma once
 #include "base/core/Field.h"
-#include "calibration/GroundFinding.h"
+#include "diagnosis/internal/GroundFinding.h"
 
 namespace scanloom
 {

@@ -23,7 +23,7 @@ RigListener::RigListener(const Rig& rig, bool poses_known)
     snapshots_(rig.lidars.size(), longestTurn(rig)),
     delays_(rig.lidars.size(), Duration{0})
 {
-  evidence_.imus.push_back({"imu", rig.body_imu, rig.body_T_imu.value_or(Rigid{})});
+  evidence_.imus.push_back({"imu", rig.body_imu, rig.body_T_imu.value_or(Rigid{}), rig.body_T_imu.value_or(Rigid{})});
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
     const BatchedLidar& lidar = lidars_[i];
@@ -31,7 +31,8 @@ RigListener::RigListener(const Rig& rig, bool poses_known)
     description.lidar_port = addresses_[i].lidar_port;
     description.imu_port = addresses_[i].imu_port;
     evidence_.lidars.push_back({lidar.name, description, {}, 0, 0});
-    evidence_.imus.push_back({"imu_" + lidar.name, {}, description.body_T_sensor * description.sensor_T_imu});
+    evidence_.imus.push_back(
+        {"imu_" + lidar.name, {}, description.body_T_sensor * description.sensor_T_imu, description.body_T_sensor});
   }
   evidence_.poses_known = poses_known;
   evidence_.deadline = fromSeconds(1e-3 * rig.batcher.deadline_ms);

@@ -25,6 +25,7 @@ struct ImuEvidence
   std::string name;  // "imu" on the body, "imu_left" in the lidar 'left'
   std::vector<ImuSample> samples;
   Rigid body_T_imu;
+  Rigid configured_pose;  // of the IMU, or of the lidar that holds it
 };
 
 /** Counters of live sockets. */

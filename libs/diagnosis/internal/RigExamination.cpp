@@ -75,8 +75,8 @@ ImuExamination examineImu(const ImuEvidence& imu, const ImuTiming& timing, const
   ImuExamination seen;
   seen.name = imu.name;
   seen.timing = timing;
-  if (const auto force = meanForce(imu.samples)) seen.force_in_body = imu.body_T_imu.rotation * *force;
-  seen.gyro_scale = gyroScale(imu.samples);
+  seen.sound = soundnessOf(imu.samples, imu.body_T_imu);
+  seen.configured_pose = imu.configured_pose;
   if (lidars.first < lidars.last)
     seen.lidar_share =
         std::max(0.0, seconds(std::min(lidars.last, seen.timing.last) - std::max(lidars.first, seen.timing.first)) /

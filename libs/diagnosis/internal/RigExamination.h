@@ -1,18 +1,18 @@
 /** All measures of `scanloom doctor`, taken on one rig. */
 #pragma once
 #include "calibration/GroundPlane.h"
-#include "calibration/PoseFinding.h"
 #include "diagnosis/ImuComparison.h"
+#include "diagnosis/SelfReturns.h"
 #include "diagnosis/internal/ClockDrift.h"
 #include "diagnosis/internal/ClockKind.h"
 #include "diagnosis/internal/Delivery.h"
 #include "diagnosis/internal/DoctorLimits.h"
+#include "diagnosis/internal/ImuSoundness.h"
 #include "diagnosis/internal/ImuTiming.h"
+#include "diagnosis/internal/PoseFinding.h"
 #include "diagnosis/internal/RigEvidence.h"
 #include "diagnosis/internal/RotorPhase.h"
-#include "diagnosis/SelfReturns.h"
 #include "diagnosis/internal/SensorFlags.h"
-#include "estimation/imu/GyroScale.h"
 #include "estimation/imu/MeanForce.h"
 
 namespace scanloom
@@ -54,8 +54,8 @@ struct ImuExamination
 {
   std::string name;
   ImuTiming timing;
-  Eigen::Vector3d force_in_body = Eigen::Vector3d::Zero();  // mean specific force
-  std::optional<GyroScale> gyro_scale;
+  ImuSoundness sound;
+  Rigid configured_pose;                  // of the IMU, or of the lidar that holds it
   std::optional<ImuComparison> compared;  // with the reference (compareImus); not for the reference itself
   std::optional<double> lidar_share;      // share of the lidars' time that the samples cover
 };

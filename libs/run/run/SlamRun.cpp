@@ -4,7 +4,6 @@
 #include "input/rig/silentLidars.h"
 #include "run/run/ImuInUse.h"
 #include "run/run/internal/CropReport.h"
-#include "run/run/internal/RigCheck.h"
 #include "run/run/internal/RunCounts.h"
 #include "run/run/internal/reasonOf.h"
 
@@ -58,12 +57,22 @@ std::map<int, RigImu> imusOf(const SensorSetup& setup)
 {
   std::map<int, RigImu> imus;
   for (const auto& [sensor, body_T_imu] : setup.body_T_imu)
-  {
-    const std::string name = imuName(setup, sensor);
-    imus[sensor] = {sensor == SensorImu::kBody ? "the IMU" : fmt::format("the IMU of the lidar '{}'", name),
-                    body_T_imu};
-  }
+    if (sensor == SensorImu::kBody)
+      imus[sensor] = {"the IMU", body_T_imu, body_T_imu};
+    else
+      imus[sensor] = {fmt::format("the IMU of the lidar '{}'", imuName(setup, sensor)), body_T_imu,
+                      setup.header.lidars.at(static_cast<std::size_t>(sensor)).body_T_sensor};
   return imus;
+}
+
+/** Two registrations in a row give a turn without the IMU. A keyframe of the start still drifts. */
+LocalisedScan localised(const StateEstimate& estimate)
+{
+  LocalisedScan scan{estimate.stamp, std::nullopt, nullptr};
+  if (estimate.registration && estimate.registration->outcome == Outcome::Converged && !estimate.recovered)
+    scan.registered = estimate.registration->target_T_source;
+  if (estimate.keyframe && estimate.health != Health::Initialising) scan.keyframe = &*estimate.keyframe;
+  return scan;
 }
 
 /** One run, event by event. */
@@ -98,7 +107,7 @@ class SlamRun
   {
     if (mayGoWithoutImu()) goOnWithoutImu();
     keep(slam_.finish());
-    times_.measure("rig_check", [&] { check_.check(); });
+    times_.measure("rig_check", [&] { check_.finish(); });
     for (const auto& [name, refused] : refusedReadings())
       warn_(fmt::format("the IMU '{}': samples were refused: {}", name, refused.toString()));
     for (const std::string& warning : cropWarnings(slam_.cropped(), lidars())) warn_(warning);
@@ -142,6 +151,7 @@ class SlamRun
     summary.outcome = interrupted ? "INTERRUPTED" : whole ? counts_.outcome() : "LOST";
     if (silent && summary.outcome == "OK") summary.outcome = "LIDAR MISSING";
     if (imu_of_other_clock_ && summary.outcome == "OK") summary.outcome = "IMU MISSING";
+    if (check_.warned() && summary.outcome == "OK") summary.outcome = "RIG NOT FIT";
     summary.counts = countsOf(account);
     summary.counts["scans_skipped"] = slam_.skippedScans();
     summary.counts["recoveries"] = slam_.recoveries();
@@ -267,7 +277,7 @@ class SlamRun
     {
       counts_.add(estimate);
       if (motion_) motion_->update(estimate);
-      times_.measure("rig_check", [&] { check_.add(estimate); });
+      times_.measure("rig_check", [&] { check_.add(localised(estimate)); });
       see_(estimate);
     }
   }

@@ -1,8 +1,8 @@
 /** Sensor input through localisation. */
 #pragma once
+#include "diagnosis/RigCheck.h"
 #include "estimation/slam/LidarInertialSlam.h"
 #include "input/rig/SensorInput.h"
-#include "run/run/internal/RigCheck.h"
 #include "run/run/internal/RunSummary.h"
 
 #include <functional>
@@ -31,7 +31,7 @@ struct SlamRunResult
   /**
    * Counts, stages, and the outcome: OK, LIDAR MISSING (OK, but a lidar is in no scan), IMU MISSING (OK,
    * but the samples of an IMU are of another time than all scans), INITIALISING, DEGENERATE, LOST,
-   * NOTHING (no pose was measured), INTERRUPTED or FAILED.
+   * RIG NOT FIT (OK, but a lidar or the IMU is at fault), NOTHING (no pose was measured), INTERRUPTED or FAILED.
    */
   RunSummary summary;
   /**

@@ -1,6 +1,6 @@
 #include "estimation/slam/internal/StartUp.h"
 
-#include "estimation/slam/ImuConsistencyCheck.h"
+#include "estimation/slam/internal/requireGravity.h"
 
 #include <algorithm>
 #include <utility>

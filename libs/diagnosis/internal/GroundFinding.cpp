@@ -1,6 +1,7 @@
-#include "calibration/GroundFinding.h"
+#include "diagnosis/internal/GroundFinding.h"
 
 #include "base/core/Angle.h"
+#include "diagnosis/internal/ImuSoundness.h"
 #include "estimation/imu/MeanForce.h"
 
 #include <fmt/format.h>
@@ -13,16 +14,21 @@ std::string groundInWords(const GroundPlane& ground)
                      100 * ground.share, ground.sensor_height);
 }
 
-Finding groundFinding(const std::string& lidar, const std::optional<GroundPlane>& ground, const GeometryLimits& limits)
+Finding groundFinding(const MountedLidar& lidar, const std::optional<GroundPlane>& ground, const GeometryLimits& limits)
 {
-  if (!ground) return {lidar, "ground", Verdict::NotMeasured, "no plane among the points within 12 m"};
+  if (!ground) return {lidar.name, "ground", Verdict::NotMeasured, "no plane among the points within 12 m"};
   const double tilt = degreesBetween(ground->up, Eigen::Vector3d::UnitZ());
-  Finding finding{lidar, "ground", grade(tilt, limits.ground_tilt_warning_deg, limits.ground_tilt_not_fit_deg),
+  Finding finding{lidar.name, "ground", grade(tilt, limits.ground_tilt_warning_deg, limits.ground_tilt_not_fit_deg),
                   fmt::format("{}{:.1f} deg off the body's z; the body's origin {:.2f} m above it",
                               groundInWords(*ground), tilt, ground->body_height)};
   if (finding.verdict == Verdict::NotFit)
     finding.says += fmt::format(": up is along {} of the body", nearestAxis(ground->up));
-  if (finding.verdict != Verdict::Ok)
+  if (const auto radians = mendOfRadians(lidar.body_T_sensor, ground->up))
+  {
+    finding.verdict = Verdict::NotFit;
+    finding.mend = "of the lidar's pose " + *radians;
+  }
+  else if (finding.verdict != Verdict::Ok)
     finding.mend = fmt::format("the lidar's pose is wrong by {}{}", turnUpwards(ground->up),
                                finding.verdict == Verdict::Warning ? ", or it stood before a slope" : "");
   return finding;

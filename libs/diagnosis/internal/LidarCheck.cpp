@@ -1,8 +1,8 @@
-#include "run/run/internal/LidarCheck.h"
+#include "diagnosis/internal/LidarCheck.h"
 
 #include "base/core/Angle.h"
-#include "calibration/GroundFinding.h"
 #include "diagnosis/SelfReturns.h"
+#include "diagnosis/internal/GroundFinding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,13 +58,14 @@ std::vector<SeenByBoth> pairsOf(const std::vector<SeenPoints>& a, const std::vec
 void LidarCheck::add(const Keyframe& keyframe)
 {
   if (keyframes_.size() == kMost) keyframes_.erase(keyframes_.begin());
-  keyframes_.push_back({keyframe.map_T_body, splitByLidar(keyframe.points, lidars_.size())});
+  keyframes_.push_back(
+      std::make_shared<const Seen>(Seen{keyframe.map_T_body, splitByLidar(keyframe.points, lidars_.size())}));
 }
 
 std::vector<SeenPoints> LidarCheck::seenBy(std::size_t lidar) const
 {
   std::vector<SeenPoints> seen;
-  for (const Seen& keyframe : keyframes_) seen.push_back({keyframe.points[lidar], {}});
+  for (const auto& keyframe : keyframes_) seen.push_back({keyframe->points[lidar], {}});
   return seen;
 }
 
@@ -75,8 +76,8 @@ std::vector<SeenPoints> LidarCheck::seenAround(std::size_t lidar, bool with_itse
     for (std::size_t i = k - std::min(kNeighbours, k); i <= std::min(k + kNeighbours, keyframes_.size() - 1); ++i)
     {
       if (i == k && !with_itself) continue;
-      const Rigid here_T_there = keyframes_[k].map_T_body.inverse() * keyframes_[i].map_T_body;
-      seen[k].points.append(moved(keyframes_[i].points[lidar], here_T_there));
+      const Rigid here_T_there = keyframes_[k]->map_T_body.inverse() * keyframes_[i]->map_T_body;
+      seen[k].points.append(moved(keyframes_[i]->points[lidar], here_T_there));
     }
   return seen;
 }
@@ -84,7 +85,7 @@ std::vector<SeenPoints> LidarCheck::seenAround(std::size_t lidar, bool with_itse
 std::vector<const PointCloud*> LidarCheck::cloudsOf(std::size_t lidar) const
 {
   std::vector<const PointCloud*> clouds;
-  for (const Seen& keyframe : keyframes_) clouds.push_back(&keyframe.points[lidar]);
+  for (const auto& keyframe : keyframes_) clouds.push_back(&keyframe->points[lidar]);
   return clouds;
 }
 
@@ -116,7 +117,7 @@ Findings LidarCheck::compareGrounds() const
     if (!plane) continue;
     for (const Eigen::Vector3d& up : ups) contradict |= up.dot(plane->up) < std::cos(kOfOneGround);
     ups.push_back(plane->up);
-    Finding ground = groundFinding(lidars_[i].name, plane, {});
+    Finding ground = groundFinding(lidars_[i], plane, {});
     if (ground.verdict >= Verdict::Warning) tilted.push_back(std::move(ground));
   }
   return contradict ? tilted : Findings{};

@@ -1,4 +1,4 @@
-#include "run/run/internal/LidarCheck.h"
+#include "diagnosis/internal/LidarCheck.h"
 
 #include "calibration/seenInWorld.h"
 

@@ -2,6 +2,7 @@
 #pragma once
 #include "base/core/Field.h"
 #include "base/core/Finding.h"
+#include "base/core/MountedLidar.h"
 #include "calibration/GroundPlane.h"
 
 #include <optional>
@@ -36,6 +37,6 @@ struct GeometryLimits
 /** "27 % of the points within 12 m are on a plane 2.51 m from the sensor, its normal ": its angle follows. */
 std::string groundInWords(const GroundPlane&);
 
-/** About `lidar`, whose pose in the body is known. */
-Finding groundFinding(const std::string& lidar, const std::optional<GroundPlane>&, const GeometryLimits&);
+/** About a lidar whose pose in the body is known. */
+Finding groundFinding(const MountedLidar&, const std::optional<GroundPlane>&, const GeometryLimits&);
 }  // namespace scanloom

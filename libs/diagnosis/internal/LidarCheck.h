@@ -2,8 +2,9 @@
 #include "base/core/Keyframe.h"
 #include "base/core/MountedLidar.h"
 #include "calibration/GroundPlane.h"
-#include "calibration/PoseFinding.h"
+#include "diagnosis/internal/PoseFinding.h"
 
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,6 @@ class LidarCheck
   std::vector<SeenPoints> seenAround(std::size_t lidar, bool with_itself) const;
 
   std::vector<MountedLidar> lidars_;
-  std::vector<Seen> keyframes_;
+  std::vector<std::shared_ptr<const Seen>> keyframes_;  // a copy of the check shares them
 };
 }  // namespace scanloom

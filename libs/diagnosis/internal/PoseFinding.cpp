@@ -1,4 +1,4 @@
-#include "calibration/PoseFinding.h"
+#include "diagnosis/internal/PoseFinding.h"
 
 #include "base/core/Angle.h"
 
@@ -12,6 +12,7 @@ namespace
 {
 constexpr double kLargestOffset = 1, kLargestTurn = 15;  // m, deg: what registration with cells of 2 m can correct
 constexpr double kDeviations = 4;                        // by 200 good drives of 5 to 20 s, some with three turns
+constexpr double kLeastSigma = 0.02;                     // of near_share: the scatter of a few turns tells little
 constexpr std::size_t kFewestPlaces = 3;                 // one may have a pose that the drive's beginning left wrong
 constexpr const char* kMeasureAgain =
     "measure both poses again: x y z in m, yaw pitch roll in deg, of the sensor frame in the body; see that each lidar "
@@ -26,7 +27,10 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
   const CloudAgreement& a = *agreement;
   finding.says = fmt::format("{:.0f} % (+-{:.0f}) of {} common points agree with '{}'", 100 * a.near_share,
                              100 * a.near_sigma, a.common, other);
-  finding.verdict = a.near_share < limits.near_share_warning ? Verdict::Warning : Verdict::Ok;
+  const double at_best = a.near_share + kDeviations * std::max(a.near_sigma, kLeastSigma);
+  finding.verdict = at_best < limits.near_share_warning        ? Verdict::NotFit
+                    : a.near_share < limits.near_share_warning ? Verdict::Warning
+                                                               : Verdict::Ok;
   if (finding.verdict != Verdict::Ok) finding.mend = kMeasureAgain;
   if (!a.correction)
   {
