@@ -121,8 +121,8 @@ RecordedSensors addCaptures(const RecordingFiles& files, Configuration& configur
     return sensors;
   }
   RecognisedRig rig = recogniseRig(files);
-  for (const std::string& line : rig.found) fmt::print(stderr, "{}\n", line);
-  for (const std::string& note : rig.notes) warn(note);
+  for (const std::string& line : rig.found) fmt::print(stderr, "{}\n", printable(line));
+  for (const std::string& note : rig.notes) warn(printable(note));
   if (poses == Poses::TakenAsZero)
     for (const std::string& key : rig.unknown_poses) rig.ini += fmt::format("{} = [0 0 0 0 0 0]\n", key);
   configuration.addDefaults(Configuration::fromText(rig.ini, "recognised"));

@@ -4,6 +4,7 @@
 #include "base/config/Names.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
+#include "base/core/printable.h"
 #include "diagnosis/DoctorFindings.h"
 #include "diagnosis/Listening.h"
 #include "input/rig/RecognisedRig.h"
@@ -84,7 +85,7 @@ int printRigOf(const std::vector<std::filesystem::path>& recording)
   if (files.captures.empty())
     throw UsageError(fmt::format("{}: only captures need a configuration of their lidars", recording.front().string()));
   const RecognisedRig rig = recogniseRig(files, folderOfOutput());
-  for (const std::string& note : rig.notes) warn(note);
+  for (const std::string& note : rig.notes) warn(printable(note));
   catchInterruption();
   std::cout << rig.ini << cropSectionOf(files);
   return kDone;

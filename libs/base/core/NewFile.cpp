@@ -11,7 +11,8 @@ namespace scanloom
 {
 bool isTaken(const std::filesystem::path& path)
 {
-  return std::filesystem::exists(std::filesystem::symlink_status(path));
+  std::error_code ignored;  // a text too long for a name is no name
+  return std::filesystem::exists(std::filesystem::symlink_status(path, ignored));
 }
 
 std::filesystem::path freeName(const std::function<std::filesystem::path(int)>& numbered)

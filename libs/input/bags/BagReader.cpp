@@ -1,5 +1,6 @@
 #include "input/bags/BagReader.h"
 
+#include "base/core/printable.h"
 #include "base/formats/CompressedFile.h"
 #include "base/formats/FileFormat.h"
 #include "input/bags/internal/McapBag.h"
@@ -126,5 +127,10 @@ std::string typeNameOf(const std::string& type)
   constexpr std::string_view kMiddle = "/msg/";
   const std::size_t middle = type.find(kMiddle);
   return middle == std::string::npos ? type : type.substr(0, middle) + "/" + type.substr(middle + kMiddle.size());
+}
+
+BagTopic declaredTopic(const std::string& name, const std::string& type, Serialisation serialisation)
+{
+  return {printable(name), typeNameOf(printable(type)), serialisation};
 }
 }  // namespace scanloom

@@ -71,4 +71,7 @@ Timestamp bagStamp(std::uint64_t);
 
 /** "sensor_msgs/msg/Imu" as "sensor_msgs/Imu". */
 std::string typeNameOf(const std::string& type);
+
+/** A topic as its container declares it. Its names become printable: they end in messages, JSON and configurations. */
+BagTopic declaredTopic(const std::string& name, const std::string& type, Serialisation);
 }  // namespace scanloom

@@ -1,6 +1,7 @@
 #include "input/rawlogs/RawlogObservations.h"
 
 #include "base/config/MrptMessage.h"
+#include "base/core/printable.h"
 
 #include <fmt/format.h>
 
@@ -26,6 +27,7 @@ mrpt::obs::CObservation::Ptr RawlogObservations::next()
   if (waiting_.empty()) return nullptr;
   auto observation = waiting_.front();
   waiting_.pop_front();
+  observation->sensorLabel = printable(observation->sensorLabel);  // it ends in messages and JSON
   return observation;
 }
 

@@ -1,6 +1,8 @@
 #include "input/rig/RecognisedRig.h"
 
+#include "base/config/iniValue.h"
 #include "base/core/ConfigError.h"
+#include "base/core/NewFile.h"
 #include "base/core/printable.h"
 #include "input/rig/Extrinsics.h"
 #include "input/rig/RigOptions.h"
@@ -65,11 +67,11 @@ std::string nameOf(const FoundLidar& lidar, const std::vector<FoundLidar>& lidar
 std::vector<std::string> namesOf(const std::vector<FoundLidar>& lidars)
 {
   std::map<std::string, int> uses;
-  for (const FoundLidar& lidar : lidars) ++uses[nameOf(lidar, lidars)];
+  for (const FoundLidar& lidar : lidars) ++uses[printable(nameOf(lidar, lidars))];
   std::vector<std::string> names;
   for (const FoundLidar& lidar : lidars)
   {
-    const std::string name = nameOf(lidar, lidars);
+    const std::string name = printable(nameOf(lidar, lidars));
     names.push_back(!name.empty() && uses[name] == 1 ? name : fmt::format("lidar{}", names.size() + 1));
   }
   return names;
@@ -95,18 +97,25 @@ class Ini
 {
  public:
   explicit Ini(const std::filesystem::path& folder) : folder_(std::filesystem::absolute(folder).lexically_normal()) {}
-  void comment(const std::string& text) { text_ += fmt::format("// {}\n", text); }
-  void set(const std::string& key, const std::string& value) { text_ += fmt::format("{:<16} = {}\n", key, value); }
+  /** The blank behind a `\` keeps it from joining the next line. */
+  void comment(const std::string& text)
+  {
+    text_ += fmt::format("// {}{}\n", text, text.empty() || text.back() != '\\' ? "" : " ");
+  }
+  void set(const std::string& key, const std::string& value)
+  {
+    text_ += fmt::format("{:<16} = {}\n", key, iniValue(value));
+  }
   void leave(const std::string& key, const std::string& value, const std::string& why)
   {
-    text_ += fmt::format("// FILL IN: {}\n//{:<14} = {}\n", why, key, value);
+    text_ += fmt::format("// FILL IN: {}\n//{:<14} = {}\n", why, key, iniValue(value));
   }
   std::string text() const { return text_; }
 
   /** A file as it is named from the INI's folder; what is no file, as a model or a topic, stays as it is. */
   std::string from(const std::filesystem::path& file) const
   {
-    if (file.is_absolute() || !std::filesystem::exists(file)) return file.string();
+    if (file.is_absolute() || !isTaken(file)) return file.string();
     return std::filesystem::absolute(file).lexically_proximate(folder_).string();
   }
   std::string from(const Paths& files) const

@@ -1,5 +1,6 @@
 #include "input/rig/RigOptions.h"
 
+#include "base/core/NewFile.h"
 #include "input/lidar/BuiltInModels.h"
 
 #include <fmt/format.h>
@@ -51,7 +52,7 @@ std::string metadataPathFrom(const std::string& file_or_model, const std::filesy
 {
   if (topicNamedBy(file_or_model)) return file_or_model;
   std::string path = pathFrom(file_or_model, folder);
-  return builtInMetadata(file_or_model) && !std::filesystem::exists(path) ? file_or_model : path;
+  return builtInMetadata(file_or_model) && !isTaken(path) ? file_or_model : path;
 }
 
 Schema rigSchema(const std::string& section)

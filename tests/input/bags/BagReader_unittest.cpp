@@ -59,6 +59,22 @@ TEST_P(Bags, knowTheirTopicsBeforeTheFirstMessage)
   EXPECT_THAT(topics, testing::IsSupersetOf({"/a std_msgs/String", "/b sensor_msgs/Imu"}));
 }
 
+TEST(BagNames, areNoControlCharactersAndNoLines)
+{
+  const TemporaryFolder folder;
+  const std::vector<HandmadeMessage> messages{{"/\x1b[31ma\nb\xff", "std_msgs/\x1b[2JString", 1, "data"}};
+  writeFile(folder / "ros1", ros1Of(messages));
+  writeFile(folder / "mcap", mcapOf(messages));
+  writeDb3(folder / "db3", messages);
+  for (const char* bag : {"ros1", "mcap", "db3"})
+  {
+    const std::vector<BagTopic> topics = topicsOf({folder / bag});
+    ASSERT_EQ(topics.size(), 1u) << bag;
+    EXPECT_EQ(topics.front().name, "/?[31ma?b?") << bag;
+    EXPECT_EQ(topics.front().type, "std_msgs/?[2JString") << bag;
+  }
+}
+
 TEST_P(Bags, ofAFolderAreOne)
 {
   const TemporaryFolder folder;

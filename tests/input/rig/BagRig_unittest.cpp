@@ -218,6 +218,23 @@ TEST(BagRig, ofACapturesPacketsGivesTheSameScansAsTheCapture)
   }
 }
 
+TEST(BagRig, aTopicIsNoKeyAndNoFormulaOfTheConfiguration)
+{
+  const TemporaryFolder folder;
+  const auto recognised = [&](const std::string& prefix)
+  {
+    std::vector<HandmadeMessage> messages = driveOfTwoLidars();
+    for (HandmadeMessage& message : messages)
+      if (message.topic != "/tf_static") message.topic = prefix + message.topic;
+    writeFile(folder / "drive.bag", ros1Of(messages));
+    return recogniseRig(filesOf({folder / "drive.bag"}));
+  };
+  EXPECT_THROW(recognised("/$eval{1+1}"), std::invalid_argument);
+  EXPECT_THROW(recognised("/$env{HOME}"), std::invalid_argument);
+  EXPECT_THAT(recognised("/a\nimu_csv = /etc/passwd\n").ini, testing::Not(HasSubstr("\nimu_csv")));
+  EXPECT_EQ(scansOf(rigOf(recognised("/" + std::string(5000, 'a')))).size(), scansOf(rigOf(recognised(""))).size());
+}
+
 TEST(BagRig, thatNamesAnUnknownTopicIsToldThoseThereAre)
 {
   const TemporaryFolder folder;

@@ -496,6 +496,16 @@ TEST_F(Rawlog, readsOnBehindACommentWithoutALabel)
   EXPECT_EQ(rawlogInfo(path_).observations(), 3u);
 }
 
+TEST_F(Rawlog, aLabelHasNoControlCharacters)
+{
+  mrpt::obs::CObservationRange range;
+  range.maxSensorDistance = 5;
+  range.sensorLabel = "\x1b[31ma\nb\xff";
+  overwrite(serialised(path_, {&range}));
+  ASSERT_EQ(rawlogInfo(path_).sensors.size(), 1u);
+  EXPECT_EQ(rawlogInfo(path_).sensors.front().label, "?[31ma?b?");
+}
+
 /** Values are copied into arrays of as many as there are points. */
 TEST_F(Rawlog, aFieldOfMoreOrFewerValuesThanPointsIsADamage)
 {

@@ -44,18 +44,17 @@ class McapTopics
   {
     MessageReader fields = fieldsOf(record);
     const auto id = fields.number<std::uint16_t>();
-    types_[id] = typeNameOf(fields.string());
+    types_[id] = fields.string();
   }
 
   void addChannel(Bytes record)
   {
     MessageReader fields = fieldsOf(record);
     const auto id = fields.number<std::uint16_t>(), schema = fields.number<std::uint16_t>();
-    BagTopic topic;
-    topic.name = fields.string();
-    topic.serialisation = serialisationNamed(fields.string());
-    if (const auto type = types_.find(schema); type != types_.end()) topic.type = type->second;
-    places_[id] = topics_.placeOf(topic);
+    const std::string name = fields.string(), serialisation = fields.string();
+    const auto type = types_.find(schema);
+    places_[id] = topics_.placeOf(
+        declaredTopic(name, type == types_.end() ? "" : type->second, serialisationNamed(serialisation)));
   }
 
   /** Of a channel that was not declared, none. */

@@ -28,7 +28,7 @@ BagTopic topicOf(const RawlogMeasurement& measurement)
 {
   const bool is_turn = std::holds_alternative<VelodyneTurn>(measurement.value);
   const std::string name = measurement.label.empty() ? (is_turn ? "lidar" : "imu") : measurement.label;
-  return {name, is_turn ? "velodyne_msgs/VelodyneScan" : "sensor_msgs/Imu", Serialisation::Cdr};
+  return declaredTopic(name, is_turn ? "velodyne_msgs/VelodyneScan" : "sensor_msgs/Imu", Serialisation::Cdr);
 }
 
 bool isSame(const BagTopic& a, const BagTopic& b) { return a.name == b.name && a.type == b.type; }

@@ -71,8 +71,8 @@ class Ros1Topics
   /** The connection's own header is the record's data. */
   void addConnection(const Ros1Header& record, Bytes data)
   {
-    const BagTopic topic{record.text("topic"), typeNameOf(Ros1Header(data).text("type")), Serialisation::Ros1};
-    places_[record.number<std::uint32_t>("conn")] = topics_.placeOf(topic);
+    places_[record.number<std::uint32_t>("conn")] =
+        topics_.placeOf(declaredTopic(record.text("topic"), Ros1Header(data).text("type"), Serialisation::Ros1));
   }
 
   /** Of a connection that was not declared, none. */

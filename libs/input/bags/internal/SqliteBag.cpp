@@ -91,7 +91,7 @@ class SqliteBag : public BagReader
       const bool is_cdr = format == "cdr" || format.empty();  // converters leave it out
       const Serialisation serialisation = is_cdr ? Serialisation::Cdr : Serialisation::Unknown;
       if (places_.emplace(sqlite3_column_int64(rows.get(), 0), topics_.size()).second)
-        topics_.push_back({textOf(rows.get(), 1), typeNameOf(textOf(rows.get(), 2)), serialisation});
+        topics_.push_back(declaredTopic(textOf(rows.get(), 1), textOf(rows.get(), 2), serialisation));
     }
     if (status != SQLITE_DONE)
       warnings_.push_back(fmt::format("{}: its list of topics is damaged ({})", path_.string(), database_.error()));
