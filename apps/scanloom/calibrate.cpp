@@ -7,6 +7,7 @@
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
 #include "base/core/ResultFolder.h"
+#include "base/core/jsonText.h"
 #include "calibration/ImuMountReport.h"
 #include "calibration/MountReport.h"
 #include "calibration/StaticMount.h"
@@ -121,7 +122,7 @@ void writeFiles(const CalibrateArguments& arguments, const Calibration& calibrat
   const auto write = [&](const char* name, const std::string& text)
   { writeAtomically(folder.running() / name, [&](std::ostream& file) { file << text; }); };
   if (!configuration.empty()) write("configuration.ini", configuration);
-  write("calibration.json", toJson(calibration).dump(2) + "\n");
+  write("calibration.json", jsonText(toJson(calibration)) + "\n");
   for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
     if (!scenes[i].empty())
       drawMount(folder.running() / pictureOf(calibration.lidars[i]), scenes[i],
@@ -147,7 +148,7 @@ int runStatic(const CalibrateArguments& arguments)
       scenes[i] = {staticScene(clouds.points[calibration.reference], clouds.points[i],
                                calibration.mounts[i].mount.body_T_sensor)};
   writeFiles(arguments, calibration, scenes, {});
-  std::cout << (arguments.json ? toJson(calibration).dump(2) + "\n" : lidarsInWords(calibration, nullptr));
+  std::cout << (arguments.json ? jsonText(toJson(calibration)) + "\n" : lidarsInWords(calibration, nullptr));
   return trusted(calibration) ? kDone : kQualityGate;
 }
 
@@ -211,7 +212,7 @@ int runDrive(const CalibrateArguments& arguments)
   const std::optional<GyroAgreement>& inside = drive.run.summary.imu;
   if (calibration.imu) words += inWords(*calibration.imu);
   if (!calibration.imu && inside) words += imuInWords(*inside);
-  std::cout << (arguments.json ? toJson(calibration).dump(2) + "\n" : words);
+  std::cout << (arguments.json ? jsonText(toJson(calibration)) + "\n" : words);
   return trusted(calibration) && (calibration.imu || imuFits(inside)) ? kDone : kQualityGate;
 }
 

@@ -5,9 +5,9 @@
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
 #include "base/core/Progress.h"
+#include "base/core/jsonText.h"
 #include "mrpt/edit/EditOperations.h"
 #include "mrpt/edit/StagedOutputs.h"
-#include "mrpt/observations/jsonText.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

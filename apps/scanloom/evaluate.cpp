@@ -2,6 +2,7 @@
 #include "Arguments.h"
 #include "Verb.h"
 #include "base/core/AtomicFile.h"
+#include "base/core/jsonText.h"
 #include "base/formats/TrajectoryReader.h"
 #include "input/bags/BagContents.h"
 #include "input/rig/Extrinsics.h"
@@ -79,7 +80,7 @@ template <typename Result>
 void print(const Result& result, bool json)
 {
   if (json)
-    std::cout << toJson(result).dump(2) << '\n';
+    std::cout << jsonText(toJson(result)) << '\n';
   else
     std::cout << toText(result);
 }

@@ -8,6 +8,7 @@
 #include "base/core/AtomicFile.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
+#include "base/core/jsonText.h"
 #include "input/rig/InputDisplay.h"
 #include "input/rig/silentLidars.h"
 #include "mrpt/observations/RawlogWriter.h"
@@ -131,7 +132,7 @@ void report(const RecordArguments& arguments, const Recorded& recorded, const Ri
                                    {"imu_samples", recorded.imu_samples},
                                    {"marks", recorded.marks},
                                    {"counts", counts}};
-    std::cout << result.dump(2) << '\n';
+    std::cout << jsonText(result) << '\n';
     return;
   }
   fmt::print("{} scans and {} IMU samples in {}\n", recorded.scans, recorded.imu_samples, rawlog.string());

@@ -1,6 +1,6 @@
 #include "diagnosis/DoctorJson.h"
 
-#include "mrpt/observations/jsonText.h"
+#include "base/core/jsonText.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 #include "diagnosis/RawlogCheck.h"
 
 #include "base/core/Statistics.h"
+#include "base/core/jsonText.h"
 #include "diagnosis/DoctorFindings.h"
 #include "diagnosis/DoctorJson.h"
 #include "diagnosis/ScanEvidence.h"
@@ -11,7 +12,6 @@
 #include "mrpt/observations/Observations.h"
 #include "mrpt/observations/RawlogInput.h"
 #include "mrpt/observations/RawlogReader.h"
-#include "mrpt/observations/jsonText.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

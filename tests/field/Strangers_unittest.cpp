@@ -122,6 +122,18 @@ TEST_F(Strangers, captureWithTimesOfReceptionAThousandTimesTooFast)
   expectRight("fast", "1000 times as fast");
 }
 
+TEST_F(Strangers, folderWithANameOfLatin1)
+{
+  altered(
+      "Tr\xe4"
+      "ger",
+      "extrinsics.txt", [](const std::string& same) { return same; });
+  expectRight(
+      "Tr\xe4"
+      "ger",
+      "OK");
+}
+
 TEST_F(Strangers, captureOfMicrosecondsThatHoldsNanoseconds)
 {
   altered("nanoseconds", "recording.pcap",

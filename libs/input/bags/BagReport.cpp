@@ -1,3 +1,4 @@
+#include "base/core/jsonText.h"
 #include "base/core/printable.h"
 #include "input/bags/BagContents.h"
 
@@ -16,8 +17,8 @@ std::string toText(const BagContents& contents)
   {
     const double span = seconds(topic.last - topic.first);
     const double rate = span > 0 ? static_cast<double>(topic.messages - 1) / span : 0;
-    text += fmt::format("{:<44} {:<32} {:>9} {:>9.3f} {:>9.2f}  {} {}\n", printable(topic.name), printable(topic.type),
-                        topic.messages, span, rate, printable(topic.frame), printable(topic.note));
+    text += fmt::format("{:<44} {:<32} {:>9} {:>9.3f} {:>9.2f}  {} {}\n", topic.name, topic.type, topic.messages, span,
+                        rate, printable(topic.frame), printable(topic.note));
   }
   for (const auto& [topic, metadata] : contents.metadata)
     text += fmt::format("metadata of a lidar: {}\n", printable(topic));
@@ -31,8 +32,8 @@ std::string toJson(const BagContents& contents)
 {
   nlohmann::json topics = nlohmann::json::array();
   for (const TopicContents& topic : contents.topics)
-    topics.push_back({{"name", printable(topic.name)},
-                      {"type", printable(topic.type)},
+    topics.push_back({{"name", topic.name},
+                      {"type", topic.type},
                       {"messages", topic.messages},
                       {"first", nanoseconds(topic.first)},
                       {"last", nanoseconds(topic.last)},
@@ -41,6 +42,6 @@ std::string toJson(const BagContents& contents)
   for (const auto& [topic, text] : contents.metadata) metadata.push_back(printable(topic));
   const nlohmann::json result = {
       {"topics", topics}, {"metadata", metadata}, {"unreadable", contents.unreadable}, {"damages", contents.warnings}};
-  return result.dump(2) + "\n";
+  return jsonText(result) + "\n";
 }
 }  // namespace scanloom

@@ -1,5 +1,7 @@
 #include "input/packets/CaptureReport.h"
 
+#include "base/core/jsonText.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -48,7 +50,7 @@ std::string toJson(const CaptureInfo& info)
     result["lidars"].push_back(std::move(decoded));
   }
   if (info.lidars.size() == 1 && !info.lidars.front().digests.empty()) result["scans"] = info.lidars.front().digests;
-  return result.dump(2) + '\n';
+  return jsonText(result) + '\n';
 }
 
 std::string toText(const CaptureInfo& info)

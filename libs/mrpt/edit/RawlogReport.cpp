@@ -1,7 +1,7 @@
 #include "mrpt/edit/RawlogReport.h"
 
+#include "base/core/jsonText.h"
 #include "mrpt/observations/RecordingHeaderJson.h"
-#include "mrpt/observations/jsonText.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

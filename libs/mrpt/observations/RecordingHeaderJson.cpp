@@ -1,5 +1,6 @@
 #include "mrpt/observations/RecordingHeaderJson.h"
 
+#include "base/core/jsonText.h"
 #include "base/core/printable.h"
 #include "input/batching/Scan.h"
 
@@ -76,7 +77,7 @@ std::string toJson(const RecordingHeader& header)
                   {"scan_rate", header.scan_rate},
                   {"lidars", lidars}};
   if (header.recorded_rate > 0) content[kRecordedRate] = header.recorded_rate;
-  return json{{"scanloom", content}}.dump(1);
+  return jsonText({{"scanloom", content}}, 1);
 }
 
 std::string withScanRate(const std::string& header, double scan_rate)
@@ -89,7 +90,7 @@ std::string withScanRate(const std::string& header, double scan_rate)
     content.erase(kRecordedRate);
   else
     content[kRecordedRate] = recorded;
-  return document.dump(1);
+  return jsonText(document, 1);
 }
 
 std::optional<RecordingHeader> recordingHeaderFromJson(const std::string& text)

@@ -2,6 +2,7 @@
 
 #include "base/core/AtomicFile.h"
 #include "base/core/Interruption.h"
+#include "base/core/jsonText.h"
 #include "base/formats/Trajectory.h"
 #include "lab/evaluation/Evaluation.h"
 #include "lab/study/RunReference.h"
@@ -173,7 +174,7 @@ RunRecord execute(RunRecord record, const ExperimentFolder& folder, const DriveF
     record.error = e.what();
   }
   if (interrupted()) return record;
-  writeAtomically(out / kRecord, [&](std::ostream& file) { file << nlohmann::json(record).dump(2) << '\n'; });
+  writeAtomically(out / kRecord, [&](std::ostream& file) { file << jsonText(record) << '\n'; });
   return record;
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/config/Names.h"
 #include "base/core/AtomicFile.h"
+#include "base/core/jsonText.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -54,7 +55,7 @@ void writeStudy(const std::filesystem::path& folder, const Study& study)
 {
   writeAtomically(folder / "results.csv", [&](std::ostream& file) { writeCsv(file, study.records); });
   const nlohmann::json json{{"command", study.command}, {"machine", study.machine}, {"runs", study.records}};
-  writeAtomically(folder / "results.json", [&](std::ostream& file) { file << json.dump(1) << '\n'; });
+  writeAtomically(folder / "results.json", [&](std::ostream& file) { file << jsonText(json, 1) << '\n'; });
 }
 
 Study readStudy(const std::filesystem::path& folder)

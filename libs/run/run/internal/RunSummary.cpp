@@ -1,6 +1,7 @@
 #include "run/run/internal/RunSummary.h"
 
 #include "base/core/AtomicFile.h"
+#include "base/core/jsonText.h"
 
 #include <sys/resource.h>
 #include <nlohmann/json.hpp>
@@ -64,6 +65,6 @@ void to_json(nlohmann::json& json, const RunSummary& run)
 
 void writeSummary(const std::filesystem::path& path, const RunSummary& run)
 {
-  writeAtomically(path, [&](std::ostream& file) { file << nlohmann::json(run).dump(2) << '\n'; });
+  writeAtomically(path, [&](std::ostream& file) { file << jsonText(run) << '\n'; });
 }
 }  // namespace scanloom
