@@ -1,5 +1,7 @@
 #include "base/core/fileNameOf.h"
 
+#include "base/core/Digest.h"
+
 #include <fmt/format.h>
 
 namespace scanloom
@@ -15,6 +17,9 @@ std::string fileNameOf(const std::string& label)
     const bool safe = byte >= kSpace && byte != kDelete && c != '/' && c != '\\' && c != '%' && !hides;
     name += safe ? std::string(1, c) : fmt::format("%{:02X}", byte);
   }
-  return name;
+  constexpr std::size_t kMost = 150;  // file systems have 255 bytes for a name, and more follows
+  return name.size() <= kMost
+             ? name
+             : name.substr(0, kMost) + "%" + md5({reinterpret_cast<const std::uint8_t*>(label.data()), label.size()});
 }
 }  // namespace scanloom

@@ -17,4 +17,11 @@ TEST(FileNameOf, leavesNoWayOutOfTheFolder)
   EXPECT_EQ(fileNameOf("a\x1b[2J\n"), "a%1B[2J%0A");
   EXPECT_NE(fileNameOf("%2F"), fileNameOf("/"));
 }
+
+TEST(FileNameOf, isShortEnoughForAFileSystem)
+{
+  const std::string label(5000, 'a');
+  EXPECT_LT(fileNameOf(label).size(), 200u);
+  EXPECT_NE(fileNameOf(label), fileNameOf(label + "b"));
+}
 }  // namespace scanloom::file_name_of_unittest

@@ -1,6 +1,6 @@
 #include "lab/study/internal/RunRecord.h"
 
-#include "base/core/printable.h"
+#include "base/core/csvField.h"
 #include "lab/study/internal/RunHash.h"
 
 #include <fmt/format.h>
@@ -91,16 +91,6 @@ RunCosts costsFrom(const Json& json)
   return c;
 }
 
-/** RFC 4180. */
-std::string cell(const std::string& from_data)
-{
-  const std::string text = notAFormula(from_data);
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
 std::string cell(double value, int decimals) { return fmt::format("{:.{}f}", value, decimals); }
 std::string cell(const std::optional<double>& value, int decimals) { return value ? cell(*value, decimals) : ""; }
 std::string cell(std::size_t count, int) { return std::to_string(count); }
@@ -123,9 +113,9 @@ std::vector<std::string> headerOf(const std::vector<RunRecord>& records, const s
 std::vector<std::string> rowOf(const RunRecord& record, const std::set<std::string>& stages)
 {
   const PlannedRun& run = record.run;
-  std::vector<std::string> row{record.version, record.configuration_hash, cell(run.stand), cell(run.lidars),
+  std::vector<std::string> row{record.version, record.configuration_hash, csvField(run.stand), csvField(run.lidars),
                                std::to_string(run.every_nth)};
-  for (const auto& [name, value] : run.settings) row.push_back(cell(value));
+  for (const auto& [name, value] : run.settings) row.push_back(csvField(value));
   row.push_back(run.seed > 0 ? std::to_string(run.seed) : "");
   row.push_back(record.outcome);
   row.push_back(record.lost() ? "1" : "0");
@@ -140,8 +130,8 @@ std::vector<std::string> rowOf(const RunRecord& record, const std::set<std::stri
     row.push_back(found == costs.stage_ms.end() ? "" : cell(found->second, 3));
   }
   row.push_back(cell(record.ok_percent, 1));
-  row.push_back(cell(record.reference));
-  row.push_back(cell(record.error));
+  row.push_back(csvField(record.reference));
+  row.push_back(csvField(record.error));
   return row;
 }
 }  // namespace

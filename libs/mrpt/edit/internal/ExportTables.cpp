@@ -2,6 +2,7 @@
 
 #include "base/core/AtomicFile.h"
 #include "base/core/OutputFile.h"
+#include "base/core/csvField.h"
 #include "base/core/fileNameOf.h"
 #include "base/formats/ImuCsv.h"
 #include "base/formats/Trajectory.h"
@@ -58,7 +59,7 @@ class CsvExport
       imus_.try_emplace(recorded->label, folder_ / (fileNameOf(recorded->label) + ".csv"))
           .first->second.add(recorded->sample);
     if (const auto cloud = cloudIn(observation))
-      fmt::print(clouds_.stream(), "{},{},{}\n", nanoseconds(fromMrpt(cloud->timestamp)), cloud->sensorLabel,
+      fmt::print(clouds_.stream(), "{},{},{}\n", nanoseconds(fromMrpt(cloud->timestamp)), csvField(cloud->sensorLabel),
                  cloud->pointcloud->size());
   }
 
