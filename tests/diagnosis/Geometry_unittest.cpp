@@ -1,4 +1,5 @@
 /** GroundPlane and SelfReturns in worlds of planes and stems. */
+#include "calibration/CloudAgreement.h"
 #include "calibration/seenInWorld.h"
 #include "diagnosis/SelfReturns.h"
 #include "estimation/imu/MeanForce.h"
