@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/imu/ImuInitialisation.h"
-#include "estimation/slam/internal/Window.h"
+#include "estimation/slam/internal/SmootherWindow.h"
 
 #include <cmath>
 

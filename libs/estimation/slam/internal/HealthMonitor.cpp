@@ -149,7 +149,7 @@ Continued HealthMonitor::begunAgainAt(const FoundBody& found, Continued scan, co
   covariance.diagonal().head<3>().array() += smear * smear;
   const NavEstimate start = foundAt(seen.map_T_local * found.registration.target_T_source, covariance,
                                     scan.body.window.newest(), seen.bias, imu);
-  Window window = begun(start, imu, seen.map_T_local, last_good.since_start);
+  SmootherWindow window = begun(start, imu, seen.map_T_local, last_good.since_start);
   const Rigid map_T_body = window.smoother.newestBody();
   const Matrix6d body_covariance = window.smoother.newestBodyCovariance();
   const Eigen::Vector3d velocity = window.smoother.newest().velocity;
@@ -167,7 +167,7 @@ Continued HealthMonitor::begunAgainAt(const FoundBody& found, Continued scan, co
  */
 Continued HealthMonitor::withoutMap(Continued scan, const TrackerState& before, const DeskewedScan& seen) const
 {
-  const Window& window = scan.body.window;
+  const SmootherWindow& window = scan.body.window;
   const Timestamp last = before.window.smoother.newest().stamp;
   const Eigen::Quaterniond map_R_body = window.smoother.newestBody().rotation;
   scan.begins_map = seen.in_a_row > 1;
@@ -204,15 +204,15 @@ BodyEstimate HealthMonitor::resting(const BodyEstimate& body, const Attitude& at
     covariance.diagonal().head<3>().array() += reach * reach;
     return covariance;
   };
-  Window window = begun(start, imu, body.window.map_T_local(), widened(before.last_good.since_start));
+  SmootherWindow window = begun(start, imu, body.window.map_T_local(), widened(before.last_good.since_start));
   const Matrix6d covariance = widened(window.smoother.newestBodyCovariance());
   return {std::move(window), map_T_body, covariance, Eigen::Vector3d::Zero()};
 }
 
-Window HealthMonitor::begun(const NavEstimate& newest, const MountedImu& imu, const Rigid& map_T_local,
-                            const Matrix6d& before) const
+SmootherWindow HealthMonitor::begun(const NavEstimate& newest, const MountedImu& imu, const Rigid& map_T_local,
+                                    const Matrix6d& before) const
 {
-  Window window = windowFrom(newest, imu, smoother_);
+  SmootherWindow window = windowFrom(newest, imu, smoother_);
   window.map_T_local_without_anchor = map_T_local;
   window.before = before;
   return window;

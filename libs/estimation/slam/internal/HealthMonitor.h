@@ -45,7 +45,7 @@ class HealthMonitor
   Continued begunAgainAt(const FoundBody&, Continued, const LastGood&) const;
   Continued withoutMap(Continued, const TrackerState& before, const DeskewedScan&) const;
   BodyEstimate resting(const BodyEstimate&, const Attitude&, const TrackerState& before, Duration rest) const;
-  Window begun(const NavEstimate&, const MountedImu&, const Rigid& map_T_local, const Matrix6d& before) const;
+  SmootherWindow begun(const NavEstimate&, const MountedImu&, const Rigid& map_T_local, const Matrix6d& before) const;
 
   TrackingOptions tracking_;
   TrustOptions trust_;

@@ -16,7 +16,7 @@ namespace scanloom
 namespace
 {
 /** Covariance of the pose relative to the first one: as the smoother knows it, and from before its window began. */
-Matrix6d errorSinceStart(const Rigid& map_T_body, const Window& window)
+Matrix6d errorSinceStart(const Rigid& map_T_body, const SmootherWindow& window)
 {
   const Matrix6d of_imu = window.smoother.newestCovariance().topLeftCorner<6, 6>();
   return movedTo(window.smoother.body_T_imu().inverse(), of_imu) + movedTo(map_T_body, window.before);
@@ -33,7 +33,8 @@ Matrix6d scaleError(const Rigid& map_T_body)
       fitted::kScaleError * fitted::kScaleError * (way * way.transpose() + up * up.transpose());
   return covariance;
 }
-Trajectory motionBetween(const Window& before, const Window& after, const std::vector<ImuSample>& samples)
+Trajectory motionBetween(const SmootherWindow& before, const SmootherWindow& after,
+                         const std::vector<ImuSample>& samples)
 {
   return posesBetween(before.smoother.newest(), after.smoother.newest(), samples,
                       after.smoother.body_T_imu().inverse());
@@ -61,7 +62,7 @@ TrackerState stateAfter(const DeskewedScan& seen, const Continued& scan, Updated
   state.relocalisation.forget();
   state.trust.contradiction.clear();
   state.trust.last_trusted = seen.stamp;
-  state.resting_since.reset();  // how far it may have moved since then stays in Window::before
+  state.resting_since.reset();  // how far it may have moved since then stays in SmootherWindow::before
   return state;
 }
 
@@ -125,10 +126,10 @@ TrackedScan Tracker::step(TrackerState before, Scan scan, const std::vector<ImuS
 }
 
 /** The newest state becomes the one at the end of the samples, as the IMU predicts it. */
-Prediction Tracker::predict(const Window& before, const std::vector<ImuSample>& samples) const
+Prediction Tracker::predict(const SmootherWindow& before, const std::vector<ImuSample>& samples) const
 {
   StageRuns times;
-  Window window = before;
+  SmootherWindow window = before;
   FixedLagSmoother& smoother = window.smoother;
   smoother.addState(
       times.measure("preintegration", [&] { return preintegrate(samples, smoother.newest().bias, smoother.noise()); }));
@@ -144,20 +145,20 @@ DeskewedScan Tracker::deskewToEnd(Scan scan, const TrackerState& before, const s
   const Timestamp end = scan.end();
   const bool complete = scan.complete();
   const auto period = static_cast<std::int32_t>(scan.period.count());
-  PointCloud cloud = times.measure(
-      "deskew",
-      [&]
-      {
-        const NavState& from = before.window.smoother.newest();
-        const Rigid imu_T_body = before.window.smoother.body_T_imu().inverse();
-        const Rigid end_T_map = (predictAt(from, samples, {end}).front().map_T_imu * imu_T_body).inverse();
-        std::vector<Rigid> end_T_column;
-        for (const Rigid& map_T_body : bodyAtColumns(scan, from, samples, imu_T_body))
-          end_T_column.push_back(end_T_map * map_T_body);
-        PointCloud moved = deskew(std::move(scan), end_T_column);
-        for (std::int32_t& t : moved.t) t -= period;  // it counts from the end now
-        return moved;
-      });
+  PointCloud cloud = times.measure("deskew",
+                                   [&]
+                                   {
+                                     const NavState& from = before.window.smoother.newest();
+                                     const Rigid imu_T_body = before.window.smoother.body_T_imu().inverse();
+                                     const Rigid end_T_map =
+                                         (predictAt(from, samples, {end}).front().map_T_imu * imu_T_body).inverse();
+                                     std::vector<Rigid> end_T_column;
+                                     for (const Rigid& map_T_body : bodyAtColumns(scan, from, samples, imu_T_body))
+                                       end_T_column.push_back(end_T_map * map_T_body);
+                                     PointCloud moved = deskew(std::move(scan), end_T_column);
+                                     for (std::int32_t& t : moved.t) t -= period;  // it counts from the end now
+                                     return moved;
+                                   });
   std::vector<View> views = times.measure("deskew", [&] { return viewsOf(cloud, body_T_lidar_, corrections_); });
   const int in_a_row = cloud.empty() ? 0 : before.scans_seen + 1;
   return {end, complete, std::move(cloud), std::move(views), in_a_row, times};
@@ -196,7 +197,7 @@ Measurement Tracker::weigh(const GatedRegistration& registered, const TrackerSta
     measured.contradiction.add(stamp, registered.surprise);
   const RegistrationResult& seen = *registered.result;
   const Rigid& local_T_body = seen.target_T_source;
-  Window& window = measured.window;
+  SmootherWindow& window = measured.window;
   const Rigid map_T_local = window.map_T_local();
   const Eigen::Vector3d up = upInBody(map_T_local * local_T_body);
   window.correlation.add(stamp, local_T_body.translation);
@@ -216,7 +217,7 @@ Measurement Tracker::weigh(const GatedRegistration& registered, const TrackerSta
 Timed<BodyEstimate> Tracker::smooth(const Measurement& measured, const Prediction& predicted) const
 {
   StageRuns times;
-  Window window = measured.window;
+  SmootherWindow window = measured.window;
   const NavState newest = times.measure("smoother", [&] { return window.smoother.optimise(); });
   const Rigid map_T_body = window.smoother.newestBody();
   const Matrix6d covariance = window.smoother.bodyCovarianceAfter(predicted.covariance);
@@ -267,10 +268,10 @@ KeyframePose Tracker::alignFinely(const UpdatedMap& map, const std::vector<View>
 
 TrackerState Tracker::changeImu(TrackerState state, const ImuChange& change) const
 {
-  const Window& before = state.window;
+  const SmootherWindow& before = state.window;
   const Rigid map_T_local = before.map_T_local();
   const NavEstimate start = continuedBy(change, before.newest(), before.smoother.body_T_imu());
-  Window window = windowFrom(start, change.imu, settings_.smoother);
+  SmootherWindow window = windowFrom(start, change.imu, settings_.smoother);
   window.map_T_local_without_anchor = before.map_T_local_without_anchor;
   window.correlation = before.correlation;
   window.before = before.before;

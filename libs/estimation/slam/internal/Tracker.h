@@ -35,7 +35,7 @@ class Tracker
   TrackerState changeImu(TrackerState, const ImuChange&) const;
 
  private:
-  Prediction predict(const Window&, const std::vector<ImuSample>&) const;
+  Prediction predict(const SmootherWindow&, const std::vector<ImuSample>&) const;
   DeskewedScan deskewToEnd(Scan, const TrackerState&, const std::vector<ImuSample>&) const;
   GatedRegistration registerToMap(const TrackerState&, const DeskewedScan&, const Prediction&) const;
   Timed<RegistrationResult> registerScan(const TrackerState&, const std::vector<View>&, const PoseGuess&) const;

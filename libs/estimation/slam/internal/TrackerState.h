@@ -4,7 +4,7 @@
 #include "estimation/slam/internal/LocalMap.h"
 #include "estimation/slam/internal/Relocalisation.h"
 #include "estimation/slam/internal/SharedAttitudeNoise.h"
-#include "estimation/slam/internal/Window.h"
+#include "estimation/slam/internal/SmootherWindow.h"
 
 #include <optional>
 
@@ -15,12 +15,12 @@ struct LastGood
 {
   Timestamp stamp;
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, in the map
-  Matrix6d since_start = Matrix6d::Zero();             // as Window::before; without scaleError()
+  Matrix6d since_start = Matrix6d::Zero();             // as SmootherWindow::before; without scaleError()
 };
 
 struct TrackerState
 {
-  Window window;
+  SmootherWindow window;
   LocalMap local_map;  // rigid, in a frame of its own
   TrustHistory trust{};
   Relocalisation relocalisation{};

@@ -7,7 +7,7 @@
 #include "estimation/slam/internal/InnovationMonitor.h"
 #include "estimation/slam/internal/LocalMap.h"
 #include "estimation/slam/internal/SharedAttitudeNoise.h"
-#include "estimation/slam/internal/Window.h"
+#include "estimation/slam/internal/SmootherWindow.h"
 
 #include <optional>
 #include <vector>
@@ -23,7 +23,7 @@ inline Eigen::Vector3d upInBody(const Rigid& map_T_body)
 /** The state at the scan's end by the IMU alone. */
 struct Prediction
 {
-  Window window;  // its newest state is the one at the scan's end
+  SmootherWindow window;  // its newest state is the one at the scan's end
   Rigid map_T_body;
   Matrix6d covariance;  // see FixedLagSmoother::newestBodyCovariance()
   StageRuns times;
@@ -51,7 +51,7 @@ struct GatedRegistration
 /** The registration as the smoother takes it, and what the next ones are weighed by. */
 struct Measurement
 {
-  Window window;
+  SmootherWindow window;
   SharedAttitudeNoise shared_noise;
   InnovationMonitor contradiction;
 };
@@ -59,7 +59,7 @@ struct Measurement
 /** The body at the scan's end. */
 struct BodyEstimate
 {
-  Window window;  // with it as the newest state
+  SmootherWindow window;  // with it as the newest state
   Rigid map_T_body;
   Matrix6d covariance = Matrix6d::Zero();              // see StateEstimate
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the IMU, in the map frame
@@ -68,7 +68,7 @@ struct BodyEstimate
 struct UpdatedMap
 {
   LocalMap local_map;
-  Window window;                     // its anchor, as a new keyframe moves the map
+  SmootherWindow window;             // its anchor, as a new keyframe moves the map
   std::optional<Keyframe> keyframe;  // the one that was added
   bool restarted = false;            // the map begins with it
   StageRuns times;

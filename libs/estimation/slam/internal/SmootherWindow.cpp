@@ -1,21 +1,21 @@
-#include "estimation/slam/internal/Window.h"
+#include "estimation/slam/internal/SmootherWindow.h"
 
 #include "base/core/Decompositions.h"
 
 namespace scanloom
 {
-Rigid Window::map_T_local() const
+Rigid SmootherWindow::map_T_local() const
 {
   return smoother.hasAnchor() ? smoother.anchorBody() * local_T_anchor.inverse() : map_T_local_without_anchor;
 }
 
-void Window::anchorAt(const Rigid& local_T_body)
+void SmootherWindow::anchorAt(const Rigid& local_T_body)
 {
   smoother.anchorNewest();
   local_T_anchor = local_T_body;
 }
 
-Window windowFrom(const NavEstimate& start, const MountedImu& imu, const SmootherOptions& options)
+SmootherWindow windowFrom(const NavEstimate& start, const MountedImu& imu, const SmootherOptions& options)
 {
   // Rounding can cost a covariance its positive eigenvalues where it spans kilometres and millimetres.
   const Matrix15d covariance = isPositiveDefinite(start.covariance)

@@ -6,7 +6,7 @@
 
 namespace scanloom
 {
-struct Window
+struct SmootherWindow
 {
   FixedLagSmoother smoother;
   Rigid map_T_local_without_anchor{};    // until a keyframe is the anchor
@@ -24,5 +24,5 @@ struct Window
   void anchorAt(const Rigid& local_T_body);
 };
 
-Window windowFrom(const NavEstimate& start, const MountedImu&, const SmootherOptions&);
+SmootherWindow windowFrom(const NavEstimate& start, const MountedImu&, const SmootherOptions&);
 }  // namespace scanloom
