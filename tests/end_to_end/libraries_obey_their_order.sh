@@ -82,6 +82,6 @@ for library in base/core input/lidar input/batching input/packets input/bags inp
   ! grep -rn '# *include <mrpt' "$library" || fail "$library must not know MRPT"
 done
 # Two types of one name, each in a header of its own, are one to the linker: it keeps the functions of either.
-twice=$(find . -name '*.h' | xargs sed -nE 's/^(struct|class|enum class) ([A-Za-z0-9]+)( final)?( *:.*)?$/\2/p' | sort | uniq -d)
+twice=$(find . ../apps -name '*.h' | xargs sed -nE 's/^(struct|class|enum class) ([A-Za-z0-9]+)( final)?( *:.*)?$/\2/p' | sort | uniq -d)
 [ -z "$twice" ] || fail "defined in two headers: $twice"
 exit $failed
