@@ -13,7 +13,7 @@ page() {  # NAME PURPOSE COMMAND...
     gzip -9n > "$folder/$name.1.gz"
 }
 
-"$program" --help | awk '/^Subcommands:/ { verbs = 1; next } !NF { verbs = 0 } verbs' | while read -r verb purpose; do
+"$program" --help | awk 'tolower($0) ~ /^verbs:/ { verbs = 1; next } !NF { verbs = 0 } verbs' | while read -r verb purpose; do
   [ "$verb" = help ] || page "scanloom-$verb" "$purpose" "$program" "$verb"
 done
 page scanloom "merges the packets of several lidars, localises with them, makes maps" "$program"

@@ -93,7 +93,7 @@ int complain(const CLI::App& app, const CLI::ParseError& error)
     std::cerr << fmt::format("{}: unknown argument {}: {}\n", name, unexpected.front(),
                              adviceOn(unexpected.front(), where));
   else
-    std::cerr << fmt::format("{}: {}\n", name, error.what());
+    std::cerr << fmt::format("{}: {}\n", name, chosen.empty() ? "which verb?" : error.what());
   std::cerr << fmt::format("'{} --help' lists all arguments\n", name);
   return kWrongUsage;
 }
@@ -155,6 +155,7 @@ int runProgram(int argc, const char* const* argv)
   app.get_formatter()->column_width(34);
   app.get_formatter()->label("TEXT:FILE", "FILE");
   app.get_formatter()->label("Excludes", "not with");
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
   app.footer(
       "Exit status: 0 done; 1 failed; 2 wrong usage or configuration; 3 the result is not good; 4 some runs of an\n"
       "experiment failed; 130 interrupted, and what there was is saved.");
@@ -163,7 +164,7 @@ int runProgram(int argc, const char* const* argv)
   std::function<int()> run;
   for (const Verb& verb : verbs())
   {
-    CLI::App* subcommand = app.add_subcommand(verb.name, verb.purpose);
+    CLI::App* subcommand = app.add_subcommand(verb.name, verb.purpose)->group("Verbs");
     subcommand->callback(
         [&, chosen = verb.add(*subcommand), &verb = verb]
         {
@@ -172,7 +173,7 @@ int runProgram(int argc, const char* const* argv)
         });
   }
   std::string explained;
-  CLI::App* help = app.add_subcommand("help", "the options of a verb, as its --help");
+  CLI::App* help = app.add_subcommand("help", "the options of a verb, as its --help")->group("Verbs");
   help->add_option("verb", explained, "the verb; none: the list of verbs")->type_name("VERB");
   help->callback(
       [&]

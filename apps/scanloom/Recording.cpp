@@ -76,9 +76,8 @@ Option addRecording(CLI::App& app, RecordingArguments& arguments, const std::str
 {
   const Option recording = addOption(
       app, name, arguments.paths,
-      "a recording: captures (pcap, pcapng; also .gz, .zst), a bag of ROS (.db3, .mcap, .bag), a rawlog, or a "
-      "folder of these; the lidars' metadata, poses and IMU are found beside it; for slam, record, "
-      "doctor and info also clouds (PLY, PCD, KITTI)");
+      "a recording: captures (pcap, pcapng; also .gz, .zst), a bag of ROS (.db3, .mcap, .bag), a rawlog, clouds "
+      "(PLY, PCD, KITTI), or a folder of these; metadata and poses of the lidars and the IMU are found beside it");
   addOption(app, "--metadata", arguments.metadata, "metadata of a lidar, instead of those beside the captures")
       .typeName("FILE")
       .repeatable();
@@ -103,7 +102,7 @@ RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds)
                     "'record' makes of them",
                     files.clouds.front().string()));
   if (files.captures.empty() && !arguments.metadata.empty())
-    throw UsageError("--metadata is for captures: other recordings hold what it tells");
+    throw UsageError("--metadata is for captures: other recordings hold the metadata");
   return files;
 }
 

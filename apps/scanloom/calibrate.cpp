@@ -233,16 +233,16 @@ std::function<int()> addCalibrateOptions(CLI::App& app)
   const Option configuration = addConfiguration(app, arguments->configuration);
   addOutputFolder(app, arguments->output);
   addOption(app, "--reference", arguments->reference,
-            "lidar whose pose is right, and to which the others are calibrated [the first]")
+            "lidar that keeps its pose, which must be right, and to which the others are calibrated [the first]")
       .typeName("NAME");
-  const Option clocks = addFlag(app, "--clocks", arguments->clocks, "estimate how late each lidar's stamps are, too");
+  const Option clocks = addFlag(app, "--clocks", arguments->clocks, "also estimate how late each lidar's stamps are");
   addFlag(app, "--static", arguments->clouds,
-          "without a drive: RECORDING is clouds of one instant (.ply, .pcd, .bin), each called like its lidar, and a "
+          "without a drive: RECORDING is clouds of one instant (.ply, .pcd, .bin), each named like its lidar, and a "
           "file with lines T_body_<name>")
       .excludes(configuration)
       .excludes(clocks);
   addFlag(app, "--poses-unknown", arguments->poses_unknown,
-          "begin from the ground and all headings, not from the poses of the configuration");
+          "ignore the given poses: begin from the ground, and try all headings");
   addJson(app, arguments->json);
   return [arguments] { return run(*arguments); };
 }
@@ -252,6 +252,6 @@ Verb calibrateVerb()
 {
   Schema schema = rigSchema("lidars");
   merge(schema, schemaOf<SlamSettings>());
-  return {"calibrate", "where the lidars are on the body, from a drive", schema, &addCalibrateOptions};
+  return {"calibrate", "where the lidars and the IMU are on the body, from a drive", schema, &addCalibrateOptions};
 }
 }  // namespace scanloom

@@ -180,9 +180,9 @@ void addChoicesOfObservations(OptionGroup& group, EditOptions& o)
       .commaSeparated();
   group.add("--remove-label", o.remove_label, "L,...", "remove observations with these labels").commaSeparated();
   group.add("--split-lidars", o.split_lidars, "split each cloud into one per lidar, 'lidar_<name>'");
-  group.add("--merge-lidars", o.merge_lidars, "the inverse: merge the lidars' clouds, points in time order");
+  group.add("--merge-lidars", o.merge_lidars, "merge clouds that --split-lidars made, points in time order");
   group.add("--keep-lidars", o.keep_lidars, "NAME,...", "keep points and IMUs of these lidars only").commaSeparated();
-  group.add("--keep-every", o.keep_every, "N", "keep every N-th scan, and all that is no scan").positive();
+  group.add("--keep-every", o.keep_every, "N", "keep every N-th scan, and everything that is not a scan").positive();
   group.add("--time-offset", o.time_offset, "LABEL=S", "add S seconds to the stamps of this label");
   group.add("--rebatch", o.rebatch, "HZ", "divide the points into scans at this rate, in Hz").between(0.1, 1000.0);
 }
@@ -197,8 +197,8 @@ void addChangesOfPoints(OptionGroup& group, EditOptions& o)
             "change the poses of the sensors: lines 'T_body_<name> ...', or a configuration (.ini)");
   group.add("--convert-clouds", o.convert_clouds, "CLASS", "convert clouds to CGenericPointsMap or CPointsMapXYZI");
   group.add("--deskew", o.deskew, "FILE|imu",
-            "deskew clouds to their stamps by a trajectory (TUM, EuRoC or KITTI), or by the rawlog's IMU, which "
-            "corrects the rotation only");
+            "move points to where they are at their cloud's stamp, by a trajectory (TUM, EuRoC or KITTI), or by the "
+            "rawlog's IMU, which corrects the rotation only");
   group.add("--imu", o.imu, "LABEL", "for '--deskew imu': label of the IMU (default: imu), e.g. imu_left");
 }
 

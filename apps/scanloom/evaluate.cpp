@@ -200,18 +200,17 @@ std::function<int()> addEvaluateOptions(CLI::App& app)
             "bag: topic of the reference's poses (Odometry, PoseStamped, PointStamped) [the only one]")
       .typeName("TOPIC");
   addOption(app, "--truth", arguments->truth,
-            "true poses, TUM: to report the error of the interpolation between scans alone [the reference, if it has "
-            "poses]")
+            "true poses (TUM), to compute the error of interpolation between scans [the reference, if it has poses]")
       .typeName("FILE");
   addComparison(app, *arguments);
   const Option limit =
       addOption(app, "--fail-if-drift-above", arguments->drift_limit,
-                "end with status 3 if the drift is larger than this, in m, or of less of the reference's time than "
-                "--least-coverage")
+                "end with status 3 if the drift is larger than this, in m, or if poses cover less than "
+                "--least-coverage of the reference's time")
           .notNegative()
           .typeName("M");
   addOption(app, "--least-coverage", arguments->least_coverage,
-            "share of the reference's time that --fail-if-drift-above wants poses at, in %")
+            "for --fail-if-drift-above: least share of the reference's time that poses must cover, in %")
       .between(0, 100)
       .showDefault()
       .typeName("PERCENT")

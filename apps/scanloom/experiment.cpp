@@ -155,11 +155,11 @@ std::function<int()> addExperimentOptions(CLI::App& app)
   addFlag(app, "--resume", arguments->resume,
           "keep the runs that are done with the same version, files and parameters; run the others");
   addOption(app, "--engine", arguments->engine,
-            "local: on this computer; slurm: as a job array of sbatch, whose nodes must see the folder")
+            "local: on this computer; slurm: as a job array (sbatch) on nodes that see the folder")
       .oneOf({"local", "slurm"})
       .showDefault();
   addOption(app, "--only", arguments->only,
-            "only the runs of the N-th drive that have no record yet, without the tables: for job arrays")
+            "for job arrays: do only the runs of the N-th drive that have no record, and write no tables")
       .typeName("N")
       .positive();
   return [arguments] { return run(*arguments); };
@@ -168,7 +168,8 @@ std::function<int()> addExperimentOptions(CLI::App& app)
 
 Verb experimentVerb()
 {
-  return {"experiment", "slam on every combination of drives, lidars, N, seeds and parameters, with evaluation",
+  return {"experiment",
+          "slam and evaluate on every combination of drives, lidars, every N-th scan, seeds and parameters",
           schemaOf<ExperimentSettings>(), &addExperimentOptions};
 }
 }  // namespace scanloom

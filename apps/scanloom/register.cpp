@@ -143,7 +143,8 @@ void addTrials(CLI::App& app, RegisterArguments& arguments, const Option& truth,
                                     "trials: rotation of each guess from the true one, in deg, about a random axis")
                               .between(0.0, 180.0)
                               .needs(trials);
-  addOption(app, "--spread-yaw-deg", arguments.spread_yaw_deg, "the same about z only, with a random sign")
+  addOption(app, "--spread-yaw-deg", arguments.spread_yaw_deg,
+            "trials: rotation of each guess from the true one, in deg, about z with a random sign")
       .between(0.0, 180.0)
       .needs(trials)
       .excludes(any_axis);
@@ -164,8 +165,8 @@ std::function<int()> addRegisterOptions(CLI::App& app)
                            .showDefault();
   const Option sigma =
       addOption(app, "--guess-sigma-m", arguments->guess_sigma,
-                "standard deviation of the guess's position, in m: it chooses the levels, and keeps directions "
-                "that the clouds do not determine")
+                "standard deviation of the guess's position, in m; it chooses the cell sizes, and directions that the "
+                "clouds leave open stay as guessed")
           .positive();
   sigma.needs(addOption(app, "--guess-sigma-deg", arguments->guess_sigma_deg,
                         "standard deviation of the guess's angles, in deg")

@@ -187,16 +187,18 @@ std::function<int()> addViewOptions(CLI::App& app)
   auto arguments = std::make_shared<ViewArguments>();
   addOption(
       app, "file", arguments->file,
-      "a capture, a bag or a folder (also of clouds), .rawlog, .simplemap, .bt, .ot, .ply, .pcd, .bin (KITTI) or .tum")
+      "a capture, bag, rawlog or folder of clouds to play; a map (.simplemap, .bt, .ot), a cloud (.ply, .pcd, .bin of "
+      "KITTI) or a trajectory (.tum) to show")
       .required();
   addOption(app, "--png", arguments->png, "draw into this picture instead of a window; needs no display")
       .typeName("FILE");
   addWeb(app, arguments->web);
-  addOption(app, "--trajectory", arguments->trajectory, "capture, rawlog: the body's poses, to draw scans and map by")
+  addOption(app, "--trajectory", arguments->trajectory,
+            "for a capture or rawlog: poses of the body, by which scans and map are drawn")
       .existingFile();
   addOverwrite(app, arguments->overwrite);
   addOption(app, "--scan", arguments->scan,
-            "capture, rawlog: show this scan alone, from 0, instead of playing all [of a picture: 0]")
+            "for a capture or rawlog: show only this scan, counted from 0, instead of playing all [with --png: 0]")
       .typeName("N");
   addOption(app, "--width", arguments->width, "width in pixels").between(64, 8192).showDefault();
   addOption(app, "--height", arguments->height, "height in pixels").between(64, 8192).showDefault();

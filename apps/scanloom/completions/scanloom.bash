@@ -12,7 +12,7 @@ _scanloom_lines() {  # AWK ARGUMENTS...: what the program prints for these argum
 _scanloom() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} verb=${COMP_WORDS[1]} choice
   if [[ $COMP_CWORD -eq 1 || $before == help || $before == --default ]]; then
-    choice=$(_scanloom_lines 'tolower($0) ~ /^subcommands:/ { verbs = 1; next } !NF { verbs = 0 } verbs { print $1 }' --help)
+    choice=$(_scanloom_lines 'tolower($0) ~ /^verbs:/ { verbs = 1; next } !NF { verbs = 0 } verbs { print $1 }' --help)
   elif [[ $before == --set ]]; then
     choice=$(_scanloom_lines '/^\[/ { section = substr($1, 2, length($1) - 2) } /^[a-z][a-z0-9_]* =/ { print section "." $1 "=" }' \
                              config --default "$verb")

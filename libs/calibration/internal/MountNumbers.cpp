@@ -46,7 +46,7 @@ std::string openInWords(const std::string& sensor, const std::vector<OpenDirecti
 {
   std::string words;
   for (const OpenDirection& o : open)
-    words += fmt::format("{}: OPEN: {}: told to +- {} only, so it stays as it was given\n", sensor, namesOf(o),
+    words += fmt::format("{}: OPEN: {}: known only to +- {}, so the given value stays\n", sensor, namesOf(o),
                          o.isClock() ? fmt::format("{:.1f} ms", 1e3 * o.sigma) : fmt::format("{:.2f} m", o.sigma));
   return words;
 }

@@ -81,7 +81,7 @@ TEST(RawlogBag, leavesOutALidarThatComesTooLateAndSaysSo)
   std::vector<std::string> seen;
   for (BagMessage message; bag->next(message);) seen.push_back(bag->topics()[message.topic].name);
   EXPECT_THAT(seen, ElementsAre("/tf_static", "front"));
-  EXPECT_THAT(bag->takeWarnings(), ElementsAre(HasSubstr("'rear' is first heard more than 10 s after the beginning")));
+  EXPECT_THAT(bag->takeWarnings(), ElementsAre(HasSubstr("'rear' begins more than 10 s after the first object")));
 }
 
 TEST(RawlogBag, isReadUpToWhereTheFileIsCut)

@@ -173,7 +173,7 @@ inline void expectInvariants(const Outcome& outcome, const Rig& rig, const Arriv
   }
 }
 
-/** A figure for the table of doc/faults.md: in what `--gtest_output=json` writes. */
+/** A figure for the table of doc/study/faults.md: in what `--gtest_output=json` writes. */
 inline void measured(const std::string& name, double value)
 {
   testing::Test::RecordProperty(name, fmt::format("{:.4g}", value));

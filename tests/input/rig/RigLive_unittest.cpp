@@ -1,4 +1,4 @@
-/** Lidars over the loopback interface, in real time. Fault cases: see the table in doc/faults.md. */
+/** Lidars over the loopback interface, in real time. Fault cases: see the table in doc/study/faults.md. */
 #include "input/lidar/internal/OusterLayout.h"
 #include "liveRig.h"
 #include "support/RecordedLidars.h"

@@ -191,7 +191,7 @@ std::size_t columnsOf(std::size_t lidar, const Batched& run)
   return columns;
 }
 
-/** Against a run without strangers. A figure for the table of doc/faults.md, too. */
+/** Against a run without strangers. A figure for the table of doc/study/faults.md, too. */
 double shareLost(std::size_t lidar, const Batched& run, const Batched& calm)
 {
   const double lost = 1 - static_cast<double>(columnsOf(lidar, run)) / static_cast<double>(columnsOf(lidar, calm));

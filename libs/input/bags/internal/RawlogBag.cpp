@@ -120,7 +120,7 @@ class RawlogBag : public BagReader
     if (known == topics_.end())
     {
       if (late_.insert(topic.name).second)
-        warnings_.push_back(fmt::format("{}: '{}' is first heard more than {} s after the beginning: left out",
+        warnings_.push_back(fmt::format("{}: '{}' begins more than {} s after the first object: left out",
                                         path_.string(), topic.name, kEverySensorIsHeardWithin / 1s));
       return true;
     }

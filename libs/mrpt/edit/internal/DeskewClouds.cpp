@@ -25,7 +25,7 @@ class TrajectoryDeskew
   TrajectoryDeskew(Trajectory trajectory, std::optional<RecordingHeader> header)
     : trajectory_(std::move(trajectory)), header_(std::move(header))
   {
-    if (trajectory_.empty()) throw std::invalid_argument("the trajectory holds no pose");
+    if (trajectory_.empty()) throw std::invalid_argument("--deskew: the trajectory holds no pose");
   }
 
   Observations operator()(const ObservationPtr& observation)
