@@ -97,7 +97,8 @@ TEST(RigCheck, namesAPoseWhoseAnglesAreInRadians)
 {
   const Rigid true_pose = Rigid::fromXyzYawPitchRoll(1, 0, 2, 30 * kDegree, 15 * kDegree, -25 * kDegree);
   const Rigid read = Rigid::fromXyzYawPitchRoll(1, 0, 2, 0.5236 * kDegree, 0.2618 * kDegree, -0.4363 * kDegree);
-  std::vector<ImuSample> samples(3000, {{}, {}, true_pose.rotation.conjugate() * Eigen::Vector3d(0, 0, 9.81)});
+  const ImuSample at_rest{{}, Eigen::Vector3d::Zero(), true_pose.rotation.conjugate() * Eigen::Vector3d(0, 0, 9.81)};
+  std::vector<ImuSample> samples(3000, at_rest);
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i].stamp = Timestamp(10ms * static_cast<int>(i));
   RigMinute minute{{{0, {"the IMU of the lidar 'left'", read, read}}}, {{0, samples}}, {}, {}, LidarCheck({})};
   EXPECT_THAT(firstMend(rigFaults(minute)), HasSubstr("give 30.0 15.0 -25.0 deg"));
