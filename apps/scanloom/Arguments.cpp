@@ -1,6 +1,6 @@
 #include "Arguments.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 
 namespace scanloom
 {

@@ -2,7 +2,6 @@
 #pragma once
 #include "base/config/Configuration.h"
 #include "input/rig/SensorInput.h"
-#include "run/page/LiveExchange.h"
 
 #include <mrpt/opengl/COpenGLScene.h>
 
@@ -27,18 +26,6 @@ class Devices
 {
  public:
   virtual ~Devices() = default;
-
-  enum class Priority
-  {
-    BelowAll,  // of the thread that makes the scene: beside work that must not be delayed
-    Usual      // of a player, which has nothing else to do
-  };
-
-  /**
-   * A window that shows what a LiveFeed hands over: see LiveWindow.h. The exchange must outlive it, and is this
-   * window's alone. Throws std::runtime_error if there is no display.
-   */
-  virtual std::unique_ptr<Window> showLive(const std::string& title, LiveExchange&, Priority) const = 0;
 
   /** A window of a scene that does not change. Closes at a key, too. Throws std::runtime_error if there is no display.
    */

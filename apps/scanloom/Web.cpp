@@ -18,38 +18,32 @@ bool isLoopback(const IpAddress& ip)
 }
 }  // namespace
 
-Option addWeb(CLI::App& app, WebArguments& arguments)
+void addWeb(CLI::App& app, WebArguments& arguments)
 {
-  return addOption(
-             app, "--web", arguments.address,
-             fmt::format("show the run on a page for browsers; default: http://{}. Other computers reach it at an "
-                         "address of this one, or 0.0.0.0:8080 for all",
-                         kDefaultAddress))
+  addOption(app, "--web", arguments.address,
+            fmt::format("show the run on a page for browsers; default: http://{}. Other computers reach it at an "
+                        "address of this one, or 0.0.0.0:8080 for all",
+                        kDefaultAddress))
       .optionalValue(kDefaultAddress)
       .typeName("ADDRESS:PORT");
 }
 
-void addWindow(CLI::App& app, const Option& web, WebArguments& arguments)
-{
-  addFlag(app, "--window", arguments.window, "show the run in a window of this display").excludes(web);
-}
-
 SensorAddress webAddress(const WebArguments& arguments)
 {
+  const std::string text = arguments.given() ? arguments.address : kDefaultAddress;
   try
   {
-    SensorAddress address = SensorAddress::parse(arguments.address);
+    SensorAddress address = SensorAddress::parse(text);
     const std::string web_port = fmt::format(":{}", SensorAddress::kHttpPort);
     const bool has_web_port =
-        arguments.address.size() > web_port.size() &&
-        arguments.address.compare(arguments.address.size() - web_port.size(), web_port.size(), web_port) == 0;
+        text.size() > web_port.size() && text.compare(text.size() - web_port.size(), web_port.size(), web_port) == 0;
     if (address.port == SensorAddress::kHttpPort && !has_web_port) address.port = kDefaultPort;
     return address;
   }
   catch (const std::invalid_argument& error)
   {
-    throw UsageError(fmt::format("--web {}: {}; without an address write --web last, or --web={}", arguments.address,
-                                 error.what(), kDefaultAddress));
+    throw UsageError(fmt::format("--web {}: {}; without an address write --web last, or --web={}", text, error.what(),
+                                 kDefaultAddress));
   }
 }
 
@@ -61,16 +55,11 @@ void announcePage(const LiveServer& server, const SensorAddress& address)
 }
 
 Web::Web(const WebArguments& arguments, const ViewedWork& work, SensorInput& input, const std::filesystem::path& folder)
-  : feed_(exchange_, work), input_(input, feed_)
+  : feed_(exchange_, work),
+    input_(input, feed_),
+    server_(webAddress(arguments), exchange_, LiveServerOptions{5e6, 8, folder})
 {
-  if (arguments.window)
-  {
-    window_ = devices().showLive("scanloom " + work.verb, exchange_, Devices::Priority::BelowAll);
-    return;
-  }
-  const SensorAddress address = webAddress(arguments);
-  server_ = std::make_unique<LiveServer>(address, exchange_, LiveServerOptions{5e6, 8, folder});
-  announcePage(*server_, address);
+  announcePage(server_, webAddress(arguments));
 }
 
 void Web::update(const FeedProgress& progress)

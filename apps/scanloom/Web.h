@@ -1,6 +1,5 @@
-/** --web and --window: a page or a window that shows what a verb does (doc/live_view.md). */
+/** --web: a page that shows what a verb does (doc/live_view.md). */
 #pragma once
-#include "Devices.h"
 #include "Options.h"
 #include "run/page/LiveServer.h"
 #include "run/page/WatchedInput.h"
@@ -14,21 +13,17 @@ namespace scanloom
 struct WebArguments
 {
   std::string address;  // empty: no page
-  bool window = false;
 
-  bool given() const { return !address.empty() || window; }
+  bool given() const { return !address.empty(); }
 };
 
 /** Adds --web [ADDRESS:PORT]. */
-Option addWeb(CLI::App&, WebArguments&);
+void addWeb(CLI::App&, WebArguments&);
 
-/** Adds --window, which excludes --web: what was handed over is taken once. */
-void addWindow(CLI::App&, const Option& web, WebArguments&);
-
-/** Throws UsageError for what is no ADDRESS:PORT. */
+/** The default one if none is given. Throws UsageError for what is no ADDRESS:PORT. */
 SensorAddress webAddress(const WebArguments&);
 
-/** The page or the window of one run. */
+/** The page of one run. */
 class Web
 {
  public:
@@ -49,12 +44,11 @@ class Web
   LiveExchange exchange_;
   LiveFeed feed_;
   WatchedInput input_;
-  std::unique_ptr<LiveServer> server_;
-  std::unique_ptr<Window> window_;
+  LiveServer server_;
   LiveFeed::Clock::time_point accounted_{};
 };
 
-/** Null if neither is wanted. */
+/** Null if none is wanted. */
 std::unique_ptr<Web> openWeb(const WebArguments&, const ViewedWork&, SensorInput&, const std::filesystem::path& folder);
 
 /** Says on stderr where the page is, and a warning if other computers reach it. */

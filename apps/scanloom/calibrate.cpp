@@ -3,10 +3,10 @@
 #include "Settings.h"
 #include "Verb.h"
 #include "base/core/Angle.h"
-#include "base/core/AtomicFile.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
-#include "base/core/ResultFolder.h"
+#include "base/core/OutputFile.h"
+#include "base/core/OutputFolder.h"
 #include "base/core/jsonText.h"
 #include "calibration/ImuMountReport.h"
 #include "calibration/MountReport.h"
@@ -118,7 +118,7 @@ std::vector<std::string> resultFiles(const std::vector<MountedLidar>& lidars)
 void writeFiles(const CalibrateArguments& arguments, const Calibration& calibration,
                 const std::vector<std::vector<MountScene>>& scenes, const std::string& configuration)
 {
-  ResultFolder folder(arguments.output.folder);
+  OutputFolder folder(arguments.output.folder);
   const auto write = [&](const char* name, const std::string& text)
   { writeAtomically(folder.running() / name, [&](std::ostream& file) { file << text; }); };
   if (!configuration.empty()) write("configuration.ini", configuration);

@@ -16,16 +16,20 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 namespace scanloom
 {
 namespace
 {
+constexpr const char *kUsers = "users", *kLaboratory = "laboratory";  // parts of the manual
+
 struct ConfigArguments
 {
   std::string default_of;
   std::vector<std::filesystem::path> recording;
-  bool parameters = false;
+  std::string parameters;  // empty: not wanted
 };
 
 const Verb& verbNamed(const std::string& name)
@@ -40,20 +44,62 @@ const Verb& verbNamed(const std::string& name)
   throw UsageError(fmt::format("--default {}: is no verb with parameters; {}", name, suggestion(name, configurable)));
 }
 
-std::string parametersPage()
+bool isOfLaboratory(const Verb& verb) { return verb.name == "simulate" || verb.name == "experiment"; }
+
+std::string tableOfVerbs(const std::vector<Verb>& shown)
 {
-  std::string page =
-      "# Parameters\n\n"
-      "Written by `scanloom config --parameters`. [configuration.md](configuration.md) explains the files.\n\n"
-      "| verb | sections |\n|---|---|\n";
-  for (const Verb& verb : verbs())
+  std::string table = "| verb | sections |\n|---|---|\n";
+  for (const Verb& verb : shown)
   {
-    if (verb.schema.empty()) continue;
     std::vector<std::string> sections;
     for (const auto& described : verb.schema) sections.push_back(fmt::format("[{}]", described.section.name));
-    page += fmt::format("| `{}` | {} |\n", verb.name, fmt::join(sections, ", "));
+    table += fmt::format("| `{}` | {} |\n", verb.name, fmt::join(sections, ", "));
   }
-  return page + "\n" + toMarkdown(knownToAnyVerb());
+  return table;
+}
+
+/** The keys that people turn first, in this order, as rows of a table. */
+std::string tableOfFirstKeys(const Schema& known)
+{
+  constexpr std::pair<std::string_view, std::string_view> kFirst[] = {
+      {"lidars", "extrinsics"}, {"lidars", "lidar1_time_offset"},
+      {"lidars", "scan_rate"},  {"lidars", "deadline_ms"},
+      {"slam", "imu"},          {"crop", "min_x"},
+      {"crop", "max_range"},    {"map_cells", "cell_size"},
+      {"output", "maps"},       {"octomap", "resolution"},
+  };
+  std::string table = "| key | default | unit | meaning |\n|---|---|---|---|\n";
+  for (const auto& [section, key] : kFirst)
+    for (const SectionDescription& described : known)
+      for (const FieldDescription& field : described.fields)
+        if (described.section.name == section && field.field.name == key)
+          table += fmt::format("| `{}.{}` | {} | {} | {} |\n", section, key, field.value, field.field.unit,
+                               field.field.meaning);
+  return table;
+}
+
+std::string parametersPage(const std::string& part)
+{
+  const bool laboratory = part == kLaboratory;
+  std::vector<Verb> shown;
+  Schema known;
+  for (const Verb& verb : verbs())
+  {
+    if (verb.schema.empty() || isOfLaboratory(verb) != laboratory) continue;
+    shown.push_back(verb);
+    merge(known, verb.schema);
+  }
+  const std::string head =
+      laboratory
+          ? "# Parameters of the laboratory\n\n"
+            "Written by `scanloom config --parameters laboratory`. [simulation.md](simulation.md) and "
+            "[study.md](study.md) explain them; those of all other verbs: [parameters.md](parameters.md).\n\n"
+          : "# Parameters\n\n"
+            "Written by `scanloom config --parameters`. [configuration.md](configuration.md) explains the files; "
+            "keys of `simulate` and `experiment`: [laboratory_parameters.md](laboratory_parameters.md).\n\n"
+            "The ten that people turn first, as `--set section.key=value`:\n\n" +
+                tableOfFirstKeys(known) + "\n";
+  return head + tableOfVerbs(shown) + "\n" + toMarkdown(known);
 }
 
 /** Of the file into which standard output goes, else the current one: a configuration's paths are relative to it. */
@@ -94,8 +140,8 @@ int printRigOf(const std::vector<std::filesystem::path>& recording)
 int run(const ConfigArguments& arguments)
 {
   if (!arguments.recording.empty()) return printRigOf(arguments.recording);
-  if (arguments.parameters)
-    std::cout << parametersPage();
+  if (!arguments.parameters.empty())
+    std::cout << parametersPage(arguments.parameters);
   else
     std::cout << toIni(verbNamed(arguments.default_of).schema);
   return kDone;
@@ -111,7 +157,11 @@ std::function<int()> addConfigOptions(CLI::App& app)
             "print a configuration file for these captures: lidars, ports, metadata, poses and IMU as recognised; what "
             "must be filled in is marked")
       .typeName("FILE...");
-  addFlag(app, "--parameters", arguments->parameters, "print the parameters of all verbs, as Markdown");
+  addOption(app, "--parameters", arguments->parameters,
+            "print the parameters of all verbs as Markdown, those of simulate and experiment as 'laboratory'")
+      .optionalValue(kUsers)
+      .oneOf({kUsers, kLaboratory})
+      .typeName("PART");
   requireOneOption(app);
   return [arguments] { return run(*arguments); };
 }

@@ -3,8 +3,8 @@
 #include "Options.h"
 #include "Settings.h"
 #include "Verb.h"
-#include "base/core/AtomicFile.h"
 #include "base/core/Interruption.h"
+#include "base/core/OutputFile.h"
 #include "base/core/Progress.h"
 #include "diagnosis/DoctorFindings.h"
 #include "diagnosis/DoctorJson.h"
@@ -33,19 +33,13 @@ struct DoctorArguments
   bool json = false;
 };
 
-struct DoctorSettings : DoctorLimits
+struct DoctorSettings
 {
   CropOptions crop;
 
   template <typename Self, typename Visitor>
-  static void sections(Self& s, Visitor&& visit)
+  static void sections(Self& s, Visitor&&)
   {
-    const std::string meaning = "limits above which doctor warns or calls a rig not fit for SLAM (shares: 0 to 1)";
-    visit(s.delivery, Section{"doctor", meaning});
-    visit(s.clocks, Section{"doctor", meaning});
-    visit(s.imu, Section{"doctor", meaning});
-    visit(s.geometry, Section{"doctor", meaning});
-    visit(s.pose, Section{"doctor", meaning});
     visit(s.crop, Section{"crop", CropOptions::kMeaning});
   }
 };
@@ -100,10 +94,10 @@ int report(const Findings& findings, const std::string& json, const DoctorArgume
   return worstOf(findings) == Verdict::NotFit ? kQualityGate : kDone;
 }
 
-int examineRawlog(const std::filesystem::path& rawlog, const DoctorSettings& settings, const DoctorArguments& arguments)
+int examineRawlog(const std::filesystem::path& rawlog, const CropOptions& crop, const DoctorArguments& arguments)
 {
   Progress progress("doctor", megabytesOf({rawlog}), "MB");
-  const CheckedRawlog check = checkRawlog(rawlog, settings, settings.crop,
+  const CheckedRawlog check = checkRawlog(rawlog, crop,
                                           [&](std::uint64_t bytes)
                                           {
                                             progress.update(bytes / 1000000);
@@ -129,11 +123,11 @@ int run(const DoctorArguments& arguments)
   }
 
   catchInterruption();
-  if (!recording.rawlogs.empty()) return examineRawlog(recording.rawlogs.front(), loaded.settings, arguments);
+  if (!recording.rawlogs.empty()) return examineRawlog(recording.rawlogs.front(), loaded.settings.crop, arguments);
   const RigExamination examination =
       examine(rig ? listen(*rig, loaded.sensors.poses_known, arguments) : readClouds(recording, loaded.configuration),
-              loaded.settings, loaded.settings.crop);
-  Findings findings = findingsOf(examination, loaded.settings);
+              loaded.settings.crop);
+  Findings findings = findingsOf(examination);
   if (loaded.sensors.not_used > 0)
     findings.push_back({"rig", "sensors", Verdict::NotFit,
                         fmt::format("{} of the recording cannot be used", loaded.sensors.not_used),
@@ -159,9 +153,7 @@ std::function<int()> addDoctorOptions(CLI::App& app)
 
 Verb doctorVerb()
 {
-  Schema schema = rigSchema("lidars");
-  merge(schema, schemaOf<DoctorSettings>());
-  return {"doctor", "faults of a rig's lidars, clocks, IMUs and poses, and how to mend them", schema,
+  return {"doctor", "faults of a rig's lidars, clocks, IMUs and poses, and how to mend them", rigSchema("lidars"),
           &addDoctorOptions};
 }
 }  // namespace scanloom

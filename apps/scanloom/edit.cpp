@@ -1,17 +1,18 @@
 /** `scanloom edit`: one operation on a rawlog. */
+#include "Arguments.h"
 #include "Options.h"
 #include "Verb.h"
-#include "base/core/AtomicFile.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
+#include "base/core/OutputFile.h"
+#include "base/core/OutputFolder.h"
 #include "base/core/Progress.h"
 #include "base/core/jsonText.h"
 #include "mrpt/edit/EditOperations.h"
-#include "mrpt/edit/StagedOutputs.h"
+#include "mrpt/edit/namesOfExport.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <iostream>
 #include <memory>
@@ -23,7 +24,7 @@ namespace
 struct EditArguments
 {
   std::filesystem::path input, output;
-  bool overwrite = false, json = false, quiet = false, dry_run = false;
+  bool overwrite = false, quiet = false;
   EditOptions options;
 };
 
@@ -61,7 +62,7 @@ KeepReading showingProgress(const EditArguments& arguments)
   };
 }
 
-void report(const EditArguments& arguments, const std::string& what, bool to_rawlog, const RawlogEdited& edited)
+void report(const std::string& what, bool to_rawlog, const RawlogEdited& edited)
 {
   if (!edited.damage.empty())
     fmt::print(stderr, "damaged: {}: read up to there, {} observations\n", edited.damage, edited.read());
@@ -69,18 +70,6 @@ void report(const EditArguments& arguments, const std::string& what, bool to_raw
   if (edited.passed_over > 0)
     fmt::print(stderr, "warning: {} objects are no observations (actions, maps): they are not in the output\n",
                edited.passed_over);
-  if (arguments.json)
-  {
-    nlohmann::json labels = nlohmann::json::object();
-    for (const auto& [label, count] : edited.labels) labels[label] = {{"read", count.read}, {"written", count.written}};
-    const nlohmann::json result = {{"labels", labels},
-                                   {"read", edited.read()},
-                                   {"written", edited.written()},
-                                   {"passed_over", edited.passed_over},
-                                   {"damage", edited.damage}};
-    std::cout << jsonText(result) << '\n';
-    return;
-  }
   if (!to_rawlog)
   {
     fmt::print("{}: {} observations read\n{}\n", what, edited.read(), edited.output.string());
@@ -100,13 +89,26 @@ void refuseToReplaceInputs(const EditArguments& arguments, const std::vector<Edi
   refuseInputsAsOutputs(inputs, operations.back().outputs.files);
 }
 
+Completeness completenessOf(const RawlogEdited& edited)
+{
+  return edited.stopped ? Completeness::Partial : Completeness::Whole;
+}
+
 RawlogEdited exportFiles(const EditArguments& arguments, const std::vector<EditOperation>& operations)
 {
-  StagedOutputs staged(operations.back().outputs);
-  RawlogEdited edited =
-      readRawlog(arguments.input, chained(operations, arguments.input, staged.running()), showingProgress(arguments));
-  const EditOutputs outputs = staged.commit(edited.stopped ? Completeness::Partial : Completeness::Whole);
-  edited.output = outputs.files.empty() ? outputs.folder : outputs.files.front();
+  const EditOutputs& outputs = operations.back().outputs;
+  const auto exportTo = [&](const EditOutputs& running)
+  { return readRawlog(arguments.input, chained(operations, arguments.input, running), showingProgress(arguments)); };
+  if (outputs.folder.empty())
+  {
+    OutputFile file(outputs.files.front());
+    RawlogEdited edited = exportTo({{file.temporary()}, {}});
+    edited.output = file.commit(completenessOf(edited));
+    return edited;
+  }
+  OutputFolder folder(outputs.folder);
+  RawlogEdited edited = exportTo({{}, folder.running()});
+  edited.output = folder.commit(namesOfExport(outputs.folder, folder.running()), completenessOf(edited));
   return edited;
 }
 
@@ -119,19 +121,12 @@ int edit(const EditArguments& arguments, const std::vector<EditOperation>& opera
   if (to_rawlog) refuseExisting({arguments.output}, arguments.overwrite);
   for (const EditOperation& operation : operations) refuseExistingOutputs(arguments, operation);
   refuseToReplaceInputs(arguments, operations);
-  if (arguments.dry_run)
-  {
-    if (to_rawlog) chained(operations, arguments.input, {});  // the others would create their files
-    for (const EditOperation& each : operations) fmt::print("{} ", each.option);
-    fmt::print("of {}{}\n", arguments.input.string(), to_rawlog ? " into " + arguments.output.string() : "");
-    return kDone;
-  }
 
   catchInterruption();
   const RawlogEdited edited = to_rawlog ? editRawlog(arguments.input, chained(operations, arguments.input, {}),
                                                      arguments.output, showingProgress(arguments))
                                         : exportFiles(arguments, operations);
-  report(arguments, operations.back().option, to_rawlog, edited);
+  report(operations.back().option, to_rawlog, edited);
   if (interrupted()) return kInterrupted;
   return edited.damage.empty() && edited.passed_over == 0 ? kDone : kQualityGate;
 }
@@ -190,25 +185,21 @@ void addChoicesOfObservations(OptionGroup& group, EditOptions& o)
 void addChangesOfPoints(OptionGroup& group, EditOptions& o)
 {
   group.add("--crop-box", o.crop_box, "\"X0 Y0 Z0 X1 Y1 Z1\"", "remove points inside this box of the body frame, in m");
-  group.add("--min-range", o.min_range, "M", "remove points nearer than this to their lidar, in m").notNegative();
-  group.add("--max-range", o.max_range, "M", "remove points farther than this from their lidar, in m").positive();
+  group.add("--ranges", o.ranges, "\"M0 M1\"", "remove points nearer than M0 to their lidar or farther than M1, in m");
   group.add("--voxel", o.voxel, "M", "keep the first point in each cube with this edge, in m").positive();
   group.add("--apply-extrinsics", o.apply_extrinsics, "FILE",
             "change the poses of the sensors: lines 'T_body_<name> ...', or a configuration (.ini)");
   group.add("--convert-clouds", o.convert_clouds, "CLASS", "convert clouds to CGenericPointsMap or CPointsMapXYZI");
-  group.add("--deskew", o.deskew, "FILE|imu",
-            "move points to where they are at their cloud's stamp, by a trajectory (TUM, EuRoC or KITTI), or by the "
-            "rawlog's IMU, which corrects the rotation only");
-  group.add("--imu", o.imu, "LABEL", "for '--deskew imu': label of the IMU (default: imu), e.g. imu_left");
+  group.add("--deskew", o.deskew, "FILE|imu[=LABEL]",
+            "move points to where they are at their cloud's stamp, by a trajectory (TUM, EuRoC or KITTI), or by an IMU "
+            "of the rawlog (label: imu), which corrects the rotation only");
 }
 
 void addFiles(OptionGroup& group, EditOptions& o)
 {
-  group.add("--export-ply", o.export_ply, "DIR", "write a PLY file per cloud, in a folder per label");
-  group.add("--export-pcd", o.export_pcd, "DIR", "write a PCD file per cloud");
-  group.add("--export-kitti", o.export_kitti, "DIR", "write a KITTI scan (.bin) per cloud");
-  group.add("--export-csv", o.export_csv, "DIR", "write IMU samples as EuRoC csv, and stamps and sizes of clouds");
-  group.add("--export-tum", o.export_tum, "FILE", "write the poses in the rawlog as TUM");
+  group.add("--export", o.export_as, "FORMAT=PATH",
+            "write files: ply=DIR, pcd=DIR, kitti=DIR (.bin), a file per cloud in a folder per label; csv=DIR, IMU "
+            "samples as EuRoC csv and stamps of clouds; tum=FILE, poses in the rawlog");
   group.add("--to-mcap", o.to_mcap, "FILE",
             "write clouds, IMU and poses as an MCAP file, which Foxglove and ROS 2 play; poses of the rawlog, or of "
             "--trajectory");
@@ -222,9 +213,7 @@ std::function<int()> addEditOptions(CLI::App& app)
   addOption(app, "-i,--input", arguments->input, "the rawlog to read").required().typeName("FILE");
   addOption(app, "-o,--output", arguments->output, "the rawlog to write").typeName("FILE");
   addOverwrite(app, arguments->overwrite);
-  addFlag(app, "--dry-run", arguments->dry_run, "check everything and stop");
   addFlag(app, "-q,--quiet", arguments->quiet, "show no progress");
-  addJson(app, arguments->json);
   OptionGroup group(app, "Operations");
   addCut(app, arguments->options);
   addChoicesOfObservations(group, arguments->options);

@@ -1,7 +1,7 @@
 /** `scanloom evaluate`: compares a trajectory with a total station or with true poses. */
 #include "Arguments.h"
 #include "Verb.h"
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 #include "base/core/jsonText.h"
 #include "base/formats/TrajectoryReader.h"
 #include "input/bags/BagContents.h"

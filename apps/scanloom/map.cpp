@@ -2,11 +2,10 @@
 #include "Arguments.h"
 #include "Options.h"
 #include "Verb.h"
-#include "base/core/AtomicFile.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
+#include "base/core/OutputFile.h"
 #include "base/core/Progress.h"
-#include "base/core/StagedFiles.h"
 #include "base/formats/TrajectoryReader.h"
 #include "base/formats/TrajectoryWriter.h"
 #include "mrpt/edit/MapFromRawlog.h"
@@ -20,10 +19,10 @@
 
 #include <fmt/format.h>
 #include <sys/sysinfo.h>
-#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <limits>
+#include <list>
 #include <memory>
 #include <optional>
 
@@ -40,7 +39,6 @@ struct MapArguments
   bool overwrite = false, dry_run = false, quiet = false, cubes = false;
   std::string preset = "inventory";
   double keyframe_distance = 4;  // m
-  int jobs = 0;
 };
 
 bool isOctoMap(const Path& path) { return path.extension() == ".bt" || path.extension() == ".ot"; }
@@ -84,11 +82,18 @@ Eigen::Vector3d announcedOffset(const Rigid& first_pose)
   return offset;
 }
 
+std::vector<Path> temporariesOf(const std::list<OutputFile>& files)
+{
+  std::vector<Path> paths;
+  for (const OutputFile& file : files) paths.push_back(file.temporary());
+  return paths;
+}
+
 /** Names the files: what an interruption left does not replace a whole map. */
-int finish(StagedFiles& files, const MapFiles& maps, std::size_t keyframes)
+int finish(std::list<OutputFile>& files, const MapFiles& maps, std::size_t keyframes)
 {
   const bool partial = interrupted();  // asked once: flushing to the disk gives a signal seconds to arrive
-  const auto outputs = files.commit(partial ? Completeness::Partial : Completeness::Whole);
+  const auto outputs = commitTogether(files, partial ? Completeness::Partial : Completeness::Whole);
   fmt::print("{} keyframes\n", keyframes);
   for (const Path& output : outputs) fmt::print("{}\n", output.string());
   if (maps.leftOut() > 0)
@@ -104,10 +109,10 @@ int mapKeyframes(const MapArguments& arguments)
   announce(arguments, driveSizeOf(reader));
   if (arguments.dry_run) return kDone;
 
-  StagedFiles staged(arguments.outputs);
+  std::list<OutputFile> staged(arguments.outputs.begin(), arguments.outputs.end());
   const Eigen::Vector3d offset =
       reader.size() == 0 ? Eigen::Vector3d::Zero() : announcedOffset(reader.keyframe(0).map_T_body);
-  MapFiles maps(staged.running(), reader.lidars(), octoMapPreset(arguments.preset), offset);
+  MapFiles maps(temporariesOf(staged), reader.lidars(), octoMapPreset(arguments.preset), offset);
   std::optional<Progress> progress;
   if (!arguments.quiet) progress.emplace("map", reader.size(), "keyframes");
   std::size_t done = 0;
@@ -133,10 +138,10 @@ int mapRawlog(const MapArguments& arguments)
   std::optional<Progress> progress;
   if (!arguments.quiet) progress.emplace("map", megabytesOf({arguments.input}), "MB");
   std::size_t keyframes = 0;
-  StagedFiles staged(arguments.outputs);
+  std::list<OutputFile> staged(arguments.outputs.begin(), arguments.outputs.end());
   const Eigen::Vector3d offset =
       options.trajectory.empty() ? Eigen::Vector3d::Zero() : announcedOffset(options.trajectory.front().map_T_body);
-  const auto maps = std::make_shared<MapFiles>(staged.running(), mountedLidars(header.lidars),
+  const auto maps = std::make_shared<MapFiles>(temporariesOf(staged), mountedLidars(header.lidars),
                                                octoMapPreset(arguments.preset), offset);
   const RawlogOperation operation = toMaps(maps, options, header, [&] { ++keyframes; });
   const RawlogEdited read = readRawlog(arguments.input, operation,
@@ -192,9 +197,6 @@ int run(const MapArguments& arguments)
   if (!arguments.trajectory.empty() && ending != ".rawlog")
     throw UsageError(fmt::format("--trajectory is for rawlogs: {} holds poses of its own", arguments.input.string()));
 
-  std::optional<tbb::global_control> jobs;
-  if (arguments.jobs > 0)
-    jobs.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.jobs));
   catchInterruption();
   if (ending == ".rawlog") return mapRawlog(arguments);
   if (isSimpleMap(arguments.input)) return mapKeyframes(arguments);
@@ -231,7 +233,6 @@ std::function<int()> addMapOptions(CLI::App& app)
       .showDefault()
       .typeName("NAME");
   addFlag(app, "--cubes", arguments->cubes, "for a .ply of a .bt or .ot: voxels as cubes with faces instead of points");
-  addJobs(app, arguments->jobs);
   addFlag(app, "--dry-run", arguments->dry_run, "check the input and estimate time and memory, but write nothing");
   addFlag(app, "-q,--quiet", arguments->quiet, "show no progress");
   return [arguments] { return run(*arguments); };

@@ -5,9 +5,9 @@
 #include "Settings.h"
 #include "Verb.h"
 #include "Web.h"
-#include "base/core/AtomicFile.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
+#include "base/core/OutputFile.h"
 #include "base/core/jsonText.h"
 #include "input/rig/InputDisplay.h"
 #include "input/rig/silentLidars.h"
@@ -264,7 +264,7 @@ std::function<int()> addRecordOptions(CLI::App& app)
   addOverwrite(app, arguments->overwrite);
   addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas (default: all)")
       .commaSeparated();
-  addWindow(app, addWeb(app, arguments->web), arguments->web);
+  addWeb(app, arguments->web);
   addJson(app, arguments->json);
   return [arguments] { return run(*arguments); };
 }

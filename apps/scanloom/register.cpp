@@ -1,6 +1,5 @@
 /** `scanloom register`: finds the pose of one point cloud in another. */
 #include "Arguments.h"
-#include "Settings.h"
 #include "Verb.h"
 #include "base/formats/CloudFile.h"
 #include "input/rig/Extrinsics.h"
@@ -20,7 +19,6 @@ namespace
 {
 struct RegisterArguments
 {
-  ConfigurationArguments configuration;
   std::filesystem::path target, source;
   std::string guess = "0 0 0 0 0 0";
   std::string truth;  // empty: not known
@@ -100,18 +98,10 @@ int reportTrials(const RegisterArguments& arguments, const CloudPair& clouds, co
 
 int run(const RegisterArguments& arguments)
 {
-  const Loaded<RegisterSettings> loaded = load<RegisterSettings>(arguments.configuration);
-  const LevelSizes levels = levelsOf(loaded.settings, loaded.configuration);
   const Rigid guess = poseOf("--guess", arguments.guess);
   const std::optional<Rigid> truth = truthOf(arguments.truth);
-  if (arguments.configuration.dry_run)
-  {
-    std::cout << toIni(loaded);
-    return kDone;
-  }
-
   const CloudFile target = readCloud(arguments.target), source = readCloud(arguments.source);
-  const CloudPair clouds(target.points, source.points, levels, loaded.settings);
+  const CloudPair clouds(target.points, source.points);
   if (truth && arguments.trials.trials > 0) return reportTrials(arguments, clouds, *truth);
 
   RegistrationReport report;
@@ -176,7 +166,6 @@ std::function<int()> addRegisterOptions(CLI::App& app)
                                  "the true target_T_source, or a file with its 4x4 matrix: errors are reported")
                            .typeName("POSE|FILE");
   addTrials(app, *arguments, truth, guess);
-  addConfiguration(app, arguments->configuration);
   addJson(app, arguments->json);
   return [arguments] { return run(*arguments); };
 }
@@ -184,7 +173,6 @@ std::function<int()> addRegisterOptions(CLI::App& app)
 
 Verb registerVerb()
 {
-  return {"register", "pose of one point cloud in another, by registration", schemaOf<RegisterSettings>(),
-          &addRegisterOptions};
+  return {"register", "pose of one point cloud in another, by registration", {}, &addRegisterOptions};
 }
 }  // namespace scanloom

@@ -1,7 +1,7 @@
 /** `scanloom report`: the results of an experiment as one HTML page. */
 #include "Arguments.h"
 #include "Verb.h"
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 #include "lab/study/ContentHash.h"
 #include "lab/study/Gnuplot.h"
 #include "lab/study/StudyReport.h"

@@ -2,11 +2,11 @@
 #include "Arguments.h"
 #include "Settings.h"
 #include "Verb.h"
-#include "base/core/AtomicFile.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
+#include "base/core/OutputFile.h"
+#include "base/core/OutputFolder.h"
 #include "base/core/Progress.h"
-#include "base/core/ResultFolder.h"
 #include "lab/simulation/RecordingFolder.h"
 #include "lab/simulation/ScenePictures.h"
 #include "lab/simulation/SceneSensors.h"
@@ -58,7 +58,7 @@ constexpr const char* kConfigurationCopy = "configuration.ini";
 int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const std::filesystem::path& out,
           const std::vector<std::string>& names)
 {
-  ResultFolder folder(out);
+  OutputFolder folder(out);
   Progress progress("simulate", static_cast<std::uint64_t>(std::ceil(scene.span.duration)), "s");
   try
   {

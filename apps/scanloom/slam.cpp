@@ -5,10 +5,10 @@
 #include "Verb.h"
 #include "Version.h"
 #include "Web.h"
-#include "base/core/AtomicFile.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
-#include "base/core/ResultFolder.h"
+#include "base/core/OutputFile.h"
+#include "base/core/OutputFolder.h"
 #include "input/rig/InputDisplay.h"
 #include "input/rig/RigOptions.h"
 #include "run/run/SlamFiles.h"
@@ -147,7 +147,7 @@ int process(const SlamInput& input, const SlamArguments& arguments, const Loaded
             const std::vector<std::string>& names)
 {
   const SlamVerbSettings& settings = loaded.settings;
-  ResultFolder folder(arguments.output.folder);
+  OutputFolder folder(arguments.output.folder);
   writeAtomically(folder.running() / kConfigurationFile, [&](std::ostream& file) { file << toIni(loaded); });
   SlamFiles files(folder.running(), input.sensors->setup().header.lidars, settings.output, settings.octomap);
   SlamRunResult result = runShowingProgress(input, settings, files, arguments);
@@ -225,7 +225,7 @@ std::function<int()> addSlamOptions(CLI::App& app)
   addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas; default: all")
       .commaSeparated();
   addSeconds(app, arguments->seconds);
-  addWindow(app, addWeb(app, arguments->web), arguments->web);
+  addWeb(app, arguments->web);
   addOption(app, "--every-nth", arguments->every_nth, "use every N-th scan only; the IMU is used in full").positive();
   return [arguments] { return run(*arguments); };
 }

@@ -1,12 +1,12 @@
-/** `scanloom view`: plays a recording, or shows another file, in a window or on a page, or draws it. */
+/** `scanloom view`: plays a recording on a page, shows another file in a window, or draws either. */
 #include "Arguments.h"
 #include "Devices.h"
 #include "Recording.h"
 #include "Verb.h"
 #include "Web.h"
-#include "base/core/AtomicFile.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
+#include "base/core/OutputFile.h"
 #include "base/formats/CloudFile.h"
 #include "base/formats/FileFormat.h"
 #include "base/formats/TrajectoryReader.h"
@@ -34,12 +34,13 @@ namespace
 {
 using Path = std::filesystem::path;
 
+constexpr int kWidth = 1280, kHeight = 960;  // pixels, of a window or a picture
+
 struct ViewArguments
 {
   Path file, png, trajectory;
   WebArguments web;
   std::optional<std::uint64_t> scan;
-  int width = 1280, height = 960;
   bool overwrite = false;
 };
 
@@ -125,7 +126,7 @@ SceneBuilder sceneOf(const ViewArguments& arguments)
 int show(const mrpt::opengl::COpenGLScene::Ptr& scene, const ViewArguments& arguments)
 {
   const std::unique_ptr<Window> window =
-      devices().showScene(arguments.file.filename().string(), scene, arguments.width, arguments.height);
+      devices().showScene(arguments.file.filename().string(), scene, kWidth, kHeight);
   while (window->isOpen() && !interrupted()) std::this_thread::sleep_for(50ms);
   return interrupted() ? kInterrupted : kDone;
 }
@@ -136,7 +137,7 @@ Player::Open openerOf(const Path& file)
 {
   if (!isRecording(file))
     throw UsageError(
-        fmt::format("{}: --web plays a capture, a bag, a folder of these or a .rawlog; others are shown without it",
+        fmt::format("{}: --web plays a capture, a bag, a folder of these or a .rawlog; others are shown in a window",
                     file.string()));
   return [source = sourceAt(file)] { return openInput(source); };
 }
@@ -147,13 +148,6 @@ int play(const ViewArguments& arguments)
   if (!arguments.trajectory.empty()) poses = readTrajectory(arguments.trajectory, &warn);
   LiveExchange exchange;
   Player player(openerOf(arguments.file), std::move(poses), exchange);
-  if (!arguments.web.given())
-  {
-    const std::unique_ptr<Window> window =
-        devices().showLive("scanloom view " + arguments.file.filename().string(), exchange, Devices::Priority::Usual);
-    player.run([&] { return window->isOpen() && !interrupted(); });
-    return kDone;
-  }
   const SensorAddress address = webAddress(arguments.web);
   const LiveServer server(address, exchange);
   announcePage(server, address);
@@ -167,7 +161,7 @@ int draw(const ViewArguments& arguments)
   if (arguments.png.extension() != ".png")
     throw UsageError(fmt::format("--png {}: the name must end in .png", arguments.png.string()));
   refuseExisting({arguments.png}, arguments.overwrite);
-  writePicture(arguments.png, *sceneOf(arguments).finished(), arguments.width, arguments.height);
+  writePicture(arguments.png, *sceneOf(arguments).finished(), kWidth, kHeight);
   fmt::print("{}\n", arguments.png.string());
   return kDone;
 }
@@ -200,8 +194,6 @@ std::function<int()> addViewOptions(CLI::App& app)
   addOption(app, "--scan", arguments->scan,
             "for a capture or rawlog: show only this scan, counted from 0, instead of playing all [with --png: 0]")
       .typeName("N");
-  addOption(app, "--width", arguments->width, "width in pixels").between(64, 8192).showDefault();
-  addOption(app, "--height", arguments->height, "height in pixels").between(64, 8192).showDefault();
   return [arguments] { return run(*arguments); };
 }
 }  // namespace
@@ -209,7 +201,7 @@ std::function<int()> addViewOptions(CLI::App& app)
 Verb viewVerb()
 {
   return {"view",
-          "plays a recording; shows a map, point cloud or trajectory; in a window, on a page, or as a picture",
+          "plays a recording on a page; shows a map, point cloud or trajectory in a window; or draws a picture",
           {},
           &addViewOptions};
 }

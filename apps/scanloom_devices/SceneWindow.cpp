@@ -1,12 +1,21 @@
 #include "SceneWindow.h"
 
-#include "requireDisplay.h"
+#include <cstdlib>
+#include <stdexcept>
 
 namespace scanloom
 {
+namespace
+{
+void requireDisplay()
+{
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY"))
+    throw std::runtime_error("there is no display for a window: use --png FILE, which needs none");
+}
+}  // namespace
+
 SceneWindow::SceneWindow(const std::string& title, const mrpt::opengl::COpenGLScene::Ptr& scene, int width, int height)
-  : window_((requireDisplay("use --png FILE, which needs none"), title), static_cast<unsigned>(width),
-            static_cast<unsigned>(height))
+  : window_((requireDisplay(), title), static_cast<unsigned>(width), static_cast<unsigned>(height))
 {
   const mrpt::opengl::CCamera camera = scene->getViewport()->getCamera();
   window_.get3DSceneAndLock() = scene;

@@ -1,6 +1,5 @@
 /** libscanloom_devices.so: what apps/scanloom/Devices.h promises. */
 #include "Devices.h"
-#include "LiveWindow.h"
 #include "SceneWindow.h"
 #include "mrpt/sensors/ImuDriver.h"
 #include "mrpt/sensors/ImuDriverInput.h"
@@ -16,11 +15,6 @@ namespace
 class MrptDevices : public Devices
 {
  public:
-  std::unique_ptr<Window> showLive(const std::string& title, LiveExchange& exchange, Priority priority) const override
-  {
-    return std::make_unique<LiveWindow>(title, exchange, priority);
-  }
-
   std::unique_ptr<Window> showScene(const std::string& title, const mrpt::opengl::COpenGLScene::Ptr& scene, int width,
                                     int height) const override
   {

@@ -1,3 +1,4 @@
+#include "base/core/FindingLimits.h"
 #include "diagnosis/DoctorFindings.h"
 
 #include <fmt/format.h>
@@ -36,12 +37,11 @@ Finding kindFinding(const LidarExamination& seen)
   return finding;
 }
 
-Finding offsetFinding(const LidarExamination& seen, const std::string& first, std::size_t lidar,
-                      const ClockLimits& limits)
+Finding offsetFinding(const LidarExamination& seen, const std::string& first, std::size_t lidar)
 {
   const Duration ahead = *seen.clock.ahead_of_first;
   Finding finding{seen.name, "clock offset",
-                  grade(1e3 * std::abs(seconds(ahead)), limits.offset_warning_ms, limits.offset_not_fit_ms),
+                  grade(1e3 * std::abs(seconds(ahead)), limits::kOffsetWarningMs, limits::kOffsetNotFitMs),
                   fmt::format("{} ahead of '{}'", signedSeconds(ahead), first)};
   if (finding.verdict != Verdict::Ok)
     finding.mend = fmt::format("lock both to one PTP master; for this recording set lidar{}_time_offset = {:.4f}",
@@ -49,20 +49,20 @@ Finding offsetFinding(const LidarExamination& seen, const std::string& first, st
   return finding;
 }
 
-Finding driftFinding(const LidarExamination& seen, const std::string& first, bool is_first, const ClockLimits& limits)
+Finding driftFinding(const LidarExamination& seen, const std::string& first, bool is_first)
 {
   const std::optional<ClockDrift>& drift = is_first ? seen.clock.drift : seen.clock.drift_to_first;
   Finding finding{seen.name, "clock drift", Verdict::NotMeasured,
-                  fmt::format("not enough time: needs {:.0f} s", limits.drift_time)};
+                  fmt::format("not enough time: needs {:.0f} s", limits::kDriftTime)};
   if (!drift) return finding;
   finding.verdict = Verdict::Ok;
   finding.says = fmt::format("{:+.2f} ppm against {} (standard deviation {:.2f})", drift->ppm,
                              is_first ? "the computer" : "'" + first + "'", drift->sigma_ppm);
-  const bool drifts = std::abs(drift->ppm) > limits.drift_warning_ppm && std::abs(drift->ppm) > 3 * drift->sigma_ppm;
+  const bool drifts = std::abs(drift->ppm) > limits::kDriftWarningPpm && std::abs(drift->ppm) > 3 * drift->sigma_ppm;
   if (is_first || !drifts) return finding;
   finding.verdict = Verdict::Warning;
   finding.mend = fmt::format("lock both to one PTP master: they diverge by {:.0f} ms within {:.0f} s",
-                             limits.offset_warning_ms, 1e3 * limits.offset_warning_ms / std::abs(drift->ppm));
+                             limits::kOffsetWarningMs, 1e3 * limits::kOffsetWarningMs / std::abs(drift->ppm));
   return finding;
 }
 
@@ -78,13 +78,13 @@ Finding stepsFinding(const LidarExamination& seen)
           "start recording after PTP has locked, and let the master slew instead of step (ptp4l: step_threshold 0)"};
 }
 
-Finding phaseFinding(const RigExamination& rig, std::size_t lidar, const ClockLimits& limits)
+Finding phaseFinding(const RigExamination& rig, std::size_t lidar)
 {
   const LidarExamination& seen = rig.lidars[lidar];
   const RotorPhase& p = *seen.clock.phase;
   Finding finding{seen.name, "rotor phase", Verdict::Ok, ""};
   const double rate = (1 + 1e-6 * p.rate_error_ppm) / p.turn;
-  if (std::abs(p.rate_error_ppm) > 1e6 * limits.rotor_tolerance)
+  if (std::abs(p.rate_error_ppm) > 1e6 * limits::kRotorTolerance)
   {
     finding.verdict = Verdict::Warning;
     finding.says = fmt::format("{:.2f} Hz ({:.1f} rpm), nominal are {:.2f} Hz", rate, 60 * rate, 1 / p.turn);
@@ -104,16 +104,16 @@ Finding phaseFinding(const RigExamination& rig, std::size_t lidar, const ClockLi
 }
 }  // namespace
 
-Findings clockFindings(const RigExamination& rig, std::size_t lidar, const ClockLimits& limits)
+Findings clockFindings(const RigExamination& rig, std::size_t lidar)
 {
   const LidarExamination& seen = rig.lidars[lidar];
   if (!seen.clock.epoch) return {};
   const std::string& first = rig.lidars.front().name;
   Findings findings{kindFinding(seen)};
-  if (seen.clock.ahead_of_first) findings.push_back(offsetFinding(seen, first, lidar, limits));
-  findings.push_back(driftFinding(seen, first, lidar == 0, limits));
+  if (seen.clock.ahead_of_first) findings.push_back(offsetFinding(seen, first, lidar));
+  findings.push_back(driftFinding(seen, first, lidar == 0));
   findings.push_back(stepsFinding(seen));
-  if (seen.clock.phase) findings.push_back(phaseFinding(rig, lidar, limits));
+  if (seen.clock.phase) findings.push_back(phaseFinding(rig, lidar));
   return findings;
 }
 }  // namespace scanloom

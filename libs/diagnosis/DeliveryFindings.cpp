@@ -1,3 +1,4 @@
+#include "base/core/FindingLimits.h"
 #include "diagnosis/DoctorFindings.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@ namespace
 constexpr const char* kMendLoss =
     "raise net.core.rmem_max to 64 MB, use a gigabit link without Wi-Fi, and check the cable (ethtool -S: rx errors)";
 
-Finding rateFinding(const LidarExamination& seen, const DeliveryLimits& limits)
+Finding rateFinding(const LidarExamination& seen)
 {
   const Delivery& d = seen.delivery;
   Finding finding{seen.name, "rate", Verdict::NotMeasured, fmt::format("{} packets: less than a turn", d.packets)};
@@ -19,7 +20,7 @@ Finding rateFinding(const LidarExamination& seen, const DeliveryLimits& limits)
   finding.says = fmt::format("{:.1f} packets/s of {:.1f} nominal, {:.1f} blocks/s of {:.1f}", *d.rates.packets,
                              d.rates.nominal_packets, *d.rates.blocks, d.rates.nominal_blocks);
   const double sent_rate = *d.rates.packets * static_cast<double>(d.sent()) / static_cast<double>(d.packets);
-  if (std::abs(sent_rate / d.rates.nominal_packets - 1) <= limits.rate_tolerance)
+  if (std::abs(sent_rate / d.rates.nominal_packets - 1) <= limits::kRateTolerance)
   {
     finding.verdict = Verdict::Ok;
     return finding;
@@ -29,7 +30,7 @@ Finding rateFinding(const LidarExamination& seen, const DeliveryLimits& limits)
   return finding;
 }
 
-Finding lossFinding(const LidarExamination& seen, const DeliveryLimits& limits)
+Finding lossFinding(const LidarExamination& seen)
 {
   const Delivery& d = seen.delivery;
   Finding finding{seen.name, "loss", Verdict::Ok, fmt::format("none of {} packets", d.sent())};
@@ -37,8 +38,8 @@ Finding lossFinding(const LidarExamination& seen, const DeliveryLimits& limits)
   finding.says =
       fmt::format("{:.3f} % ({} of {} packets) in {} gaps, the longest of {} packets or {:.1f} ms", 100 * d.lossShare(),
                   d.loss.packets, d.sent(), d.loss.gaps, d.loss.longest, 1e3 * seconds(d.loss.longest_time));
-  finding.verdict = grade(d.lossShare(), limits.loss_warning, limits.loss_not_fit);
-  if (seconds(d.loss.longest_time) > limits.gap_not_fit) finding.verdict = Verdict::NotFit;
+  finding.verdict = grade(d.lossShare(), limits::kLossWarning, limits::kLossNotFit);
+  if (seconds(d.loss.longest_time) > limits::kGapNotFit) finding.verdict = Verdict::NotFit;
   if (finding.verdict != Verdict::Ok) finding.mend = kMendLoss;
   return finding;
 }
@@ -53,27 +54,27 @@ Finding orderFinding(const LidarExamination& seen)
                       order.displacement, 1e3 * seconds(order.displacement_time), order.duplicates)};
 }
 
-Finding blocksFinding(const LidarExamination& seen, const DeliveryLimits& limits)
+Finding blocksFinding(const LidarExamination& seen)
 {
   const Delivery& d = seen.delivery;
-  Finding finding{seen.name, "valid blocks", grade(1 - d.validShare(), limits.invalid_warning, limits.invalid_not_fit),
+  Finding finding{seen.name, "valid blocks", grade(1 - d.validShare(), limits::kInvalidWarning, limits::kInvalidNotFit),
                   fmt::format("{:.2f} % of {} in the azimuth window", 100 * d.validShare(), d.blocks)};
   if (finding.verdict != Verdict::Ok)
     finding.mend = "wait until the motor runs; if blocks are invalid after that, read the sensor's alerts";
   return finding;
 }
 
-void addDamage(Findings& findings, const LidarExamination& seen, const DeliveryLimits& limits)
+void addDamage(Findings& findings, const LidarExamination& seen)
 {
   const auto all = static_cast<double>(seen.delivery.packets + seen.malformed + seen.bad_crc);
   if (seen.malformed > 0)
     findings.push_back({seen.name, "malformed",
-                        grade(static_cast<double>(seen.malformed) / all, limits.damaged_warning, 0.5),
+                        grade(static_cast<double>(seen.malformed) / all, limits::kDamagedWarning, 0.5),
                         fmt::format("{} packets of a size or type that does not match the metadata", seen.malformed),
                         "the sensor's UDP profile was changed: fetch its metadata again"});
   if (seen.bad_crc > 0)
     findings.push_back({seen.name, "bad CRC",
-                        grade(static_cast<double>(seen.bad_crc) / all, limits.damaged_warning, 0.5),
+                        grade(static_cast<double>(seen.bad_crc) / all, limits::kDamagedWarning, 0.5),
                         fmt::format("{} packets", seen.bad_crc), "check cables, plugs and the switch"});
 }
 
@@ -103,7 +104,7 @@ void addFlags(Findings& findings, const LidarExamination& seen)
 }
 }  // namespace
 
-Findings deliveryFindings(const LidarExamination& seen, const DeliveryLimits& limits)
+Findings deliveryFindings(const LidarExamination& seen)
 {
   Findings findings;
   if (seen.delivery.packets == 0)
@@ -113,14 +114,14 @@ Findings deliveryFindings(const LidarExamination& seen, const DeliveryLimits& li
          "set the sensor's destination (Ouster: udp_dest) to this computer and the key 'port' to its port; if "
          "'strangers' lists datagrams to that port, the metadata is that of another sensor"});
   else
-    findings = {rateFinding(seen, limits), lossFinding(seen, limits), orderFinding(seen), blocksFinding(seen, limits)};
-  addDamage(findings, seen, limits);
+    findings = {rateFinding(seen), lossFinding(seen), orderFinding(seen), blocksFinding(seen)};
+  addDamage(findings, seen);
   addRestarts(findings, seen);
   addFlags(findings, seen);
   return findings;
 }
 
-Finding jitterFinding(const LidarExamination& seen, Duration deadline, const DeliveryLimits& limits)
+Finding jitterFinding(const LidarExamination& seen, Duration deadline)
 {
   Finding finding{seen.name, "jitter", Verdict::NotMeasured, "no packet with a stamp"};
   if (!seen.jitter) return finding;
@@ -128,7 +129,7 @@ Finding jitterFinding(const LidarExamination& seen, Duration deadline, const Del
   finding.says = fmt::format("p50 {:.2f}, p99 {:.2f}, largest {:.2f} ms after the fastest: needs deadline_ms >= {:.1f}",
                              1e3 * seconds(seen.jitter->p50), 1e3 * seconds(seen.jitter->p99),
                              1e3 * seconds(seen.jitter->largest), needed);
-  finding.verdict = grade(seen.jitter->late_share, 0, limits.late_not_fit);
+  finding.verdict = grade(seen.jitter->late_share, 0, limits::kLateNotFit);
   if (finding.verdict != Verdict::Ok)
     finding.mend =
         fmt::format("set deadline_ms = {:.0f}: {:.3f} % of the packets come later than the configured {:.1f} ms",

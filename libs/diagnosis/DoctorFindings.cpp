@@ -32,21 +32,20 @@ Finding socketFinding(const SocketAccount& sockets)
 void append(Findings& to, Findings more) { to.insert(to.end(), more.begin(), more.end()); }
 }  // namespace
 
-Findings findingsOf(const RigExamination& rig, const DoctorLimits& limits)
+Findings findingsOf(const RigExamination& rig)
 {
   Findings findings;
   for (std::size_t i = 0; i < rig.lidars.size(); ++i)
   {
-    if (rig.packets_known) append(findings, deliveryFindings(rig.lidars[i], limits.delivery));
-    if (rig.lidars[i].jitter) findings.push_back(jitterFinding(rig.lidars[i], rig.deadline, limits.delivery));
-    append(findings, clockFindings(rig, i, limits.clocks));
-    append(findings, groundFindings(rig, i, limits.geometry));
+    if (rig.packets_known) append(findings, deliveryFindings(rig.lidars[i]));
+    if (rig.lidars[i].jitter) findings.push_back(jitterFinding(rig.lidars[i], rig.deadline));
+    append(findings, clockFindings(rig, i));
+    append(findings, groundFindings(rig, i));
     for (const PairExamination& pair : rig.pairs)
       if (pair.lidar == i)
-        findings.push_back(
-            poseFinding(rig.lidars[i].name, rig.lidars[pair.reference].name, pair.agreement, limits.pose));
+        findings.push_back(poseFinding(rig.lidars[i].name, rig.lidars[pair.reference].name, pair.agreement));
   }
-  for (std::size_t i = 0; i < rig.imus.size(); ++i) append(findings, imuFindings(rig, i, limits.imu));
+  for (std::size_t i = 0; i < rig.imus.size(); ++i) append(findings, imuFindings(rig, i));
   if (rig.poses_known || rig.lidars.size() == 1) findings.push_back(cropFinding(rig.machine));
   for (const std::string& wrong : rig.wrong_keys)
     findings.push_back({"rig", "configuration", Verdict::Warning, wrong, ""});

@@ -6,12 +6,12 @@
 namespace scanloom
 {
 /** Findings on each lidar, then on each IMU, then on the whole rig. */
-Findings findingsOf(const RigExamination&, const DoctorLimits&);
+Findings findingsOf(const RigExamination&);
 
 // Its parts.
-Findings deliveryFindings(const LidarExamination&, const DeliveryLimits&);
-Findings clockFindings(const RigExamination&, std::size_t lidar, const ClockLimits&);
-Findings imuFindings(const RigExamination&, std::size_t imu, const ImuLimits&);
-Findings groundFindings(const RigExamination&, std::size_t lidar, const GeometryLimits&);
-Finding jitterFinding(const LidarExamination&, Duration deadline, const DeliveryLimits&);
+Findings deliveryFindings(const LidarExamination&);
+Findings clockFindings(const RigExamination&, std::size_t lidar);
+Findings imuFindings(const RigExamination&, std::size_t imu);
+Findings groundFindings(const RigExamination&, std::size_t lidar);
+Finding jitterFinding(const LidarExamination&, Duration deadline);
 }  // namespace scanloom

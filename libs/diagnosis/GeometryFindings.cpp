@@ -1,4 +1,6 @@
 #include "base/core/Angle.h"
+#include "base/core/FindingLimits.h"
+#include "calibration/GroundFinding.h"
 #include "diagnosis/DoctorFindings.h"
 
 #include <fmt/format.h>
@@ -24,13 +26,13 @@ Finding ownPartsFinding(const LidarExamination& seen)
           fmt::format("{:.1f} % of the points are on the machine itself", 100 * seen.own_parts.share)};
 }
 
-Finding groundsFinding(const LidarExamination& seen, const LidarExamination& first, const GeometryLimits& limits)
+Finding groundsFinding(const LidarExamination& seen, const LidarExamination& first)
 {
   const double angle = degreesBetween(seen.ground->up, first.ground->up);
   const double height = seen.ground->body_height - first.ground->body_height;
   Finding finding{seen.name, "common ground", Verdict::Ok,
                   fmt::format("{:.1f} deg and {:+.3f} m off the ground that '{}' sees", angle, -height, first.name)};
-  if (angle > limits.ground_angle_warning_deg || std::abs(height) > limits.ground_height_warning)
+  if (angle > limits::kGroundAngleWarningDeg || std::abs(height) > limits::kGroundHeightWarning)
   {
     finding.verdict = Verdict::Warning;
     finding.mend = "roll, pitch or z of one of the two poses is wrong; see pose";
@@ -39,7 +41,7 @@ Finding groundsFinding(const LidarExamination& seen, const LidarExamination& fir
 }
 }  // namespace
 
-Findings groundFindings(const RigExamination& rig, std::size_t lidar, const GeometryLimits& limits)
+Findings groundFindings(const RigExamination& rig, std::size_t lidar)
 {
   const LidarExamination &seen = rig.lidars[lidar], &first = rig.lidars.front();
   Findings findings;
@@ -47,12 +49,10 @@ Findings groundFindings(const RigExamination& rig, std::size_t lidar, const Geom
     findings.push_back({seen.name, "returns", Verdict::Ok,
                         fmt::format("{:.1f} % of the shots; 5, 50, 95 % of the returns within {:.1f}, {:.1f}, {:.1f} m",
                                     100 * returns->share, returns->range_p05, returns->range_p50, returns->range_p95)});
-  findings.push_back(rig.poses_known || !seen.ground
-                         ? groundFinding({seen.name, seen.lidar.body_T_sensor}, seen.ground, limits)
-                         : groundInSensorFrame(seen.name, *seen.ground));
+  findings.push_back(rig.poses_known || !seen.ground ? groundFinding({seen.name, seen.lidar.body_T_sensor}, seen.ground)
+                                                     : groundInSensorFrame(seen.name, *seen.ground));
   findings.push_back(ownPartsFinding(seen));
-  if (lidar > 0 && rig.poses_known && seen.ground && first.ground)
-    findings.push_back(groundsFinding(seen, first, limits));
+  if (lidar > 0 && rig.poses_known && seen.ground && first.ground) findings.push_back(groundsFinding(seen, first));
   return findings;
 }
 }  // namespace scanloom

@@ -15,27 +15,27 @@ namespace
 constexpr double kSigmas = 4;  // beyond doubt
 constexpr double kUnit = 1.1;  // factor: two gyroscopes tell a unit from a wrong scale
 
-bool isScaled(const GyroAgreement& a, const ImuLimits& limits)
+bool isScaled(const GyroAgreement& a, const TurnLimits& limits)
 {
   const double error = std::abs(a.scale - 1);
-  return error > limits.gyro_scale_warning && error > kSigmas * a.scale_sigma;
+  return error > limits.scale && error > kSigmas * a.scale_sigma;
 }
 
-bool isTurned(const GyroAgreement& a, const ImuLimits& limits)
+bool isTurned(const GyroAgreement& a, const TurnLimits& limits)
 {
   const double angle = a.rotation.norm();
-  return angle > limits.gyro_angle_not_fit_deg * kDegree && angle > kSigmas * a.sigma;
+  return angle > limits.angle_deg * kDegree && angle > kSigmas * a.sigma;
 }
 
-bool isLate(const GyroAgreement& a, const ImuLimits& limits)
+bool isLate(const GyroAgreement& a, const TurnLimits& limits)
 {
   const double lag = std::abs(seconds(a.lag));
-  return lag > 1e-3 * limits.imu_lag_warning_ms && lag > kSigmas * a.lag_sigma;
+  return lag > 1e-3 * limits.lag_ms && lag > kSigmas * a.lag_sigma;
 }
 
-bool agrees(const std::optional<GyroAgreement>& a, const ImuLimits& limits)
+bool agrees(const GyroAgreement& a, const TurnLimits& limits)
 {
-  return a && !a->mirrored && !isScaled(*a, limits) && !isTurned(*a, limits) && !isLate(*a, limits);
+  return !a.mirrored && !isScaled(a, limits) && !isTurned(a, limits) && !isLate(a, limits);
 }
 
 /** `reversed`: by its direction one axis is, or two are exchanged; in the IMU's frame. */
@@ -48,7 +48,8 @@ std::string faultOfHands(const Eigen::Vector3d& reversed)
 }
 
 /** What is wrong, and how it is mended; the verdict of `finding` is graded. */
-Finding withFault(Finding finding, const ImuComparison& compared, const std::string& reference, const ImuLimits& limits)
+Finding withFault(Finding finding, const ImuComparison& compared, const std::string& reference,
+                  const TurnLimits& limits)
 {
   const GyroAgreement& a = *compared.agreement;
   const std::string or_of_other = compared.outvoted ? "" : fmt::format(", or of {},", reference);
@@ -61,8 +62,7 @@ Finding withFault(Finding finding, const ImuComparison& compared, const std::str
   }
   else if (isTurned(a, limits))
   {
-    if (a.rotation.norm() - kSigmas * a.sigma > limits.gyro_angle_not_fit_deg * kDegree)
-      finding.verdict = Verdict::NotFit;
+    if (a.rotation.norm() - kSigmas * a.sigma > limits.angle_deg * kDegree) finding.verdict = Verdict::NotFit;
     const Eigen::Vector3d axis = a.rotation.normalized();
     finding.mend = fmt::format(
         "its pose in the body (or its lidar's){} is wrong: turn it by {:.1f} deg about ({:.2f} "
@@ -78,7 +78,7 @@ Finding withFault(Finding finding, const ImuComparison& compared, const std::str
 }
 }  // namespace
 
-std::vector<ImuComparison> compareImus(const std::vector<BodyImu>& imus, const ImuLimits& limits)
+std::vector<ImuComparison> compareImus(const std::vector<BodyImu>& imus)
 {
   std::vector<ImuComparison> best;
   std::size_t most_votes = 0;
@@ -92,7 +92,8 @@ std::vector<ImuComparison> compareImus(const std::vector<BodyImu>& imus, const I
       if (i == reference) continue;
       compared.push_back({i, reference, imus[i].body_T_imu.rotation,
                           gyroAgreement(of_reference, {imus[i].samples, imus[i].body_T_imu})});
-      votes += agrees(compared.back().agreement, limits) ? 1 : 0;
+      const auto& agreement = compared.back().agreement;
+      votes += agreement && agrees(*agreement, {}) ? 1 : 0;
     }
     const bool is_majority = 2 * (votes + 1) > imus.size() && votes > 0;
     for (ImuComparison& c : compared) c.outvoted = is_majority && imus.size() > 2;
@@ -103,7 +104,7 @@ std::vector<ImuComparison> compareImus(const std::vector<BodyImu>& imus, const I
 }
 
 Finding turnsFinding(const ImuComparison& compared, const std::string& name, const std::string& reference,
-                     const ImuLimits& limits)
+                     const TurnLimits& limits)
 {
   Finding finding{name, "turns", Verdict::NotMeasured, "not enough rotation to compare"};
   if (!compared.agreement) return finding;

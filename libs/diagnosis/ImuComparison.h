@@ -1,7 +1,7 @@
 /** The IMUs of one body beside each other: all must turn alike in its frame. */
 #pragma once
 #include "base/core/Finding.h"
-#include "diagnosis/internal/DoctorLimits.h"
+#include "base/core/FindingLimits.h"
 #include "estimation/imu/GyroAgreement.h"
 
 #include <optional>
@@ -30,8 +30,17 @@ struct ImuComparison
  * All but one beside that one, the reference: the first with which most others agree, or, where there is none such, the
  * first. So it does not matter which IMU is the first.
  */
-std::vector<ImuComparison> compareImus(const std::vector<BodyImu>&, const ImuLimits&);
+std::vector<ImuComparison> compareImus(const std::vector<BodyImu>&);
+
+/** Differences of turn rates that matter, where they are also beyond four standard deviations. */
+struct TurnLimits
+{
+  double scale = limits::kGyroScaleWarning;
+  double angle_deg = limits::kGyroAngleNotFitDeg;
+  double lag_ms = limits::kImuLagWarningMs;
+};
 
 /** About the IMU that is compared, `name`. */
-Finding turnsFinding(const ImuComparison&, const std::string& name, const std::string& reference, const ImuLimits&);
+Finding turnsFinding(const ImuComparison&, const std::string& name, const std::string& reference,
+                     const TurnLimits& = {});
 }  // namespace scanloom

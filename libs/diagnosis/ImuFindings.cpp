@@ -1,3 +1,4 @@
+#include "base/core/FindingLimits.h"
 #include "diagnosis/DoctorFindings.h"
 
 #include <fmt/format.h>
@@ -6,7 +7,7 @@ namespace scanloom
 {
 namespace
 {
-Finding timingFinding(const ImuExamination& imu, const ImuLimits& limits)
+Finding timingFinding(const ImuExamination& imu)
 {
   const ImuTiming& t = imu.timing;
   Finding finding{imu.name, "rate", Verdict::Ok, fmt::format("{} samples", t.samples)};
@@ -16,7 +17,7 @@ Finding timingFinding(const ImuExamination& imu, const ImuLimits& limits)
                                             1e3 * seconds(t.longest_gap));
   if (t.gaps > 0)
   {
-    finding.verdict = seconds(t.longest_gap) > limits.imu_gap_not_fit ? Verdict::NotFit : Verdict::Warning;
+    finding.verdict = seconds(t.longest_gap) > limits::kImuGapNotFit ? Verdict::NotFit : Verdict::Warning;
     finding.mend = "read the IMU with priority over a link of its own; for a lidar's IMU see the lidar's loss";
   }
   if (t.backwards > 0)
@@ -48,17 +49,15 @@ Finding upInSensorFrame(const ImuExamination& imu)
 }
 }  // namespace
 
-Findings imuFindings(const RigExamination& rig, std::size_t index, const ImuLimits& limits)
+Findings imuFindings(const RigExamination& rig, std::size_t index)
 {
   const ImuExamination& imu = rig.imus[index];
-  Findings findings{timingFinding(imu, limits)};
+  Findings findings{timingFinding(imu)};
   if (imu.lidar_share) findings.push_back(coverageFinding(imu));
-  findings.push_back(gravityFinding(imu.name, imu.sound, limits));
-  findings.push_back(rig.poses_known ? upFinding(imu.name, imu.sound, imu.configured_pose, limits)
-                                     : upInSensorFrame(imu));
-  findings.push_back(gyroFinding(imu.name, imu.sound, limits));
-  if (imu.compared)
-    findings.push_back(turnsFinding(*imu.compared, imu.name, rig.imus[imu.compared->reference].name, limits));
+  findings.push_back(gravityFinding(imu.name, imu.sound));
+  findings.push_back(rig.poses_known ? upFinding(imu.name, imu.sound, imu.configured_pose) : upInSensorFrame(imu));
+  findings.push_back(gyroFinding(imu.name, imu.sound));
+  if (imu.compared) findings.push_back(turnsFinding(*imu.compared, imu.name, rig.imus[imu.compared->reference].name));
   return findings;
 }
 }  // namespace scanloom

@@ -1,5 +1,6 @@
 #include "diagnosis/RawlogCheck.h"
 
+#include "base/core/FindingLimits.h"
 #include "base/core/Statistics.h"
 #include "base/core/jsonText.h"
 #include "diagnosis/DoctorFindings.h"
@@ -151,7 +152,6 @@ Finding finding(const std::string& about, const std::string& measure, Verdict ve
 
 void addDelivery(const std::string& label, const LabelAccount& a, Findings& findings)
 {
-  const DeliveryLimits limits;
   const double span = seconds(a.last - a.first);
   findings.push_back(
       finding(label, "span", Verdict::Ok,
@@ -161,7 +161,7 @@ void addDelivery(const std::string& label, const LabelAccount& a, Findings& find
                              "cut the rawlog where the clock stepped (--from-time, --to-time)"));
   const double loss = a.count > 0 ? static_cast<double>(a.lost) / static_cast<double>(a.count + a.lost) : 0;
   findings.push_back(
-      finding(label, "gaps", grade(loss, limits.loss_warning, limits.loss_not_fit),
+      finding(label, "gaps", grade(loss, limits::kLossWarning, limits::kLossNotFit),
               fmt::format("{} gaps, {} lost ({:.2f} %), longest interval {:.1f} ms", a.gaps, a.lost, 100 * loss,
                           1e3 * seconds(a.longest_interval)),
               "examine the capture with 'scanloom doctor': a rawlog does not tell where they were lost"));
@@ -271,8 +271,7 @@ std::string toJson(const RawlogAccount& account)
                    {"damage", account.damage}});
 }
 
-CheckedRawlog checkRawlog(const std::filesystem::path& path, const DoctorLimits& limits, const CropOptions& crop,
-                          const KeepReading& keep_reading)
+CheckedRawlog checkRawlog(const std::filesystem::path& path, const CropOptions& crop, const KeepReading& keep_reading)
 {
   bool stopped = false;
   CheckedRawlog check;
@@ -280,8 +279,8 @@ CheckedRawlog checkRawlog(const std::filesystem::path& path, const DoctorLimits&
   check.findings = findingsOf(check.account);
   if (stopped || !check.account.header) return check;
   RawlogInput input(path);
-  check.rig = examine(scanEvidence(input, true, [] { return true; }), limits, crop);
-  const Findings of_rig = findingsOf(check.rig, limits);
+  check.rig = examine(scanEvidence(input, true, [] { return true; }), crop);
+  const Findings of_rig = findingsOf(check.rig);
   check.findings.insert(check.findings.end(), of_rig.begin(), of_rig.end());
   return check;
 }

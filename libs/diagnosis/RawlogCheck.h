@@ -69,7 +69,7 @@ struct CheckedRawlog
 };
 
 /** Reads the rawlog twice, the second time without asking. Throws what readRawlog throws. */
-CheckedRawlog checkRawlog(const std::filesystem::path&, const DoctorLimits&, const CropOptions&, const KeepReading&);
+CheckedRawlog checkRawlog(const std::filesystem::path&, const CropOptions&, const KeepReading&);
 
 /** As toJson() of a RigExamination, with the account as "rawlog". */
 std::string toJson(const CheckedRawlog&);

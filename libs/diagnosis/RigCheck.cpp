@@ -19,13 +19,7 @@ constexpr std::size_t kAllEvery = 4;  // examinations: the lidars take 1 to 2 s 
 constexpr Duration kUntilTold = 5s;   // longer than an examination takes, so that a live run does not wait for it
 
 /** Registrations of short drives are noisy: right rigs show up to 12 ms and some degrees, and too small a scale. */
-ImuLimits limitsBesideLidars()
-{
-  ImuLimits limits;
-  limits.gyro_angle_not_fit_deg = 5;
-  limits.gyro_scale_warning = 0.9;  // a wrong unit
-  return limits;
-}
+constexpr TurnLimits kBesideLidars{0.9, 5};  // a wrong unit; deg
 
 /** The IMUs beside each other. Others' stamps do not matter of an IMU that is not in use. */
 RigFaults comparisonFaults(const RigMinute& minute)
@@ -38,11 +32,11 @@ RigFaults comparisonFaults(const RigMinute& minute)
     imus.push_back({minute.imus.at(sensor).name, samples, minute.imus.at(sensor).body_T_imu});
   }
   RigFaults found;
-  for (const ImuComparison& compared : compareImus(imus, {}))
+  for (const ImuComparison& compared : compareImus(imus))
   {
     const bool used = sensors[compared.imu] == minute.in_use;
-    ImuLimits limits;
-    if (!used || !compared.outvoted) limits.imu_lag_warning_ms = std::numeric_limits<double>::infinity();
+    TurnLimits limits;
+    if (!used || !compared.outvoted) limits.lag_ms = std::numeric_limits<double>::infinity();
     const Finding finding = turnsFinding(compared, imus[compared.imu].name, imus[compared.reference].name, limits);
     if (finding.verdict < Verdict::Warning) continue;
     found.imu_in_use_is_wrong |= used && compared.outvoted;
@@ -54,10 +48,10 @@ RigFaults comparisonFaults(const RigMinute& minute)
 Findings soundnessFindings(const RigImu& imu, const std::vector<ImuSample>& samples)
 {
   const ImuSoundness sound = soundnessOf(samples, imu.body_T_imu);
-  Findings findings{gravityFinding(imu.name, sound, {}), gyroFinding(imu.name, sound, {})};
+  Findings findings{gravityFinding(imu.name, sound), gyroFinding(imu.name, sound)};
   // The frame of a lidar alone, whose pose nobody gave, is the body's however it is tilted.
   if (!imu.configured_pose.rotation.isApprox(Eigen::Quaterniond::Identity()))
-    findings.push_back(upFinding(imu.name, sound, imu.configured_pose, {}));
+    findings.push_back(upFinding(imu.name, sound, imu.configured_pose));
   return findings;
 }
 }  // namespace
@@ -94,7 +88,7 @@ RigFaults rigFaults(const RigMinute& minute)
   const RigImu& imu = minute.imus.at(*minute.in_use);
   found.imu = gyroAgreement(minute.turns, {minute.samples.at(*minute.in_use), imu.body_T_imu});
   const ImuComparison beside_lidars{0, 0, imu.body_T_imu.rotation, found.imu, true};
-  const Finding turns = turnsFinding(beside_lidars, imu.name, "the lidars", limitsBesideLidars());
+  const Finding turns = turnsFinding(beside_lidars, imu.name, "the lidars", kBesideLidars);
   if (lidars_agree && turns.verdict >= Verdict::Warning) found.faults.push_back({imu.name, turns});
   return found;
 }

@@ -51,17 +51,6 @@ TEST(Doctor, endsWithThreeAndSaysHowToMendWhatIsNotFit)
   EXPECT_THAT(ill.output, HasSubstr("the lidar's pose is wrong by 87 deg"));
 }
 
-TEST(Doctor, limitsAreOptions)
-{
-  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
-  ::setenv("SCANLOOM_RECORDING", folder.c_str(), 1);
-  const Ended strict = doctor("-c " SCANLOOM_SOURCE_DIR
-                              "/params/dual_os0_recording.ini --set doctor.tilt_not_fit_deg=1 --set "
-                              "doctor.tilt_warning_deg=0.5 --seconds 5");
-  EXPECT_EQ(strict.status, 3);
-  EXPECT_THAT(strict.output, HasSubstr("NOT FIT   up"));
-}
-
 TEST(Doctor, saysWhatIsMissing)
 {
   SCANLOOM_NEEDS_DATA(capture, kReal + "_lb_n3.pcap");

@@ -176,8 +176,8 @@ TEST_F(Map, viewDrawsAPictureOfEachWithoutADisplay)
   ASSERT_EQ(map("-o " + name("m.bt") + " -o " + name("m.ply") + " -o " + name("m.simplemap")).status, 0);
   for (const std::string& file : {rawlog, path, name("m.bt"), name("m.ply"), name("m.simplemap")})
   {
-    const Ended ended = runProgram("env -u DISPLAY " SCANLOOM_BIN_DIR "/scanloom view " + file + " --png " + file +
-                                   ".png --width 320 --height 240 2>&1");
+    const Ended ended =
+        runProgram("env -u DISPLAY " SCANLOOM_BIN_DIR "/scanloom view " + file + " --png " + file + ".png 2>&1");
     ASSERT_EQ(ended.status, 0) << ended.output;
     EXPECT_GE(colorsOf(file + ".png"), file == path ? 3U : 10U) << file << ": not only the background";
   }

@@ -121,7 +121,7 @@ TEST(Recording, cloudsOfItGiveItsTrajectory)
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
   const TemporaryFolder folder;
   ASSERT_EQ(scanloom(folder.path(), "record " + recording.string() + " -o drive.rawlog").status, 0);
-  ASSERT_EQ(scanloom(folder.path(), "edit -i drive.rawlog --export-ply clouds").status, 0);
+  ASSERT_EQ(scanloom(folder.path(), "edit -i drive.rawlog --export ply=clouds").status, 0);
   const std::string options = " --every-nth 5 --set output.maps=false --out-dir ";
   const Ended ended = scanloom(folder.path(), "slam clouds/lidar" + options + "of_clouds");
   EXPECT_EQ(ended.status, 0) << ended.output;

@@ -169,32 +169,10 @@ TEST_F(Register, refusesWhatItCannotDo)
   EXPECT_EQ(registered(pair + "--guess '1 2 3'").status, 2);
   EXPECT_EQ(registered(pair + "--truth nowhere.txt").status, 2);
 
-  const Ended levels = registered(pair + "--set 'register.levels=1 2'");
-  EXPECT_EQ(levels.status, 2);
-  EXPECT_THAT(levels.output, HasSubstr("[register] levels = 1 2"));
-
   std::ofstream(folder / "notes.txt") << "1 2 3";
   const Ended no_cloud = registered((folder / "notes.txt").string() + " " + pair.substr(0, pair.find(' ')));
   EXPECT_EQ(no_cloud.status, 1);
   EXPECT_THAT(no_cloud.output, HasSubstr("notes.txt: is no cloud by its name"));
-}
-
-TEST_F(Register, printsWhatWouldRun)
-{
-  const Ended ended =
-      registered(pairOf(plain()) + "--dry-run --set 'register.levels=3 1.5' --set 'register.source_levels=3 2'");
-
-  EXPECT_EQ(ended.status, 0);
-  EXPECT_THAT(ended.output, HasSubstr("levels = 3 1.5\n"));
-  EXPECT_THAT(ended.output, HasSubstr("[register_alignment]\n"));
-}
-
-TEST_F(Register, refusesLevelsThatAreNotAsManyForBothClouds)
-{
-  const Ended ended = registered(pairOf(plain()) + "--dry-run --set 'register.levels=3 1.5'");
-
-  EXPECT_NE(ended.status, 0);
-  EXPECT_THAT(ended.output, HasSubstr("source_levels"));
 }
 
 TEST_F(Register, refusesADeviationOfTheGuessForMetresAlone)

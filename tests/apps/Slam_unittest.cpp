@@ -131,7 +131,7 @@ TEST(SlamVerb, whatIsNoSensibleBoundIsWrongUsage)
 {
   const TemporaryFolder folder;
   for (const std::string setting : {"crop.min_x=20", "crop.max_range=0.1", "octomap.resolution=1e-9",
-                                    "octomap.resolution=nan", "octomap.max_range=1e300", "slam.imu_wait_ms=1e12"})
+                                    "octomap.resolution=nan", "octomap.max_range=1e300", "slam.imu_delay_ms=1e12"})
   {
     const Ended ended = slam(folder.path(), "--dry-run --set " + setting + " --out-dir " + (folder / "out").string());
     EXPECT_EQ(ended.status, 2) << setting;

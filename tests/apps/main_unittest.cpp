@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -66,12 +67,22 @@ TEST(Executable, keepsResultsOnStdoutAndMessagesOnStderr)
   EXPECT_EQ(scanloom("config --default nonsense", "2>/dev/null").output, "");
 }
 
-TEST(Executable, wroteThePageOfParametersInTheManual)
+TEST(Executable, wroteThePagesOfParametersInTheManual)
 {
-  std::ifstream page(SCANLOOM_SOURCE_DIR "/doc/parameters.md");
+  for (const std::string name : {"parameters", "laboratory_parameters"})
+  {
+    std::ifstream page(SCANLOOM_SOURCE_DIR "/doc/" + name + ".md");
+    const std::string command = "config --parameters" + std::string(name == "parameters" ? "" : " laboratory");
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(page), {}), scanloom(command).output)
+        << "mend it by: scanloom " << command << " > doc/" << name << ".md";
+  }
+}
 
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(page), {}), scanloom("config --parameters").output)
-      << "mend it by: scanloom config --parameters > doc/parameters.md";
+TEST(Executable, namesTenKeysFirstInTheManual)
+{
+  const std::string page = scanloom("config --parameters").output;
+  const std::string head = page.substr(0, page.find("| verb |"));
+  EXPECT_EQ(std::count(head.begin(), head.end(), '`') / 2 - 4, 10) << head;
 }
 
 TEST(Executable, mindsNoClosedStandardStream)

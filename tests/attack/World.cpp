@@ -187,9 +187,9 @@ void makeWorld(const fs::path& scanloom, const fs::path& folder)
   maker.run("edit -q -i drive.rawlog -o short.rawlog --to-index 300");
   maker.run("edit -q -i short.rawlog -o split.rawlog --split-lidars");
   maker.run("edit -q -i short.rawlog -o xyzi.rawlog --convert-clouds CPointsMapXYZI");
-  maker.run("edit -q -i short.rawlog --export-ply ply");
-  maker.run("edit -q -i short.rawlog --export-pcd pcd");
-  maker.run("edit -q -i short.rawlog --export-kitti kitti");
+  maker.run("edit -q -i short.rawlog --export ply=ply");
+  maker.run("edit -q -i short.rawlog --export pcd=pcd");
+  maker.run("edit -q -i short.rawlog --export kitti=kitti");
   maker.copy("ply/lidar/000000.ply", "a.ply");
   maker.copy("pcd/lidar/000000.pcd", "a.pcd");
   maker.copy("kitti/lidar/velodyne/000000.bin", "a.bin");
@@ -257,25 +257,25 @@ const std::vector<Target>& targets()
       {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --rebatch 25"},
       {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --voxel 0.5"},
       {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --crop-box '-2 -2 -2 2 2 2'"},
-      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --max-range 20"},
+      {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --ranges '0 20'"},
       {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --apply-extrinsics drive/extrinsics.txt"},
       {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --time-offset imu=0.01"},
       {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --deskew imu"},
       {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --deskew true.tum"},
       {"short.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --convert-clouds CPointsMapXYZI"},
       {"xyzi.rawlog", C::Packed, "edit -q -i {} -o out/a.rawlog --convert-clouds CGenericPointsMap"},
-      {"short.rawlog", C::Packed, "edit -q -i {} --export-ply out/ply"},
-      {"short.rawlog", C::Packed, "edit -q -i {} --export-pcd out/pcd"},
-      {"short.rawlog", C::Packed, "edit -q -i {} --export-csv out/csv"},
+      {"short.rawlog", C::Packed, "edit -q -i {} --export ply=out/ply"},
+      {"short.rawlog", C::Packed, "edit -q -i {} --export pcd=out/pcd"},
+      {"short.rawlog", C::Packed, "edit -q -i {} --export csv=out/csv"},
       {"short.rawlog", C::Packed, "map -q -i {} --trajectory true.tum --preset preview -o out/a.bt -o out/a.simplemap"},
-      {"xyzi.rawlog", C::Packed, "view {} --png out/a.png --width 64 --height 64"},
+      {"xyzi.rawlog", C::Packed, "view {} --png out/a.png"},
       {"a.ply", C::Binary, "register {} a.pcd"},
       {"a.pcd", C::Binary, "register a.ply {}"},
       {"a.bin", C::Binary, "register a.ply {}"},
       {"a.ply.gz", C::Packed, "register {} a.ply"},
       {"a.pcd.gz", C::Packed, "register {} a.ply"},
       {"a.bin.gz", C::Packed, "register {} a.ply"},
-      {"a.ply", C::Binary, "view {} --png out/a.png --width 64 --height 64"},
+      {"a.ply", C::Binary, "view {} --png out/a.png"},
       {"true.tum", C::Text, "evaluate --trajectory {} --reference drive/groundtruth.tum"},
       {"true.csv", C::Text, "evaluate --trajectory {} --reference drive/groundtruth.tum --json"},
       {"drive/total_station.csv", C::Text, "evaluate --trajectory true.tum --reference {}"},
@@ -284,9 +284,9 @@ const std::vector<Target>& targets()
       {"true.tum", C::Text, "map -q -i {} -o out/a.csv"},
       {"map.bt", C::Binary, "map -q -i {} -o out/a.ply"},
       {"map.ot", C::Binary, "map -q -i {} -o out/a.bt -o out/a.ply --cubes"},
-      {"map.ot", C::Binary, "view {} --png out/a.png --width 64 --height 64"},
+      {"map.ot", C::Binary, "view {} --png out/a.png"},
       {"map.simplemap", C::Packed, "map -q -i {} --preset preview -o out/a.bt -o out/a.ply"},
-      {"map.simplemap", C::Packed, "view {} --png out/a.png --width 64 --height 64"},
+      {"map.simplemap", C::Packed, "view {} --png out/a.png"},
   };
   static const std::vector<Target> kTargets = [&]
   {

@@ -180,7 +180,7 @@ TEST(RotorPhase, ofARecordedVelodyneIsThatOfItsAzimuths)
     if (!first) first = last;
   }
   const double rate = hundredths / 36000 / (1e-6 * (last->second - first->second));
-  const RigExamination seen = examine(listener.finish(), {});
+  const RigExamination seen = examine(listener.finish());
   EXPECT_NEAR(10 * (1 + 1e-6 * seen.lidars.front().clock.phase->rate_error_ppm), rate, 0.005 * rate);
   EXPECT_NEAR(60 * rate, 706.5, 0.1);
   EXPECT_EQ(seen.lidars.front().delivery.loss.packets, 0u);

@@ -237,9 +237,9 @@ TEST_P(WrongImus, areNamedWhicheverIsTheFirst)
   for (std::size_t wrong = 0; wrong < 3; ++wrong)
   {
     const std::vector<BodyImu> all = imus(wrong);
-    for (const ImuComparison& compared : compareImus(all, {}))
+    for (const ImuComparison& compared : compareImus(all))
     {
-      const Finding finding = turnsFinding(compared, all[compared.imu].name, "another", {});
+      const Finding finding = turnsFinding(compared, all[compared.imu].name, "another");
       EXPECT_EQ(finding.verdict >= Verdict::Warning, compared.imu == wrong) << finding.about << ": " << finding.says;
       if (compared.imu == wrong)
       {
@@ -269,9 +269,9 @@ TEST(ImuComparison, isNotFitWhereTheyTurnFiveDegreesOffOneAnother)
 TEST(ImuComparison, ofTwoThatDifferNamesBoth)
 {
   const std::vector<ImuSample> a = swayingImu({}), b = scaled(swayingImu({}, 30, 100, 2), 1.1);
-  const std::vector<ImuComparison> compared = compareImus({{"a", a, {}}, {"b", b, {}}}, {});
+  const std::vector<ImuComparison> compared = compareImus({{"a", a, {}}, {"b", b, {}}});
   ASSERT_EQ(compared.size(), 1u);
   EXPECT_FALSE(compared[0].outvoted);
-  EXPECT_THAT(turnsFinding(compared[0], "b", "a", {}).mend, testing::HasSubstr("or of a"));
+  EXPECT_THAT(turnsFinding(compared[0], "b", "a").mend, testing::HasSubstr("or of a"));
 }
 }  // namespace scanloom::imu_unittest

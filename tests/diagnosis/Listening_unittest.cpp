@@ -41,7 +41,7 @@ TEST(Listening, hearsWhatIsSentAndMissesWhatIsNot)
                    [&](const Datagram& d) { return d.destination_port == live.rig.addresses[1].lidar_port; });
   datagrams.erase(lost);
 
-  const RigExamination seen = examine(heard(live.rig, datagrams), {});
+  const RigExamination seen = examine(heard(live.rig, datagrams));
   EXPECT_EQ(seen.lidars[0].delivery.packets, of_one);
   EXPECT_EQ(seen.lidars[0].delivery.loss.packets, 0u);
   EXPECT_EQ(seen.lidars[1].delivery.packets, of_one - 1);

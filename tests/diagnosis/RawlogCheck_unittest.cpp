@@ -152,7 +152,7 @@ TEST_F(RawlogCheck, pointsThatNoLidarMeasuresAreCountedAndLeftOut)
       });
   EXPECT_EQ(account().labels.at("lidar").of_clouds.impossible, 6u);
   EXPECT_EQ(verdictOf("lidar", "points"), Verdict::Warning);
-  const CheckedRawlog check = checkRawlog(in, {}, {}, [](std::uint64_t) { return true; });
+  const CheckedRawlog check = checkRawlog(in, {}, [](std::uint64_t) { return true; });
   EXPECT_EQ(check.rig.lidars.size(), 2u) << "it also ends";
 }
 
@@ -167,7 +167,7 @@ TEST_F(RawlogCheck, oneStampOfNextYearTakesNoMemory)
           if (o->sensorLabel == label && i == 19) o->timestamp += mrpt::Clock::duration(365 * 864'000'000'000);
           return Observations{o};
         });
-    const CheckedRawlog check = checkRawlog(in, {}, {}, [](std::uint64_t) { return true; });
+    const CheckedRawlog check = checkRawlog(in, {}, [](std::uint64_t) { return true; });
     EXPECT_EQ(check.account.labels.at(label).gaps, 1u);
     EXPECT_LT(peakMegabytes() - before, 50) << label;
   }
@@ -189,7 +189,7 @@ TEST_F(RawlogCheck, aLabelThatIsNoTextIsToldAllTheSame)
         if (i == 3) o->sensorLabel = "\xC3(";
         return Observations{o};
       });
-  const auto json = nlohmann::json::parse(toJson(checkRawlog(in, {}, {}, [](std::uint64_t) { return true; })));
+  const auto json = nlohmann::json::parse(toJson(checkRawlog(in, {}, [](std::uint64_t) { return true; })));
   EXPECT_EQ(json["rawlog"]["labels"]["\uFFFD("]["count"], 2);
   EXPECT_NO_THROW(toJson(rawlogInfo(in)));
 }
@@ -201,7 +201,7 @@ TEST_F(RawlogCheck, aHeaderWithoutLidarsHarmsNothing)
     for (int i = 0; i < 3; ++i) writer.write(*toObservation(someScan(kSmallStart + i * 100ms)));
     writer.close();
   }
-  const CheckedRawlog check = checkRawlog(in, {}, {}, [](std::uint64_t) { return true; });
+  const CheckedRawlog check = checkRawlog(in, {}, [](std::uint64_t) { return true; });
   EXPECT_TRUE(check.rig.lidars.empty());
   EXPECT_EQ(check.account.labels.at("lidar").of_clouds.points, 360u);
 }

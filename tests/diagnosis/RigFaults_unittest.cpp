@@ -83,8 +83,8 @@ Examined examined(const Rig& rig, const Fault& fault = {}, Duration longest = 1h
       for (const Datagram& changed : fault(datagram)) listener.add(changed);
   }
   Examined result;
-  result.rig = examine(listener.finish(), {}, machine());
-  result.findings = findingsOf(result.rig, {});
+  result.rig = examine(listener.finish(), machine());
+  result.findings = findingsOf(result.rig);
   return result;
 }
 

@@ -37,7 +37,7 @@ TEST(ScanEvidence, pointsAndImusTellTheSameAsThePacketsDid)
   CropOptions machine;
   machine.min_x = -4, machine.max_x = 10, machine.min_y = -3, machine.max_y = 3, machine.min_z = -0.5,
   machine.max_z = 6;
-  const RigExamination seen = examine(scanEvidence(input, true, [] { return true; }), {}, machine);
+  const RigExamination seen = examine(scanEvidence(input, true, [] { return true; }), machine);
   EXPECT_TRUE(input.takeWarnings().empty()) << "nothing is damaged";
   ASSERT_EQ(seen.lidars.size(), 2u);
   for (const LidarExamination& lidar : seen.lidars)
@@ -48,7 +48,7 @@ TEST(ScanEvidence, pointsAndImusTellTheSameAsThePacketsDid)
   EXPECT_LT(seen.pairs.front().agreement->correction->offset.norm(), 0.03);
   ASSERT_EQ(seen.imus.size(), 3u);
   EXPECT_NEAR(*seen.imus[0].timing.rate, 200, 0.1);
-  for (const Finding& finding : findingsOf(seen, {}))
+  for (const Finding& finding : findingsOf(seen))
     EXPECT_LE(finding.verdict, Verdict::Ok) << finding.about << ' ' << finding.measure << ' ' << finding.says;
 }
 
@@ -79,11 +79,11 @@ TEST(ScanEvidence, cloudsTellTheGroundButNoDelivery)
   }
   CloudsInput input(clouds);
 
-  const RigExamination seen = examine(scanEvidence(input, false, [] { return true; }), {});
+  const RigExamination seen = examine(scanEvidence(input, false, [] { return true; }));
   ASSERT_EQ(seen.lidars.size(), 1u);
   ASSERT_TRUE(seen.lidars[0].ground);
   EXPECT_NEAR(seen.lidars[0].ground->sensor_height, 2, 0.01);
   EXPECT_LT(degreesBetween(seen.lidars[0].ground->up, Eigen::Vector3d::UnitZ()), 0.1);
-  for (const Finding& finding : findingsOf(seen, {})) EXPECT_LE(finding.verdict, Verdict::Ok) << finding.says;
+  for (const Finding& finding : findingsOf(seen)) EXPECT_LE(finding.verdict, Verdict::Ok) << finding.says;
 }
 }  // namespace scanloom::scan_evidence_unittest

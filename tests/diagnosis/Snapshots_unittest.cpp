@@ -63,7 +63,7 @@ TEST(RigExamination, tellsHowFarAwayIsWhatComesBack)
   evidence.lidars.resize(1);
   evidence.snapshots = {{snapshot}};
 
-  const auto returns = examine(evidence, {}).lidars[0].returns;
+  const auto returns = examine(evidence).lidars[0].returns;
   ASSERT_TRUE(returns);
   EXPECT_NEAR(returns->share, 0.505, 1e-12);
   EXPECT_NEAR(returns->range_p05, 0.5, 1e-9);

@@ -1,5 +1,7 @@
 #include "base/config/Configuration.h"
 
+#include "base/config/internal/RemovedKeys.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +15,7 @@ namespace scanloom
 namespace
 {
 constexpr const char* kCommandLine = "--set";
+constexpr const char* kRemoved = " is a constant now, no key: leave it out";
 
 /** The section of rawlog-grabber's own keys, in files that both programs read. */
 constexpr std::string_view kGrabberSection = "global";
@@ -168,12 +171,15 @@ std::string Configuration::misordered(const std::string& section, const std::str
 std::vector<std::string> Configuration::unknownKeys(const std::string& section, const SectionDescription& known) const
 {
   std::vector<std::string> problems;
+  const std::string earlier_section = isSensor(section) ? "lidars" : section;  // a sensor's section has any name
   for (const std::string& key : keys(section))
   {
     const std::vector<std::string> names = known.keysLike(key);
     if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return sameName(name, key); })) continue;
     const std::string where = fmt::format("{}: [{}] {}", toString(place(section, key)), section, key);
-    problems.push_back(unknown(where + " is an unknown key", key, names));
+    const std::string earlier_key = elementOf(known.list, key) ? key.substr(key.find('_', known.list.size()) + 1) : key;
+    problems.push_back(isConstantNow(earlier_section, earlier_key) ? where + kRemoved
+                                                                   : unknown(where + " is an unknown key", key, names));
   }
   return problems;
 }
@@ -195,8 +201,9 @@ void Configuration::refuseUnknown(const Schema& known) const
     }
     std::vector<std::string> names;
     for (const SectionDescription& each : known) names.push_back(each.section.name);
-    const std::string place = toString(keys.entries.begin()->second.place);
-    problems.push_back(unknown(fmt::format("{}: [{}] is an unknown section", place, keys.name), keys.name, names));
+    const std::string where = fmt::format("{}: [{}]", toString(keys.entries.begin()->second.place), keys.name);
+    problems.push_back(isConstantNow(keys.name) ? where + kRemoved
+                                                : unknown(where + " is an unknown section", keys.name, names));
   }
   refuse(problems);
 }

@@ -133,8 +133,9 @@ std::string toMarkdown(const Schema& schema)
     text += fmt::format("{}## [{}]\n{}\n\n| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n",
                         text.empty() ? "" : "\n", described.section.name, described.section.meaning);
     for (const FieldDescription& field : described.fields)
-      text += fmt::format("| `{}` | {} | {} | {} | {} |\n", field.field.name, inTableCell(field.value),
-                          field.field.unit, allowed(field), inTableCell(field.field.meaning));
+      if (elementOf(described.list, field.field.name).value_or(1) == 1)
+        text += fmt::format("| `{}` | {} | {} | {} | {} |\n", field.field.name, inTableCell(field.value),
+                            field.field.unit, allowed(field), inTableCell(field.field.meaning));
   }
   return text;
 }

@@ -131,6 +131,6 @@ Schema schemaOf(const Settings& settings = {})
 /** An INI file with every value, each with its meaning, unit and bounds as a comment. */
 std::string toIni(const Schema&);
 
-/** The rows of doc/parameters.md: a heading and a table for each section. */
+/** The rows of doc/parameters.md: a heading and a table for each section, of a list only its first element. */
 std::string toMarkdown(const Schema&);
 }  // namespace scanloom

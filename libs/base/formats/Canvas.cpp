@@ -1,6 +1,6 @@
 #include "base/formats/Canvas.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 
 #include <fmt/format.h>
 #include <mrpt/img/CImage.h>
@@ -85,7 +85,7 @@ void Canvas::savePng(const std::filesystem::path& path) const
     image.selectTextFont(label.font == Font::Small ? "6x13" : "9x15");
     image.textOut(label.x, label.y, label.text, toMrpt(label.color));
   }
-  AtomicFile file(path);
+  OutputFile file(path);
   if (!image.saveToFile(file.temporary().string()))
     throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
   file.commit();

@@ -1,6 +1,6 @@
 #include "base/formats/KittiWriter.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 #include "base/formats/LittleEndianBuffer.h"
 
 namespace scanloom

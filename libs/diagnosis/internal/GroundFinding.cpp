@@ -1,6 +1,7 @@
 #include "diagnosis/internal/GroundFinding.h"
 
 #include "base/core/Angle.h"
+#include "base/core/FindingLimits.h"
 #include "diagnosis/internal/ImuSoundness.h"
 #include "estimation/imu/MeanForce.h"
 
@@ -14,11 +15,11 @@ std::string groundInWords(const GroundPlane& ground)
                      100 * ground.share, ground.sensor_height);
 }
 
-Finding groundFinding(const MountedLidar& lidar, const std::optional<GroundPlane>& ground, const GeometryLimits& limits)
+Finding groundFinding(const MountedLidar& lidar, const std::optional<GroundPlane>& ground)
 {
   if (!ground) return {lidar.name, "ground", Verdict::NotMeasured, "no plane among the points within 12 m"};
   const double tilt = degreesBetween(ground->up, Eigen::Vector3d::UnitZ());
-  Finding finding{lidar.name, "ground", grade(tilt, limits.ground_tilt_warning_deg, limits.ground_tilt_not_fit_deg),
+  Finding finding{lidar.name, "ground", grade(tilt, limits::kGroundTiltWarningDeg, limits::kGroundTiltNotFitDeg),
                   fmt::format("{}{:.1f} deg off the body's z; the body's origin {:.2f} m above it",
                               groundInWords(*ground), tilt, ground->body_height)};
   if (finding.verdict == Verdict::NotFit)

@@ -1,6 +1,7 @@
 #include "diagnosis/internal/ImuSoundness.h"
 
 #include "base/core/Angle.h"
+#include "base/core/FindingLimits.h"
 #include "estimation/imu/MeanForce.h"
 
 #include <fmt/format.h>
@@ -71,7 +72,7 @@ std::optional<std::string> mendOfRadians(const Rigid& configured, const Eigen::V
       angles[0], angles[1], angles[2], other, angles[0] / kDegree, angles[1] / kDegree, angles[2] / kDegree);
 }
 
-Finding gravityFinding(const std::string& imu, const ImuSoundness& sound, const ImuLimits& limits)
+Finding gravityFinding(const std::string& imu, const ImuSoundness& sound)
 {
   const double magnitude = sound.force_in_body.norm();
   Finding finding{imu, "gravity", Verdict::Ok, fmt::format("mean specific force {:.3f} m/s2", magnitude)};
@@ -82,7 +83,7 @@ Finding gravityFinding(const std::string& imu, const ImuSoundness& sound, const 
     finding.mend = adviceFor(unit);
     return finding;
   }
-  if (std::abs(magnitude - kStandardGravity) <= limits.gravity_warning) return finding;
+  if (std::abs(magnitude - kStandardGravity) <= limits::kGravityWarning) return finding;
   finding.verdict = Verdict::NotMeasured;
   if (sound.span < kMotionAveragesOut) return finding;
   finding.verdict = Verdict::Warning;
@@ -90,11 +91,11 @@ Finding gravityFinding(const std::string& imu, const ImuSoundness& sound, const 
   return finding;
 }
 
-Finding upFinding(const std::string& imu, const ImuSoundness& sound, const Rigid& configured, const ImuLimits& limits)
+Finding upFinding(const std::string& imu, const ImuSoundness& sound, const Rigid& configured)
 {
   const Eigen::Vector3d up = sound.force_in_body.normalized();
   const double tilt = degreesBetween(up, Eigen::Vector3d::UnitZ());
-  Finding finding{imu, "up", grade(tilt, limits.tilt_warning_deg, limits.tilt_not_fit_deg),
+  Finding finding{imu, "up", grade(tilt, limits::kTiltWarningDeg, limits::kTiltNotFitDeg),
                   fmt::format("{:.1f} deg off the body's z", tilt)};
   if (finding.verdict == Verdict::NotFit) finding.says += fmt::format(": up is along {} of the body", nearestAxis(up));
   if (const auto radians = mendOfRadians(configured, up))
@@ -111,7 +112,7 @@ Finding upFinding(const std::string& imu, const ImuSoundness& sound, const Rigid
   return finding;
 }
 
-Finding gyroFinding(const std::string& imu, const ImuSoundness& sound, const ImuLimits& limits)
+Finding gyroFinding(const std::string& imu, const ImuSoundness& sound)
 {
   constexpr double kImpossibleTilt = 0.1;      // rad/s: the machine would lie on its side after 16 s
   constexpr double kImpossibleRate = M_PI;     // rad/s: half a turn a second for 5 s
@@ -133,8 +134,8 @@ Finding gyroFinding(const std::string& imu, const ImuSoundness& sound, const Imu
   finding.verdict = Verdict::Ok;
   finding.says = fmt::format("rad/s: gravity turns {:.2f} times as much as measured (standard deviation {:.2f})",
                              g.scale, g.sigma);
-  const bool low = g.scale + 3 * g.sigma < 1 / limits.gyro_scale_factor;
-  const bool high = share < kSure && g.scale - 3 * g.sigma > limits.gyro_scale_factor;
+  const bool low = g.scale + 3 * g.sigma < 1 / limits::kGyroScaleFactor;
+  const bool high = share < kSure && g.scale - 3 * g.sigma > limits::kGyroScaleFactor;
   if (!unit && !tips_over && !low && !high) return finding;
   finding.verdict = Verdict::NotFit;
   finding.says =

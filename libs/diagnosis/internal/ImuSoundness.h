@@ -2,7 +2,6 @@
 #pragma once
 #include "base/core/Finding.h"
 #include "base/core/Rigid.h"
-#include "diagnosis/internal/DoctorLimits.h"
 #include "estimation/imu/GyroScale.h"
 
 #include <optional>
@@ -22,11 +21,11 @@ struct ImuSoundness
 /** Samples in the order of their stamps. */
 ImuSoundness soundnessOf(const std::vector<ImuSample>&, const Rigid& body_T_imu);
 
-Finding gravityFinding(const std::string& imu, const ImuSoundness&, const ImuLimits&);
-Finding gyroFinding(const std::string& imu, const ImuSoundness&, const ImuLimits&);
+Finding gravityFinding(const std::string& imu, const ImuSoundness&);
+Finding gyroFinding(const std::string& imu, const ImuSoundness&);
 
 /** `configured`: pose of the IMU, or of the lidar that holds it. */
-Finding upFinding(const std::string& imu, const ImuSoundness&, const Rigid& configured, const ImuLimits&);
+Finding upFinding(const std::string& imu, const ImuSoundness&, const Rigid& configured);
 
 /** What to do about turn rates that are `ratio` times the true ones, within this factor; none if that is no unit. */
 std::optional<std::string> mendOfTurnRates(double ratio, double factor);

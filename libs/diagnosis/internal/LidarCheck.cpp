@@ -117,7 +117,7 @@ Findings LidarCheck::compareGrounds() const
     if (!plane) continue;
     for (const Eigen::Vector3d& up : ups) contradict |= up.dot(plane->up) < std::cos(kOfOneGround);
     ups.push_back(plane->up);
-    Finding ground = groundFinding(lidars_[i], plane, {});
+    Finding ground = groundFinding(lidars_[i], plane);
     if (ground.verdict >= Verdict::Warning) tilted.push_back(std::move(ground));
   }
   return contradict ? tilted : Findings{};
@@ -132,11 +132,10 @@ Findings LidarCheck::compare() const
   {
     const auto& [name, body_T_sensor] = lidars_[i];
     const std::vector<SeenPoints> own = seenBy(i), on_the_way = seenAround(i, false);
-    findings.push_back(
-        steadinessFinding(name, sharedView(pairsOf(own, on_the_way), Rigid::identity(), body_T_sensor), {}));
+    findings.push_back(steadinessFinding(name, sharedView(pairsOf(own, on_the_way), Rigid::identity(), body_T_sensor)));
     if (i > 0 && findings.front().verdict <= Verdict::Ok)  // else the first lidar is no measure of the others
-      findings.push_back(poseFinding(
-          name, lidars_[0].name, cloudAgreement(pairsOf(own, by_first), body_T_sensor, lidars_[0].body_T_sensor), {}));
+      findings.push_back(poseFinding(name, lidars_[0].name,
+                                     cloudAgreement(pairsOf(own, by_first), body_T_sensor, lidars_[0].body_T_sensor)));
   }
   return findings;
 }

@@ -1,6 +1,7 @@
 #include "diagnosis/internal/PoseFinding.h"
 
 #include "base/core/Angle.h"
+#include "base/core/FindingLimits.h"
 
 #include <fmt/format.h>
 
@@ -19,8 +20,7 @@ constexpr const char* kMeasureAgain =
     "has its own metadata file, or let 'scanloom calibrate' find the pose from a drive";
 }  // namespace
 
-Finding poseFinding(const std::string& lidar, const std::string& other, const std::optional<CloudAgreement>& agreement,
-                    const PoseLimits& limits)
+Finding poseFinding(const std::string& lidar, const std::string& other, const std::optional<CloudAgreement>& agreement)
 {
   Finding finding{lidar, "pose", Verdict::NotMeasured, fmt::format("too few points that '{}' sees as well", other)};
   if (!agreement) return finding;
@@ -28,8 +28,8 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
   finding.says = fmt::format("{:.0f} % (+-{:.0f}) of {} common points agree with '{}'", 100 * a.near_share,
                              100 * a.near_sigma, a.common, other);
   const double at_best = a.near_share + kDeviations * std::max(a.near_sigma, kLeastSigma);
-  finding.verdict = at_best < limits.near_share_warning        ? Verdict::NotFit
-                    : a.near_share < limits.near_share_warning ? Verdict::Warning
+  finding.verdict = at_best < limits::kNearShareWarning        ? Verdict::NotFit
+                    : a.near_share < limits::kNearShareWarning ? Verdict::Warning
                                                                : Verdict::Ok;
   if (finding.verdict != Verdict::Ok) finding.mend = kMeasureAgain;
   if (!a.correction)
@@ -43,9 +43,9 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
                               c.offset.norm(), c.offset_sigma, degrees.norm(), c.rotation_sigma / kDegree);
   const auto atLeast = [](double value, double sigma) { return value - kDeviations * sigma; };
   const Verdict fit =
-      std::max(grade(atLeast(c.offset.norm(), c.offset_sigma), limits.pose_offset_warning, limits.pose_offset_not_fit),
-               grade(atLeast(degrees.norm(), c.rotation_sigma / kDegree), limits.pose_angle_warning_deg,
-                     limits.pose_angle_not_fit_deg));
+      std::max(grade(atLeast(c.offset.norm(), c.offset_sigma), limits::kPoseOffsetWarning, limits::kPoseOffsetNotFit),
+               grade(atLeast(degrees.norm(), c.rotation_sigma / kDegree), limits::kPoseAngleWarningDeg,
+                     limits::kPoseAngleNotFitDeg));
   if (fit == Verdict::Ok || c.near_share <= a.near_share) return finding;  // a true error hides what is common
   finding.verdict = std::max(finding.verdict, fit);
   if (c.offset.norm() > kLargestOffset || degrees.norm() > kLargestTurn)
@@ -59,14 +59,13 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
   return finding;
 }
 
-Finding steadinessFinding(const std::string& lidar, const std::optional<OverlapOverTurns>& on_the_way,
-                          const PoseLimits& limits)
+Finding steadinessFinding(const std::string& lidar, const std::optional<OverlapOverTurns>& on_the_way)
 {
   Finding finding{lidar, "steadiness", Verdict::NotMeasured, "too few points that are seen again on the way"};
   if (!on_the_way || on_the_way->turns.size() < kFewestPlaces) return finding;
   finding.says = fmt::format("{:.0f} % (+-{:.0f}) of {} points that are seen again on the way are in the same place",
                              100 * on_the_way->near_share, 100 * on_the_way->near_sigma, on_the_way->common);
-  const bool is_low = on_the_way->near_share + 2 * on_the_way->near_sigma < limits.near_share_warning;
+  const bool is_low = on_the_way->near_share + 2 * on_the_way->near_sigma < limits::kNearShareWarning;
   finding.verdict = is_low ? Verdict::Warning : Verdict::Ok;
   if (finding.verdict != Verdict::Ok)
     finding.mend =

@@ -1,5 +1,6 @@
 #include "diagnosis/internal/RigExamination.h"
 
+#include "base/core/FindingLimits.h"
 #include "base/core/Statistics.h"
 
 #include <algorithm>
@@ -26,9 +27,9 @@ LidarExamination nameOnly(const LidarEvidence& evidence)
   return seen;
 }
 
-LidarExamination examineLidar(const LidarEvidence& evidence, Duration deadline, const ClockLimits& limits)
+LidarExamination examineLidar(const LidarEvidence& evidence, Duration deadline)
 {
-  const Duration least_step = fromSeconds(1e-3 * limits.step_ms);
+  const Duration least_step = fromSeconds(1e-3 * limits::kStepMs);
   const std::vector<PacketRun> runs = packetRuns(evidence.packets, evidence.lidar);
   const std::vector<Arrival> arrivals = arrivalsOn(runs, evidence.lidar, least_step);
 
@@ -38,7 +39,7 @@ LidarExamination examineLidar(const LidarEvidence& evidence, Duration deadline, 
   seen.bad_crc = evidence.bad_crc;
   seen.flags = sensorFlags(evidence.packets);
   seen.clock.steps = clockSteps(runs, evidence.lidar, least_step);
-  seen.clock.drift = clockDrift(arrivals, fromSeconds(limits.drift_time));
+  seen.clock.drift = clockDrift(arrivals, fromSeconds(limits::kDriftTime));
   seen.clock.phase = rotorPhase(runs, evidence.lidar, least_step);
   // Packets that are whole turns, clouds of a driver, are waited for a turn longer.
   const bool sends_turns = seen.lidar.columns_per_packet == seen.lidar.columns_per_frame;
@@ -149,14 +150,13 @@ PairExamination examinePair(const RigEvidence& evidence, std::size_t lidar, std:
 }
 }  // namespace
 
-RigExamination examine(RigEvidence evidence, const DoctorLimits& limits, const CropOptions& crop_options)
+RigExamination examine(RigEvidence evidence, const CropOptions& crop_options)
 {
   const Crop crop = cropOf(crop_options, mounted(evidence.lidars));
   RigExamination rig;
   static_cast<RigFacts&>(rig) = evidence;
   for (const LidarEvidence& lidar : evidence.lidars)
-    rig.lidars.push_back(evidence.packets_known ? examineLidar(lidar, evidence.deadline, limits.clocks)
-                                                : nameOnly(lidar));
+    rig.lidars.push_back(evidence.packets_known ? examineLidar(lidar, evidence.deadline) : nameOnly(lidar));
   for (std::size_t i = 0; i < rig.lidars.size(); ++i)
   {
     rig.lidars[i].returns = returnStatistics(evidence.snapshots, i);
@@ -178,7 +178,7 @@ RigExamination examine(RigEvidence evidence, const DoctorLimits& limits, const C
   }
   for (std::size_t i = 0; i < timings.size(); ++i) rig.imus.push_back(examineImu(evidence.imus[i], timings[i], span));
   if (evidence.poses_known)
-    for (const ImuComparison& compared : compareImus(bodyImus(evidence.imus), limits.imu))
+    for (const ImuComparison& compared : compareImus(bodyImus(evidence.imus)))
       rig.imus[compared.imu].compared = compared;
 
   for (std::size_t i = 1; i < rig.lidars.size(); ++i)

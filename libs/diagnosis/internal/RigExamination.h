@@ -6,7 +6,6 @@
 #include "diagnosis/internal/ClockDrift.h"
 #include "diagnosis/internal/ClockKind.h"
 #include "diagnosis/internal/Delivery.h"
-#include "diagnosis/internal/DoctorLimits.h"
 #include "diagnosis/internal/ImuSoundness.h"
 #include "diagnosis/internal/ImuTiming.h"
 #include "diagnosis/internal/PoseFinding.h"
@@ -75,15 +74,6 @@ struct RigExamination : RigFacts
   SelfReturns machine;                 // as all lidars see it, if their poses are known
 };
 
-struct DoctorLimits
-{
-  DeliveryLimits delivery;
-  ClockLimits clocks;
-  ImuLimits imu;
-  GeometryLimits geometry;
-  PoseLimits pose;
-};
-
 /** Throws ConfigError if [crop] names a lidar that there is not. */
-RigExamination examine(RigEvidence, const DoctorLimits&, const CropOptions& = {});
+RigExamination examine(RigEvidence, const CropOptions& = {});
 }  // namespace scanloom

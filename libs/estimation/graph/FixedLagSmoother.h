@@ -1,5 +1,4 @@
 #pragma once
-#include "base/core/Field.h"
 #include "estimation/graph/internal/LinearFactor.h"
 #include "estimation/graph/internal/MarginalFactor.h"
 #include "estimation/imu/Preintegration.h"
@@ -12,20 +11,10 @@ namespace scanloom
 {
 struct SmootherOptions
 {
-  int window = 8;
-  int max_iterations = 6;
-  double huber = 4.0;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.window, Field{"window", "", "number of states that are estimated together", between(2, 100)});
-    visit(o.max_iterations,
-          Field{"max_iterations", "", "at most this many steps of the solver per scan", between(1, 100)});
-    visit(o.huber, Field{"huber", "sigma",
-                         "a lidar pose farther than this from the estimate is weighted down (Huber loss); 0: never",
-                         atLeast(0)});
-  }
+  int window = 8;          // number of states that are estimated together
+  int max_iterations = 6;  // of the solver per scan
+  double huber =
+      4.0;  // sigma: a lidar pose farther than this from the estimate is weighted down (Huber loss); 0: never
 };
 
 /** How the last optimise() went. */

@@ -14,6 +14,12 @@ namespace scanloom
 {
 namespace
 {
+constexpr double kMaxSlowAccel = 0.03;    // m/s2: largest change of the specific force at rest (root mean square of 3
+                                          // axes, below 3 Hz): the engine's vibration is faster, motion is not
+constexpr double kMaxSlowGyroDeg = 0.15;  // deg/s: largest change of the turn rate at rest, as above
+constexpr double kMaxMeanGyroDeg = 2.0;   // deg/s: largest mean rate that can be a bias; a larger one is a turn
+constexpr double kMaxGravityError = 0.5;  // m/s2: largest difference of the mean specific force from 9.80665
+
 /** Standard deviations at the start. */
 struct StartUncertainty
 {
@@ -30,15 +36,15 @@ constexpr double kMovingGyroBias = 1.0 * kDegree;  // rad/s, of a cheap sensor
 constexpr double kMovingAcceleration = 0.5;        // m/s2
 constexpr double kOriginSigma = 1e-3;              // m and rad: position and yaw define the map, they are not measured
 
-bool isAtRest(const SlowMotion& m, const StandstillOptions& o)
+bool isAtRest(const SlowMotion& m)
 {
   // Shares of an engine's vibration that may look slow: an overtone near half the IMU's rate, or all of it, is sampled
   // as a slow motion.
   constexpr double kAliased = 0.08, kAliasedTurns = 0.04;
-  return m.accel <= o.max_slow_accel + kAliased * m.accel_all &&
-         m.gyro <= o.max_slow_gyro_deg * kDegree + kAliasedTurns * m.gyro_all &&
-         m.mean_gyro.norm() <= o.max_mean_gyro_deg * kDegree &&
-         std::abs(m.mean_accel.norm() - kGravity) <= o.max_gravity_error;
+  return m.accel <= kMaxSlowAccel + kAliased * m.accel_all &&
+         m.gyro <= kMaxSlowGyroDeg * kDegree + kAliasedTurns * m.gyro_all &&
+         m.mean_gyro.norm() <= kMaxMeanGyroDeg * kDegree &&
+         std::abs(m.mean_accel.norm() - kGravity) <= kMaxGravityError;
 }
 
 /** map_T_imu with the body at the origin, its yaw 0, and `up` (in the IMU's frame) along the map's z. */
@@ -85,7 +91,7 @@ std::optional<NavEstimate> initialiseAtRest(const std::vector<ImuSample>& sample
   const auto isBefore = [](const ImuSample& s, Timestamp t) { return s.stamp < t; };
   const SlowMotion motion =
       slowMotion({std::lower_bound(samples.begin(), samples.end(), start, isBefore), samples.end()});
-  if (!isAtRest(motion, options)) return {};
+  if (!isAtRest(motion)) return {};
 
   const Eigen::Vector3d up = motion.mean_accel.normalized();
   NavEstimate initial;

@@ -13,26 +13,11 @@ namespace scanloom
 struct StandstillOptions
 {
   double duration = 2.0;
-  double max_slow_accel = 0.03;
-  double max_slow_gyro_deg = 0.15;
-  double max_mean_gyro_deg = 2.0;
-  double max_gravity_error = 0.5;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.duration, Field{"duration", "s", "length of the standstill", atLeast(1)});
-    visit(o.max_slow_accel,
-          Field{"max_slow_accel", "m/s2",
-                "largest change of the specific force at rest (root mean square of 3 axes, below 3 Hz): the engine's "
-                "vibration is faster, motion is not",
-                above(0)});
-    visit(o.max_slow_gyro_deg, Field{"max_slow_gyro_deg", "deg/s",
-                                     "largest change of the turn rate at rest, as for max_slow_accel", above(0)});
-    visit(o.max_mean_gyro_deg, Field{"max_mean_gyro_deg", "deg/s",
-                                     "largest mean rate that can be a bias; a larger one is a turn", above(0)});
-    visit(o.max_gravity_error,
-          Field{"max_gravity_error", "m/s2", "largest difference of the mean specific force from 9.80665", above(0)});
   }
 };
 

@@ -20,7 +20,7 @@ struct ImuNoise
   double accel_noise = 2.5e-4;       // m/s2/sqrt(Hz)
   double gyro_bias_walk_deg = 4e-4;  // deg/s/sqrt(s)
   double accel_bias_walk = 1e-4;     // m/s2/sqrt(s)
-  double accel_bias_sigma = 0.05;    // m/s2
+  double accel_bias_sigma = 0.05;    // m/s2, of the accelerometer's bias at the start
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -32,8 +32,6 @@ struct ImuNoise
           Field{"gyro_bias_walk_deg", "deg/s/sqrt(s)", "random walk of the gyroscope's bias", above(0)});
     visit(o.accel_bias_walk,
           Field{"accel_bias_walk", "m/s2/sqrt(s)", "random walk of the accelerometer's bias", above(0)});
-    visit(o.accel_bias_sigma,
-          Field{"accel_bias_sigma", "m/s2", "standard deviation of the accelerometer's bias at the start", above(0)});
   }
 };
 

@@ -18,20 +18,14 @@ namespace scanloom
 struct NdtOptions
 {
   double cell_size = 1.0;
-  int min_points = 4;
-  double min_deviation = 0.03;
-  int max_cells = 0;
+  int min_points = 4;           // cells with fewer points are not used
+  double min_deviation = 0.03;  // m: standard deviations of a cell below this are raised to it
+  int max_cells = 0;  // above this number of cells, those with fewer than 4 points are thinned evenly; 0: never
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.cell_size, Field{"cell_size", "m", "edge of a cell", between(0.05, 10)});
-    visit(o.min_points, Field{"min_points", "", "cells with fewer points are not used", atLeast(1)});
-    visit(o.min_deviation,
-          Field{"min_deviation", "m", "standard deviations of a cell below this are raised to it", above(0)});
-    visit(o.max_cells,
-          Field{"max_cells", "",
-                "above this number of cells, those with fewer than 4 points are thinned evenly; 0: never", atLeast(0)});
   }
 };
 

@@ -3,7 +3,6 @@
  * environments using the 3D-NDT, PhD thesis, Orebro 2012, chapter 6). The equations are in doc/registration.md.
  */
 #pragma once
-#include "base/core/Field.h"
 #include "base/core/Rigid.h"
 #include "estimation/ndt/NdtMap.h"
 
@@ -15,34 +14,15 @@ namespace scanloom
 {
 struct RegistrationOptions
 {
-  double first_d2 = 0.015;
-  double d2 = 0.4;  // Stoyanov 2012: 0.05
-  int max_iterations = 30;
-  double tolerance = 3e-4;
-  int neighbours = 27;
-  double min_overlap = 0.3;
-  double rival_share = 0.8;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.first_d2, Field{"first_d2", "", "d2 of the first steps, for guesses that are far from the pose", above(0)});
-    visit(o.d2, Field{"d2", "", "width of the score's Gaussian, exp(-d2/2 m'Bm): larger is narrower", above(0)});
-    visit(o.max_iterations, Field{"max_iterations", "", "at most this many steps", between(1, 1000)});
-    visit(o.tolerance,
-          Field{"tolerance", "m",
-                "how far the result may be from the minimum (a rotation counts as the motion of a point 5 m away)",
-                above(0)});
-    visit(o.neighbours,
-          Field{"neighbours", "", "target cells compared with each source cell: 1, 7 or 27", between(1, 27)});
-    visit(o.min_overlap,
-          Field{"min_overlap", "", "smallest share of the source's points in cells that match a target cell",
-                between(0, 1)});
-    visit(o.rival_share,
-          Field{"rival_share", "",
-                "another pose with this share of the best score is a rival (for guesses with a covariance)",
-                between(0, 1)});
-  }
+  double first_d2 = 0.015;  // d2 of the first steps, for guesses that are far from the pose
+  double d2 = 0.4;          // width of the score's Gaussian, exp(-d2/2 m'Bm): larger is narrower (Stoyanov 2012: 0.05)
+  int max_iterations = 30;  // at most this many steps
+  double tolerance =
+      3e-4;  // m: how far the result may be from the minimum (a rotation counts as the motion of a point 5 m away)
+  int neighbours = 27;       // target cells compared with each source cell: 1, 7 or 27
+  double min_overlap = 0.3;  // smallest share of the source's points in cells that match a target cell
+  double rival_share =
+      0.8;  // another pose with this share of the best score is a rival (for guesses with a covariance)
 };
 
 enum class Outcome

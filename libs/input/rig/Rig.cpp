@@ -98,7 +98,6 @@ LiveOptions liveOptions(const RigOptions& options)
   LiveOptions live;
   if (!options.bind_address.empty()) live.bind_address = ipAddressOf("bind_address", options.bind_address);
   live.receive_buffer = static_cast<std::size_t>(1e6 * options.receive_buffer);
-  live.scans_waiting = static_cast<std::size_t>(options.scans_waiting);
   live.capture = options.pcap_output;
   return live;
 }

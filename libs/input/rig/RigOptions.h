@@ -73,7 +73,6 @@ struct RigOptions
   std::string pcap_output;
   std::string bind_address;
   double receive_buffer = 16;
-  int scans_waiting = 10;
   std::string extrinsics;
   std::string imu_csv;
   std::string imu_topic;
@@ -93,10 +92,6 @@ struct RigOptions
                                 "receive on all"});
     visit(o.receive_buffer,
           Field{"receive_buffer", "MB", "live: size of the kernel's receive buffer per port", between(0.01, 1000)});
-    visit(o.scans_waiting,
-          Field{"scans_waiting", "",
-                "live: most scans that wait for a slow consumer; above it the oldest is dropped and counted",
-                atLeast(1)});
     visit(o.extrinsics, Field{"extrinsics", "", "file of lines 'T_body_<name> x y z yaw pitch roll' (m, deg)",
                               unbounded(), pathFrom});
     visit(o.imu_csv, Field{"imu_csv", "",
@@ -114,10 +109,8 @@ struct DriverOptions
 {
   std::string driver = "CMultiLidarSensor";
   std::string sensorLabel = "lidar";
-  std::string imu_label = "imu";
   std::string cloud_class = "CGenericPointsMap";
   double process_rate = 100;
-  int max_queue_len = 200;
   int grab_decimation = 0;
 
   template <typename Self, typename Visitor>
@@ -125,14 +118,10 @@ struct DriverOptions
   {
     visit(o.driver, Field{"driver", "", "the sensor's class, by which MRPT finds it"});
     visit(o.sensorLabel, Field{"sensorLabel", "", "label of the clouds"});
-    visit(o.imu_label, Field{"imu_label", "", "label of the body's IMU; a lidar's own IMU is <imu_label>_<name>"});
     visit(o.cloud_class,
           Field{"cloud_class", "",
                 "CGenericPointsMap (all fields) or CPointsMapXYZI (stock 2.x tools without the plugin)"});
     visit(o.process_rate, Field{"process_rate", "Hz", "how often rawlog-grabber reads the sensor", above(0)});
-    visit(o.max_queue_len,
-          Field{"max_queue_len", "",
-                "most observations that wait in the plugin; above it the oldest is dropped and counted", atLeast(1)});
     visit(o.grab_decimation,
           Field{"grab_decimation", "", "rawlog-grabber keeps every n-th observation; 0: all", atLeast(0)});
   }

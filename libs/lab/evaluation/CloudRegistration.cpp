@@ -2,8 +2,8 @@
 
 #include "base/core/Angle.h"
 
+#include <array>
 #include <chrono>
-#include <sstream>
 
 namespace scanloom
 {
@@ -21,40 +21,10 @@ class Stopwatch
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-Bounds boundsOfCellSize()
-{
-  Bounds bounds;
-  NdtOptions options;
-  NdtOptions::fields(options,
-                     [&](auto&, const Field& field)
-                     {
-                       if (field.name == "cell_size") bounds = field.bounds;
-                     });
-  return bounds;
-}
+// Edges of the NDT cells, m, from coarse to fine. The source's finest are larger than the target's, as in the paper
+// (2.5 m to 1 m), for less noisy means.
+constexpr std::array<double, 4> kTargetLevels{8, 4, 2, 0.5}, kSourceLevels{8, 4, 2, 1};
 
-std::vector<double> sizesOf(const std::string& text, const std::string& key, const Configuration& configuration)
-{
-  const Bounds bounds = boundsOfCellSize();
-  std::vector<double> sizes;
-  std::istringstream words(text);
-  for (std::string word; words >> word;)
-  {
-    const auto size = parseNumber(word);
-    const bool finer = size && (sizes.empty() || *size < sizes.back());
-    if (!finer || *size < bounds.lowest || *size > bounds.highest)
-    {
-      sizes.clear();
-      break;
-    }
-    sizes.push_back(*size);
-  }
-  if (sizes.empty())
-    throw configuration.complaint(
-        "register", key,
-        "must be lengths " + toString(bounds) + " m, separated by blanks, each smaller than the one before");
-  return sizes;
-}
 /** Within half a metre and 5 deg two results are one. */
 std::optional<PoseError> distanceIfFar(const Rigid& pose, const Rigid& other)
 {
@@ -64,35 +34,24 @@ std::optional<PoseError> distanceIfFar(const Rigid& pose, const Rigid& other)
 }
 }  // namespace
 
-LevelSizes levelsOf(const RegisterSettings& settings, const Configuration& configuration)
-{
-  LevelSizes sizes{sizesOf(settings.clouds.levels, "levels", configuration),
-                   sizesOf(settings.clouds.source_levels, "source_levels", configuration)};
-  if (sizes.target.size() != sizes.source.size())
-    throw configuration.complaint("register", "source_levels", "must have as many lengths as levels");
-  return sizes;
-}
-
-CloudPair::CloudPair(const Points& target, const Points& source, const LevelSizes& levels,
-                     const RegisterSettings& settings)
-  : target_(prepare(target, levels.target, settings.clouds.cells)),
-    source_(prepare(source, levels.source, settings.clouds.cells)),
-    options_(settings.alignment)
+CloudPair::CloudPair(const Points& target, const Points& source)
+  : target_(prepare(target, {kTargetLevels.begin(), kTargetLevels.end()})),
+    source_(prepare(source, {kSourceLevels.begin(), kSourceLevels.end()}))
 {
 }
 
-CloudPair::Prepared CloudPair::prepare(const Points& points, const std::vector<double>& levels,
-                                       const NdtOptions& options)
+CloudPair::Prepared CloudPair::prepare(const Points& points, const std::vector<double>& levels)
 {
   const Stopwatch stopwatch;
-  std::vector<NdtMap> maps = ndtLevels(points, levels, options);
+  std::vector<NdtMap> maps = ndtLevels(points, levels, NdtOptions{});
   return {std::move(maps), stopwatch.milliseconds()};
 }
 
 TimedRegistration CloudPair::registered(const PoseGuess& guess) const
 {
   const Stopwatch stopwatch;
-  const RegistrationResult result = alignCoarseToFine(pairLevels(target_.levels, source_.levels), guess, options_);
+  const RegistrationResult result =
+      alignCoarseToFine(pairLevels(target_.levels, source_.levels), guess, RegistrationOptions{});
   return {result, stopwatch.milliseconds()};
 }
 
@@ -101,8 +60,8 @@ std::optional<PoseError> CloudPair::contradiction(const RegistrationResult& foun
   constexpr double kFew = 0.5, kAll = 0.99;  // overlaps
   if (found.overlap < kFew)
   {
-    const RegistrationResult back =
-        alignCoarseToFine(pairLevels(source_.levels, target_.levels), PoseGuess(guess.inverse()), options_);
+    const RegistrationResult back = alignCoarseToFine(pairLevels(source_.levels, target_.levels),
+                                                      PoseGuess(guess.inverse()), RegistrationOptions{});
     if (const auto apart = distanceIfFar(found.target_T_source, back.target_T_source.inverse())) return apart;
   }
   return found.overlap < kAll ? rivalAtAnotherHeading(found, guess) : std::nullopt;

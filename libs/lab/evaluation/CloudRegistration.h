@@ -1,64 +1,22 @@
 /** Registration of two clouds on several levels of NDT cells, coarse to fine. */
 #pragma once
-#include "base/config/Configuration.h"
 #include "estimation/ndt/Registration.h"
 #include "lab/evaluation/internal/RegistrationTrials.h"
 
 #include <Eigen/Core>
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace scanloom
 {
-struct RegisterOptions
-{
-  std::string levels = "8 4 2 0.5";
-  std::string source_levels = "8 4 2 1";  // larger than the target's, as in the paper (2.5 m to 1 m): less noisy means
-  NdtOptions cells;                       // without cell_size, which the levels give
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.levels, Field{"levels", "m", "edge lengths of the target's NDT cells, from coarse to fine"});
-    visit(o.source_levels, Field{"source_levels", "m", "edge lengths of the source's cells, as many as levels"});
-    NdtOptions::fields(o.cells,
-                       [&](auto& member, const Field& field)
-                       {
-                         if (field.name != "cell_size") visit(member, field);
-                       });
-  }
-};
-
-struct RegisterSettings
-{
-  RegisterOptions clouds;
-  RegistrationOptions alignment;
-
-  template <typename Self, typename Visitor>
-  static void sections(Self& s, Visitor&& visit)
-  {
-    visit(s.clouds, Section{"register", "NDT cells of the two clouds of 'register'"});
-    visit(s.alignment, Section{"register_alignment", "their registration, started at --guess"});
-  }
-};
-
-struct LevelSizes
-{
-  std::vector<double> target, source;  // m, of equal size
-};
-
-/** Throws ConfigError if [register] levels or source_levels are no falling lengths, or not of equal number. */
-LevelSizes levelsOf(const RegisterSettings&, const Configuration&);
-
 /** Makes the cells of both clouds once, for any number of guesses. */
 class CloudPair
 {
  public:
   using Points = std::vector<Eigen::Vector3f>;
 
-  CloudPair(const Points& target, const Points& source, const LevelSizes&, const RegisterSettings&);
+  CloudPair(const Points& target, const Points& source);
 
   TimedRegistration registered(const PoseGuess&) const;
 
@@ -81,9 +39,8 @@ class CloudPair
     std::vector<NdtMap> levels;
     double milliseconds;
   };
-  static Prepared prepare(const Points&, const std::vector<double>& levels, const NdtOptions&);
+  static Prepared prepare(const Points&, const std::vector<double>& levels);
 
   Prepared target_, source_;
-  RegistrationOptions options_;
 };
 }  // namespace scanloom

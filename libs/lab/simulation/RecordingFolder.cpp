@@ -27,7 +27,7 @@ std::vector<PacketCounts> writeCapture(const Scene& scene, const std::filesystem
                                        const std::function<void(double)>& progress)
 {
   constexpr Duration kBetweenReports = 100ms;  // of the recording
-  AtomicFile file(path);
+  OutputFile file(path);
   CaptureWriter capture(file.temporary());
   ScenePackets packets(scene);
   Timestamp reported = scene.span.start;

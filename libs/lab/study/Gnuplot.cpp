@@ -1,6 +1,6 @@
 #include "lab/study/Gnuplot.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 #include "base/core/printable.h"
 #include "lab/study/ContentHash.h"
 #include "lab/study/internal/Command.h"
@@ -71,7 +71,7 @@ void Gnuplot::drawInto(const std::filesystem::path& path, const std::string& scr
   const std::string ending = path.extension().string();
   if (ending != ".svg" && ending != ".png")
     throw std::invalid_argument(fmt::format("{}: a figure is .svg or .png", path.string()));
-  AtomicFile file(path);
+  OutputFile file(path);
   run(ending == ".svg" ? "svg size 900,900 dynamic" : "pngcairo size 1350,1350 fontscale 1.5 linewidth 1.5",
       file.temporary(), script);
   file.commit();

@@ -30,6 +30,8 @@
 
 #include <cmath>
 #include <set>
+#include <sstream>
+#include <string_view>
 
 namespace scanloom
 {
@@ -79,13 +81,14 @@ LabelOffset parseTimeOffset(const std::string& text)
   return {text.substr(0, equals), fromSeconds(*offset)};
 }
 
-RangeLimits rangesOf(const EditOptions& options)
+RangeLimits parseRanges(const std::string& text)
 {
+  std::istringstream stream(text);
   RangeLimits limits;
-  limits.least = options.min_range.value_or(limits.least);
-  limits.most = options.max_range.value_or(limits.most);
-  if (limits.least > limits.most) throw UsageError("--min-range is above --max-range: no point would be left");
-  return limits;
+  std::string rest;
+  if ((stream >> limits.least >> limits.most) && !(stream >> rest) && 0 <= limits.least && limits.least < limits.most)
+    return limits;
+  throw UsageError(fmt::format("--ranges \"{}\": must be two ranges in m, the least and the largest that stay", text));
 }
 
 CloudClass cloudClassOf(const std::string& name)
@@ -116,14 +119,15 @@ RawlogOperation deskewingByGyro(const Path& input, const std::string& label, con
   return deskewByGyro({label, rest->bias}, header);
 }
 
-/** By a trajectory, or by the rawlog's own IMU if the option's value is `imu`. */
-std::function<RawlogOperation(const Header&)> deskewing(const EditOptions& options, const Path& input, Notify notice)
+/** By a trajectory, or by an IMU of the rawlog if the option's value is `imu` or `imu=LABEL`. */
+std::function<RawlogOperation(const Header&)> deskewing(const std::string& by, const Path& input, Notify notice)
 {
-  if (options.deskew == "imu")
-    return [input, label = options.imu.empty() ? kImuLabel : options.imu,
+  constexpr std::string_view kImu = "imu=";
+  const bool names_imu = by.rfind(kImu, 0) == 0;
+  if (by == "imu" || names_imu)
+    return [input, label = names_imu ? by.substr(kImu.size()) : kImuLabel,
             notice = std::move(notice)](const Header& header) { return deskewingByGyro(input, label, header, notice); };
-  return [trajectory = readTrajectory(options.deskew, notice)](const Header& header)
-  { return deskewClouds(trajectory, header); };
+  return [trajectory = readTrajectory(by, notice)](const Header& header) { return deskewClouds(trajectory, header); };
 }
 
 std::set<std::string> asSet(const std::vector<std::string>& names) { return {names.begin(), names.end()}; }
@@ -162,12 +166,11 @@ void chooseObservations(const EditOptions& o, Chosen& chosen)
 
 void choosePoints(const EditOptions& o, const Path& input, const Notify& notice, Chosen& chosen)
 {
-  if (!o.imu.empty() && o.deskew != "imu") throw UsageError("--imu names the IMU for '--deskew imu'");
   if (!o.crop_box.empty())
     add(chosen, "--crop-box", [box = cropBox(o.crop_box)](const Header&) { return cropOut(box); });
-  if (o.min_range || o.max_range)
-    add(chosen, "--min-range/--max-range",
-        [limits = rangesOf(o)](const Header& header) { return limitRanges(limits, header); });
+  if (!o.ranges.empty())
+    add(chosen, "--ranges",
+        [limits = parseRanges(o.ranges)](const Header& header) { return limitRanges(limits, header); });
   if (o.voxel) add(chosen, "--voxel", [edge = *o.voxel](const Header&) { return thinClouds(edge); });
   if (!o.apply_extrinsics.empty())
     add(chosen, "--apply-extrinsics",
@@ -177,31 +180,41 @@ void choosePoints(const EditOptions& o, const Path& input, const Notify& notice,
   if (!o.convert_clouds.empty())
     add(chosen, "--convert-clouds",
         [target = cloudClassOf(o.convert_clouds)](const Header&) { return convertClouds(target); });
-  if (!o.deskew.empty()) add(chosen, "--deskew", deskewing(o, input, notice), {o.deskew});
+  if (!o.deskew.empty()) add(chosen, "--deskew", deskewing(o.deskew, input, notice), {o.deskew});
+}
+
+/** `--export FORMAT=PATH`: a folder of clouds or tables, or a file of poses. */
+EditOperation exporting(const std::string& text)
+{
+  const auto equals = text.find('=');
+  const std::string format = text.substr(0, equals);
+  const Path path = equals == std::string::npos ? "" : text.substr(equals + 1);
+  const auto clouds = [&](CloudFormat of)
+  {
+    return EditOperation{"--export", {{}, path}, {}, [of](const Header& header, const EditOutputs& outputs) {
+                           return exportClouds(of, outputs.folder, header);
+                         }};
+  };
+  if (!path.empty())
+  {
+    if (format == "ply") return clouds(CloudFormat::Ply);
+    if (format == "pcd") return clouds(CloudFormat::Pcd);
+    if (format == "kitti") return clouds(CloudFormat::Kitti);
+    if (format == "csv")
+      return {"--export", {{}, path}, {}, [](const Header&, const EditOutputs& outputs) {
+                return exportCsv(outputs.folder);
+              }};
+    if (format == "tum")
+      return {"--export", {{path}, {}}, {}, [](const Header&, const EditOutputs& outputs) {
+                return exportTum(outputs.files.front());
+              }};
+  }
+  throw UsageError(fmt::format("--export {}: must be ply=DIR, pcd=DIR, kitti=DIR, csv=DIR or tum=FILE", text));
 }
 
 void chooseExports(const EditOptions& o, const Notify& notice, Chosen& chosen)
 {
-  using Make = std::function<RawlogOperation(const Header&, const EditOutputs&)>;
-  const auto addFolder = [&](const std::string& option, const Path& folder, Make make)
-  {
-    if (!folder.empty()) chosen.push_back({option, {{}, folder}, {}, std::move(make)});
-  };
-  const auto addClouds = [&](const std::string& option, const Path& folder, CloudFormat format)
-  {
-    addFolder(option, folder,
-              [format](const Header& header, const EditOutputs& outputs)
-              { return exportClouds(format, outputs.folder, header); });
-  };
-  addClouds("--export-ply", o.export_ply, CloudFormat::Ply);
-  addClouds("--export-pcd", o.export_pcd, CloudFormat::Pcd);
-  addClouds("--export-kitti", o.export_kitti, CloudFormat::Kitti);
-  addFolder("--export-csv", o.export_csv,
-            [](const Header&, const EditOutputs& outputs) { return exportCsv(outputs.folder); });
-  if (!o.export_tum.empty())
-    chosen.push_back({"--export-tum", {{o.export_tum}, {}}, {}, [](const Header&, const EditOutputs& outputs) {
-                        return exportTum(outputs.files.front());
-                      }});
+  if (!o.export_as.empty()) chosen.push_back(exporting(o.export_as));
   if (!o.to_mcap.empty())
     chosen.push_back({"--to-mcap",
                       {{o.to_mcap}, {}},

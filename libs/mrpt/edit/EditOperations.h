@@ -21,11 +21,13 @@ struct EditOptions
   bool split_lidars = false, merge_lidars = false;
   std::optional<std::uint64_t> keep_every;
   std::string time_offset, crop_box;
-  std::optional<double> min_range, max_range, voxel, rebatch;
+  std::string ranges;
+  std::optional<double> voxel, rebatch;
   std::filesystem::path apply_extrinsics;
   std::string convert_clouds;
-  std::filesystem::path export_ply, export_pcd, export_kitti, export_csv, export_tum, to_mcap;
-  std::string deskew, imu;
+  std::string export_as;
+  std::filesystem::path to_mcap;
+  std::string deskew;
   std::filesystem::path trajectory;
 };
 

@@ -1,6 +1,6 @@
 #include "mrpt/edit/RawlogEdit.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 #include "mrpt/observations/GzipArchive.h"
 #include "mrpt/observations/ObservationReader.h"
 #include "mrpt/observations/readByAll.h"
@@ -95,7 +95,7 @@ RawlogEdited readRawlog(const std::filesystem::path& input, const RawlogOperatio
 RawlogEdited editRawlog(const std::filesystem::path& input, const RawlogOperation& operation,
                         const std::filesystem::path& output, const KeepReading& keep_reading)
 {
-  AtomicFile file(output);
+  OutputFile file(output);
   GzipArchive archive(file.temporary(), kCompressionLevel);
   RawlogEdited edited = stream(
       input, operation, [&](const mrpt::obs::CObservation& observation) { writeForAll(observation, archive); },

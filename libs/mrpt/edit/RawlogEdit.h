@@ -57,7 +57,7 @@ RawlogEdited readRawlog(const std::filesystem::path&, const RawlogOperation&, co
 /**
  * Writes what the operation returns as a gzipped rawlog of the observation format. A damaged input is edited up to the
  * damage. The output appears under its name only when it is complete; if it was stopped, it replaces no other file, but
- * is put beside it (AtomicFile). After an exception there is none.
+ * is put beside it (OutputFile). After an exception there is none.
  */
 RawlogEdited editRawlog(const std::filesystem::path& input, const RawlogOperation&, const std::filesystem::path& output,
                         const KeepReading&);

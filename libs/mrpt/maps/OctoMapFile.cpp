@@ -1,6 +1,6 @@
 #include "mrpt/maps/OctoMapFile.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>

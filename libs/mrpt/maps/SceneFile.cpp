@@ -1,6 +1,6 @@
 #include "mrpt/maps/SceneFile.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 #include "mrpt/maps/OctoMapFile.h"
 #include "mrpt/observations/GzipArchive.h"
 
@@ -170,7 +170,7 @@ void writePicture(const std::filesystem::path& path, const mrpt::opengl::COpenGL
   renderer.getCamera(scene) = scene.getViewport()->getCamera();
   mrpt::img::CImage image;
   renderer.render_RGB(scene, image);
-  AtomicFile file(path);
+  OutputFile file(path);
   if (!image.saveToFile(file.temporary().string()))
     throw std::runtime_error(fmt::format("cannot write the picture '{}'", path.string()));
   file.commit();

@@ -1,6 +1,6 @@
 #include "mrpt/observations/GzipArchive.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 
 #include <fmt/format.h>
 
@@ -138,7 +138,7 @@ void GzipArchive::fail() const
 void writeGzip(const std::filesystem::path& path, const mrpt::serialization::CSerializable& object)
 {
   constexpr int kFast = 1;
-  AtomicFile file(path);
+  OutputFile file(path);
   GzipArchive archive(file.temporary(), kFast);
   archive << object;
   archive.close();

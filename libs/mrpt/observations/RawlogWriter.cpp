@@ -10,10 +10,10 @@
 namespace scanloom
 {
 RawlogWriter::RawlogWriter(const std::filesystem::path& path, RecordingHeader header, const RawlogOptions& options)
-  : file_(path),
+  : file_(path, Uncommitted::Stays),
     options_(options),
     header_(std::move(header)),
-    archive_(std::make_unique<GzipArchive>(file_.descriptor(), file_.part(), options.compression_level))
+    archive_(std::make_unique<GzipArchive>(file_.descriptor(), file_.temporary(), options.compression_level))
 {
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "base/core/PartFile.h"
+#include "base/core/OutputFile.h"
 #include "input/rig/RecordingHeader.h"
 
 #include <mrpt/obs/obs_frwds.h>
@@ -21,7 +21,7 @@ struct RawlogOptions
 };
 
 /**
- * A rawlog in the observation format, header first. Objects are written to `<path>.part` (PartFile), which close()
+ * A rawlog in the observation format, header first. Objects are written to `<path>.part` (OutputFile), which close()
  * renames to `path`. An older file is replaced then.
  *
  * Without close(), for example after an exception, `<path>.part` remains; it is readable up to its last object. Throws
@@ -47,7 +47,7 @@ class RawlogWriter
  private:
   void writeHeaderOnce(Timestamp);
 
-  PartFile file_;
+  OutputFile file_;
   RawlogOptions options_;
   std::optional<RecordingHeader> header_;  // until it is written: its stamp is that of the first object
   std::unique_ptr<GzipArchive> archive_;   // until close()

@@ -29,7 +29,7 @@ mrpt::obs::CObservation::Ptr toObservation(const SensorEvent& event, const Senso
   if (const auto* mark = std::get_if<EventMark>(&event)) return toObservation(*mark);
 
   const auto& [sensor, sample] = std::get<SensorImu>(event);
-  std::string label = options.imu_label;
+  std::string label = "imu";
   if (sensor != SensorImu::kBody) label += "_" + setup.header.lidars.at(static_cast<std::size_t>(sensor)).name;
   return toObservation(sample, setup.body_T_imu.at(sensor), label);
 }

@@ -14,8 +14,8 @@ namespace scanloom
 struct Rig;
 
 /**
- * The label of scans is the option `sensorLabel`, that of the body's IMU `imu_label`, and that of a lidar's IMU
- * `<imu_label>_<name of the lidar>`. The sensorPose of an IMU is its pose in the body frame.
+ * The label of scans is the option `sensorLabel`, that of the body's IMU imu, and that of a lidar's IMU imu_<name of
+ * the lidar>. The sensorPose of an IMU is its pose in the body frame.
  */
 mrpt::obs::CObservation::Ptr toObservation(const SensorEvent&, const SensorSetup&, const DriverOptions&);
 

@@ -17,11 +17,8 @@ namespace
 /** After so many periods in which it freed nothing, the grabber will not write any more. */
 constexpr int kGrabberPeriods = 12;
 
-/** Half of max_queue_len is for observations that are read ahead, the other half for scans at the application. */
-std::size_t readAhead(std::size_t max_queue_len) { return std::max<std::size_t>(1, max_queue_len / 2); }
-
-/** At least two: rawlog-grabber writes half of the waiting ones, rounded down. */
-std::size_t mostWaiting(std::size_t max_queue_len) { return std::max<std::size_t>(2, max_queue_len / 2); }
+constexpr std::size_t kReadAhead = 100;         // observations
+constexpr std::size_t kMostScansWaiting = 100;  // scans at the application: while it has so many, reading rests
 }  // namespace
 
 CMultiLidarSensor::~CMultiLidarSensor()
@@ -45,7 +42,7 @@ void CMultiLidarSensor::loadConfig_sensorSpecific(const mrpt::config::CConfigFil
 void CMultiLidarSensor::initialize()
 {
   observations_ = std::make_unique<RigObservations>(makeRig(settings_), settings_.driver);
-  feed_ = std::make_unique<ObservationFeed>([this] { return observations_->next(); }, readAhead(m_max_queue_len));
+  feed_ = std::make_unique<ObservationFeed>([this] { return observations_->next(); }, kReadAhead);
   if (isLive()) catchUnhandledInterruption();  // stock applications would end at once and leave a cut file
   m_state = ssWorking;
 }
@@ -70,7 +67,7 @@ void CMultiLidarSensor::handOver(Time now)
 {
   try
   {
-    while (scans_given_->held(now) < mostWaiting(m_max_queue_len) || !scans_given_->isWorthWaitingFor(now))
+    while (scans_given_->held(now) < kMostScansWaiting || !scans_given_->isWorthWaitingFor(now))
     {
       const auto observation = feed_->take();
       if (!observation) break;

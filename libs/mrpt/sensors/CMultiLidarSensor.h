@@ -19,7 +19,7 @@ namespace scanloom
  * Its observations, in the order of the events:
  *  - first an mrpt::obs::CObservationComment that describes the lidars (RecordingHeader, JSON),
  *  - mrpt::obs::CObservationPointCloud, one per period, label `sensorLabel`: see Observations.h for its fields,
- *  - mrpt::obs::CObservationIMU, label `imu_label` for the body's own IMU and `imu_label`_NAME for that of lidar NAME.
+ *  - mrpt::obs::CObservationIMU, label imu for the body's own IMU and imu_NAME for that of lidar NAME.
  *
  *  \code
  *  PARAMETERS IN THE ".INI"-LIKE CONFIGURATION STRINGS:
@@ -28,16 +28,13 @@ namespace scanloom
  *   driver          = CMultiLidarSensor
  *   process_rate    = 100      // Hz, how often rawlog-grabber asks; mandatory there
  *   sensorLabel     = lidar    // of the clouds
- *   #imu_label      = imu      // of the body's own IMU; a lidar's own is imu_NAME
  *   #cloud_class    = CGenericPointsMap   // or CPointsMapXYZI: for stock tools of MRPT 2.x without the plugin
- *   #max_queue_len  = 200      // half of it read ahead, half as many scans waiting to be written: then reading rests
  *   #grab_decimation = 0       // keep one scan of so many (header and IMU are all kept); 0: all
  *
  *   #pcap_input     = a.pcap, b.pcap      // captures, merged by record time; without them: live
  *   #pcap_output    = raw.pcap            // live: a capture of all that the lidars send; must not exist yet
  *   #bind_address   = 192.168.1.1         // live: receive on this address (or multicast group) only
  *   #receive_buffer = 16                  // live: MB per port, asked of the kernel
- *   #scans_waiting  = 10                  // live: for a late application; then the oldest is dropped and counted
  *   #extrinsics     = extrinsics.txt      // lines 'T_body_NAME x y z yaw pitch roll' (m, deg)
  *   #imu_csv        = imu.csv             // the body's own IMU, EuRoC format
  *   #imu_pose       = [x y z yaw pitch roll]  // of the IMU in the body frame (m, deg); default: T_body_imu
@@ -54,10 +51,8 @@ namespace scanloom
  *   #scan_rate      = 10       // Hz, whatever the lidars' own rates are
  *   #scan_phase_ms  = 0        // scans start at multiples of the period plus this
  *   #deadline_ms    = 5        // how much later than its fastest packets a lidar may deliver
- *   #max_clock_skew = 0.1      // s, lidars whose packets arrive so much apart by their stamps share no clock
- *   #other_clock    = align    // such a lidar is aligned by times of arrival; or quarantine, or refuse
+ *   #other_clock    = align    // a lidar of another clock is aligned by times of arrival; or quarantine, or refuse
  *   #slices         = 1        // parts of a scan that are given out as they are complete
- *   #queue_packets  = 1024     // packets that wait per lidar at most
  *  \endcode
  *
  * Live, the first SIGINT or SIGTERM ends the input, unless the application handles these signals itself. A second one

@@ -215,6 +215,14 @@ TEST(Configuration, namesTheNearestSectionOnce)
               ElementsAre("harvester.ini:2: [nfdt] is an unknown section: did you mean 'ndt'?"));
 }
 
+TEST(Configuration, saysOfARemovedKeyOrSectionThatItIsAConstantNow)
+{
+  const std::string is_constant = " is a constant now, no key: leave it out";
+  EXPECT_THAT(problemsOfSettings("[smoother]\nwindow = 8\n"), ElementsAre("harvester.ini:2: [smoother]" + is_constant));
+  EXPECT_THAT(problemsOfSettings("[lidars]\nlidar2_min_range = 1\nqueue_packets = 7\n"),
+              ElementsAre("harvester.ini:3: [lidars] queue_packets" + is_constant));
+}
+
 TEST(Configuration, leavesSensorsAndTheGrabbersSectionToMrpt)
 {
   EXPECT_THAT(

@@ -637,7 +637,7 @@ TEST(LidarInertialSlam, aScanFromElsewhereIsNotTrusted)
 TEST(LidarInertialSlam, followsAlsoWithLidarPosesOfTheMap)
 {
   SlamSettings settings;
-  settings.slam.tracking.relative = false;
+  settings.slam.relative = false;
   const Machine machine = gentleMachine(3s);
   EXPECT_LT(largestError(runFor(machine, 12s, settings), machine), 0.03);
 }

@@ -85,7 +85,7 @@ TEST(MovingObjects, areNoneWhereNoneAreWanted)
 {
   ObjectOptions none;
   none.person_every = none.vehicle_every = 0;
-  none.trees.felled_trees = false;
+  none.felled_trees = false;
   const Drive drive = workDay();
   const MovingObjects objects(none, drive, 1);
   for (double t = 0; t < 900; t += 10) EXPECT_TRUE(objects.at(t).empty());

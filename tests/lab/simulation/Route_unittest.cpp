@@ -97,8 +97,8 @@ TEST(Route, namesTheOptionsThatCannotBeTogether)
   drive.speed_up = 2;
   EXPECT_NE(problemOf(drive, {}).find("speed_up = 2 s"), std::string::npos);
   WorkCycleOptions work;
-  work.step_min = 4;
-  EXPECT_NE(problemOf(hourOfWork(), work).find("step_min = 4"), std::string::npos);
+  work.work_min = 200;
+  EXPECT_NE(problemOf(hourOfWork(), work).find("work_min = 200"), std::string::npos);
   drive.route = "home";
   EXPECT_NE(problemOf(drive, {}).find("'home'"), std::string::npos);
 }

@@ -19,7 +19,7 @@ Scene bareScene()
   settings.drive.duration = 1;
   settings.forest.stand.stems_per_hectare = settings.forest.stand.stumps_per_hectare = 0;
   settings.forest.foliage.undergrowth_cover = 0;
-  settings.objects.trees.felled_trees = false;
+  settings.objects.felled_trees = false;
   settings.ranging.range_noise = settings.ranging.range_noise_weak = 0;
   return makeScene(settings, 1);
 }

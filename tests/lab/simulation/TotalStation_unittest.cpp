@@ -20,9 +20,8 @@ SimulationSettings atRest()
   settings.drive.standstill = 1000;
   settings.drive.duration = 200;
   settings.objects.person_every = settings.objects.vehicle_every = 0;
-  settings.objects.trees.felled_trees = false;
-  settings.machine = {"", "", "", ""};
-  settings.boom.boom = false;
+  settings.objects.felled_trees = false;
+  settings.machine = {{}, false};
   settings.forest.stand.stems_per_hectare = settings.forest.stand.stumps_per_hectare = 0;
   settings.forest.foliage.undergrowth_cover = 0;
   return settings;
@@ -118,9 +117,9 @@ TEST(TotalStation, seesNoPrismBehindTheMachine)
 {
   SimulationSettings settings = atRest();
   settings.drive.duration = 5;
-  settings.rig.prism_pose = "-1.1 0 3.9 0 0 0";
+  settings.body_T_prism.translation.y() = 0;
   ASSERT_EQ(measured(makeScene(settings, 1)).size(), 35U);
-  settings.machine.cabin = "-3 -2 0.5 -2 2 6";  // between them
+  settings.machine.body = {{Eigen::Vector3d(-3, -2, 0.5), Eigen::Vector3d(-2, 2, 6)}};  // between them
   EXPECT_EQ(measured(makeScene(settings, 1)).size(), 0U);
   settings.station.occlusion = false;
   EXPECT_EQ(measured(makeScene(settings, 1)).size(), 35U);

@@ -68,7 +68,7 @@ TEST(Wind, pushesWithTheSquareOfItsSpeed)
     double sum = 0;
     const int samples = 20'000;
     for (int i = 0; i < samples; ++i) sum += wind.at({0, 0}, kTree, 0.05 * i).of_wood.x();
-    const double expected = WindOptions().tip_sway * std::pow(speed / 10, 2);
+    const double expected = 0.3 * std::pow(speed / 10, 2);
     EXPECT_NEAR(sum / samples, expected, 0.02 * expected);
   }
 }

@@ -55,9 +55,9 @@ const std::vector<WrongValue> kWrongValues{
     {"--time-offset", [](EditOptions& o) { o.time_offset = "imu=soon"; }},
     {"--from-time", [](EditOptions& o) { o.from_time = "yesterday"; }},
     {"the cut is empty", [](EditOptions& o) { o.from_index = 5, o.to_index = 4; }},
-    {"--min-range", [](EditOptions& o) { o.min_range = 5, o.max_range = 4; }},
+    {"--ranges", [](EditOptions& o) { o.ranges = "5 4"; }},
+    {"--export", [](EditOptions& o) { o.export_as = "las=clouds"; }},
     {"--convert-clouds", [](EditOptions& o) { o.convert_clouds = "CMap"; }},
-    {"--deskew imu", [](EditOptions& o) { o.imu = "imu_right"; }},
 };
 
 TEST_F(EditOperations, wrongValuesAreNamed)
@@ -86,7 +86,7 @@ TEST_F(EditOperations, deskewingByAnImuTellsWhatIsKnownOfItsBias)
   EXPECT_THAT(notices, HasSubstr("warning: 'imu' is never at rest"));
   EXPECT_EQ(observationsIn(out, "lidar").size(), 4u);
 
-  options.imu = "imu_left";
+  options.deskew = "imu=imu_left";
   EXPECT_THROW(edit(), UsageError) << "the rawlog has none";
 }
 

@@ -2,7 +2,7 @@
 #include "run/run/SlamRun.h"
 #include "run/run/SlamFiles.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 #include "base/formats/Trajectory.h"
 #include "estimation/slam/StandOfStems.h"
 #include "support/FullDisk.h"

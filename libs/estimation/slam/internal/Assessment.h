@@ -1,6 +1,5 @@
 /** Whether the pose of a scan can be trusted, assessed by that scan and the ones before it. */
 #pragma once
-#include "base/core/Field.h"
 #include "estimation/slam/StateEstimate.h"
 #include "estimation/slam/internal/DivergenceDetector.h"
 #include "estimation/slam/internal/InnovationMonitor.h"
@@ -11,23 +10,11 @@ namespace scanloom
 {
 struct TrustOptions
 {
-  double contradiction = 12.0;
-  double restart_after = 10.0;
-  double lost_after = 2.0;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.contradiction,
-          Field{"contradiction", "sigma",
-                "LOST if registrations and IMU predictions are farther apart than this in the median of ten seconds; "
-                "0: never",
-                atLeast(0)});
-    visit(o.restart_after,
-          Field{"restart_after", "s",
-                "after being LOST for this long a new local map begins at the pose that the IMU predicts", atLeast(0)});
-    visit(o.lost_after, Field{"lost_after", "s", "LOST after this long without a trusted registration", above(0)});
-  }
+  double contradiction = 12.0;  // sigma: LOST if registrations and IMU predictions are farther apart than this in the
+                                // median of ten seconds; 0: never
+  double restart_after =
+      10.0;  // s: after being LOST for this long a new local map begins at the pose that the IMU predicts
+  double lost_after = 2.0;  // s: LOST after this long without a trusted registration
 };
 
 /** Results of earlier scans by which the next one is assessed. */

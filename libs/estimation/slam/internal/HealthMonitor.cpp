@@ -9,6 +9,8 @@ namespace scanloom
 {
 namespace
 {
+constexpr double kGate = 40.0;  // sigma: a registration farther than this from the IMU's prediction is not trusted
+
 /**
  * The scan agrees with the map where the IMU says that the body is, but leaves a direction open, along which the body
  * can hardly have moved. A search would only find another place that looks alike.
@@ -52,10 +54,7 @@ Continued awake(Continued scan, const LastGood& last_good)
 }  // namespace
 
 HealthMonitor::HealthMonitor(const SlamSettings& settings)
-  : tracking_(settings.slam.tracking),
-    trust_(settings.slam.trust),
-    smoother_(settings.smoother),
-    registration_(settings.registration)
+  : trust_(settings.slam.trust), smoother_(settings.smoother), registration_(settings.registration)
 {
 }
 
@@ -65,7 +64,7 @@ GatedRegistration HealthMonitor::gated(Timed<RegistrationResult> seen, const Pos
   if (gated.result->outcome == Outcome::LowOverlap) return gated;
   gated.surprise = surpriseOf(*gated.result, predicted);
   const bool usable = lost ? gated.result->outcome == Outcome::Converged : gated.result->trustworthy();
-  gated.trusted = usable && (tracking_.gate == 0 || gated.surprise <= tracking_.gate);
+  gated.trusted = usable && gated.surprise <= kGate;
   return gated;
 }
 

@@ -47,7 +47,6 @@ class HealthMonitor
   BodyEstimate resting(const BodyEstimate&, const Attitude&, const TrackerState& before, Duration rest) const;
   SmootherWindow begun(const NavEstimate&, const MountedImu&, const Rigid& map_T_local, const Matrix6d& before) const;
 
-  TrackingOptions tracking_;
   TrustOptions trust_;
   SmootherOptions smoother_;
   ScanRegistrationOptions registration_;

@@ -7,6 +7,8 @@ namespace scanloom
 {
 namespace
 {
+constexpr double kKeyframeTurnDeg = 20.0;  // deg: turn since the last keyframe at which a new one is added
+
 /** Cells that both have. */
 int commonCells(const BinnedPoints& a, const BinnedPoints& b)
 {
@@ -28,7 +30,7 @@ bool LocalMap::wants(const Rigid& map_T_body) const
   if (empty()) return true;
   const Vector6d travel = boxMinus(map_T_body, keyframes_.back().map_T_body);
   return travel.head<3>().norm() >= options_.keyframe_distance ||
-         travel.tail<3>().norm() >= options_.keyframe_turn_deg * M_PI / 180;
+         travel.tail<3>().norm() >= kKeyframeTurnDeg * M_PI / 180;
 }
 
 const Eigen::Vector3d& LocalMap::oldest() const

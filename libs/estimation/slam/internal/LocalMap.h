@@ -13,7 +13,6 @@ namespace scanloom
 struct LocalMapOptions
 {
   double keyframe_distance = 4.0;
-  double keyframe_turn_deg = 20.0;
   int keyframes = 12;
   double radius = 0;
 
@@ -22,9 +21,6 @@ struct LocalMapOptions
   {
     visit(o.keyframe_distance,
           Field{"keyframe_distance", "m", "distance from the last keyframe at which a new one is added", above(0)});
-    visit(o.keyframe_turn_deg,
-          Field{"keyframe_turn_deg", "deg", "turn since the last keyframe at which a new one is added; 180: never",
-                between(1, 180)});
     visit(o.keyframes, Field{"keyframes", "", "number of keyframes in the map", atLeast(1)});
     visit(o.radius, Field{"radius", "m",
                           "the map holds all keyframes within this distance of the newest, also those of earlier "

@@ -1,4 +1,4 @@
-/** Everything that can be set about localisation: a section of the INI file per member, read directly into it. */
+/** Everything that localisation depends on: sections of the INI file, and what only code and tests change. */
 #pragma once
 #include "base/config/Schema.h"
 #include "estimation/graph/FixedLagSmoother.h"
@@ -13,43 +13,15 @@
 
 namespace scanloom
 {
-struct TrackingOptions
-{
-  bool refine = true;
-  bool forest = true;
-  bool relative = true;
-  double correlation = 2.0;
-  double gate = 40.0;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.refine, Field{"refine", "", "align every scan a second time, with [fine_cells]"});
-    visit(o.forest,
-          Field{"forest", "",
-                "register stems by their axes and foliage by its middle, not by the side that the lidars see; false in "
-                "streets and halls"});
-    visit(o.relative, Field{"relative", "",
-                            "true: a registration is a pose relative to the first keyframe, whose attitude may still "
-                            "be corrected by gravity; false: a pose in the map, as in the paper"});
-    visit(o.correlation, Field{"correlation", "m",
-                               "distance over which registration errors are correlated: registrations within it count "
-                               "as one measurement",
-                               atLeast(0)});
-    visit(o.gate,
-          Field{"gate", "sigma",
-                "a registration farther than this from the IMU's prediction is not trusted; 0: no limit", atLeast(0)});
-  }
-};
-
 /** [slam]: which scans and which IMU are used, and how. */
 struct SlamOptions
 {
   int every_nth = 1;
   std::string imu = "auto";
   double imu_delay_ms = 0;
-  double imu_wait_ms = 50;
-  TrackingOptions tracking;
+  double imu_wait_ms = 50;  // ms: how long a scan waits for IMU samples up to its end
+  bool forest = true;
+  bool relative = true;
   TrustOptions trust;
 
   template <typename Self, typename Visitor>
@@ -65,9 +37,13 @@ struct SlamOptions
                                 "how much later the IMU's stamps are than the lidars' for the same instant; slam "
                                 "reports an estimate at its end",
                                 between(-500, 500)});
-    visit(o.imu_wait_ms, Field{"imu_wait_ms", "ms", "how long a scan waits for IMU samples up to its end", atLeast(0)});
-    TrackingOptions::fields(o.tracking, visit);
-    TrustOptions::fields(o.trust, visit);
+    visit(o.forest,
+          Field{"forest", "",
+                "register stems by their axes and foliage by its middle, not by the side that the lidars see; false in "
+                "streets and halls"});
+    visit(o.relative, Field{"relative", "",
+                            "true: a registration is a pose relative to the first keyframe, whose attitude may still "
+                            "be corrected by gravity; false: a pose in the map, as in the paper"});
   }
 };
 
@@ -91,21 +67,12 @@ struct SlamSettings
     visit(s.slam, Section{"slam", "lidar-inertial localisation"});
     visit(s.start, Section{"start", "the first attitude and gyro bias, from standstill"});
     visit(s.imu, Section{"imu_noise", "noise of the body's IMU"});
-    visit(s.lidar_imu, Section{"lidar_imu_noise", "noise of an IMU inside a lidar, if that is the one in use"});
-    visit(s.no_imu,
-          Section{"no_imu_noise",
-                  "without an IMU: how far the motion may be from constant velocity and turn rate, as if these "
-                  "were measured"});
     visit(s.crop, Section{"crop", CropOptions::kMeaning});
     visit(s.registration.scan_cells, Section{"scan_cells", "NDT cells of a scan for the rough alignment"});
     visit(s.registration.fine_cells, Section{"fine_cells", "NDT cells of a scan for the fine alignment"});
     visit(s.map_cells, Section{"map_cells", "NDT cells of the local map"});
     visit(s.keyframe_cells, Section{"keyframe_cells", "NDT cells of a scan that becomes a keyframe"});
-    visit(s.registration.rough, Section{"rough_registration", "a scan to the local map, from the IMU's prediction"});
-    visit(s.registration.fine,
-          Section{"fine_registration", "the same again from there, with finer cells and a narrower score"});
     visit(s.local_map, Section{"local_map", "the keyframes that a scan is aligned to"});
-    visit(s.smoother, Section{"smoother", "the window of states"});
   }
 
  private:

@@ -15,6 +15,8 @@ namespace scanloom
 {
 namespace
 {
+constexpr double kCorrelation = 2.0;  // m: registrations within it err alike and count as one measurement
+
 /** Covariance of the pose relative to the first one: as the smoother knows it, and from before its window began. */
 Matrix6d errorSinceStart(const Rigid& map_T_body, const SmootherWindow& window)
 {
@@ -94,7 +96,7 @@ Tracker::Tracker(const SlamSettings& settings, const std::vector<MountedLidar>& 
   : settings_(settings),
     health_monitor_(settings),
     body_T_lidar_(posesOf(lidars)),
-    corrections_(settings.slam.tracking.forest ? forestCorrections() : CellCorrections{})
+    corrections_(settings.slam.forest ? forestCorrections() : CellCorrections{})
 {
 }
 
@@ -179,7 +181,6 @@ Timed<RegistrationResult> Tracker::registerScan(const TrackerState& before, cons
   const ScanRegistrationOptions& options = settings_.registration;
   // The effort is the search's: the prediction of an IMU that lost the body is worth little.
   if (before.trust.lost) return registerFinely(map, views, guess.target_T_source, withLimitedEffort(options));
-  if (!settings_.slam.tracking.refine) return registerRoughly(map, views, guess, options);
   const std::optional<LastSeen>& last = before.relocalisation.lastSeen();
   return registerTwice(map, views, guess, last ? std::optional(last->score) : std::nullopt, options);
 }
@@ -204,7 +205,7 @@ Measurement Tracker::weigh(const GatedRegistration& registered, const TrackerSta
   measured.shared_noise.add(seen, up, before.local_map.oldest(), window.correlation.travel());
   // Errors of the attitude stay the same on the length of the map.
   const Matrix6d information = informationWithError(
-      seen.information / window.correlation.registrationsPerTravelOrRest(settings_.slam.tracking.correlation),
+      seen.information / window.correlation.registrationsPerTravelOrRest(kCorrelation),
       window.correlation.registrationsPerTravel(measured.shared_noise.length()) * measured.shared_noise.covariance(up));
   if (window.smoother.hasAnchor())
     window.smoother.addRelativePose(window.smoother.anchor().stamp, window.local_T_anchor.inverse() * local_T_body,
@@ -249,7 +250,7 @@ UpdatedMap Tracker::withKeyframe(UpdatedMap map, const DeskewedScan& seen, const
   else
     map.window.before += drift;
   map.keyframe = Keyframe{seen.stamp, map_T_local * pose.local_T_body, seen.cloud};
-  if (settings_.slam.tracking.relative && !map.window.smoother.hasAnchor()) map.window.anchorAt(local_T_body);
+  if (settings_.slam.relative && !map.window.smoother.hasAnchor()) map.window.anchorAt(local_T_body);
   return map;
 }
 

@@ -22,9 +22,8 @@ struct BatcherOptions
   double scan_phase_ms = 0.0;
   int slices = 1;
   double deadline_ms = 5.0;
-  double max_clock_skew = 0.1;
   std::string other_clock = "align";
-  int queue_packets = 1024;
+  int queue_packets = 1024;  // most packets that wait per lidar; above it the oldest is dropped and counted
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -40,16 +39,10 @@ struct BatcherOptions
     visit(o.deadline_ms, Field{"deadline_ms", "ms",
                                "longest wait for a lidar: how much later than its quickest packets a packet may arrive",
                                between(0, 10000)});
-    visit(o.max_clock_skew,
-          Field{"max_clock_skew", "s",
-                "lidars share a clock if their packets' delays (arrival minus stamp) differ by less", above(0)});
     visit(o.other_clock,
           Field{"other_clock", "",
                 "a lidar that does not share the others' clock: align (shift its stamps by times of arrival, with a "
                 "warning), quarantine (leave it out) or refuse (an error at the start; leave it out later)"});
-    visit(o.queue_packets,
-          Field{"queue_packets", "", "most packets that wait per lidar; above it the oldest is dropped and counted",
-                atLeast(2)});
   }
 };
 

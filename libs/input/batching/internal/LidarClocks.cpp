@@ -9,6 +9,9 @@ namespace scanloom
 {
 namespace
 {
+// Lidars share a clock if their packets' delays (arrival minus stamp) differ by less.
+constexpr Duration kMaxSkew = 100ms;
+
 // Packets of one switch have the same delay to within this: two clock readings that are closer are taken as equal.
 constexpr Duration kSameDelay = 2ms;
 
@@ -27,7 +30,7 @@ bool isNearerWithout(Duration step, const LidarClock& clock, Duration skew, Dura
 }  // namespace
 
 LidarClocks::LidarClocks(const std::vector<BatchedLidar>& lidars, const BatcherOptions& options)
-  : max_skew_(fromSeconds(options.max_clock_skew)), other_clock_(otherClockFromName(options.other_clock))
+  : other_clock_(otherClockFromName(options.other_clock))
 {
   for (const BatchedLidar& lidar : lidars)
   {
@@ -46,7 +49,7 @@ std::vector<std::optional<Duration>> LidarClocks::configuredDelays(const std::ve
 
 std::vector<std::optional<Duration>> LidarClocks::skewsAtStart(const std::vector<bool>& believed) const
 {
-  std::vector<std::optional<Duration>> skews = clockSkews(configuredDelays(believed), max_skew_);
+  std::vector<std::optional<Duration>> skews = clockSkews(configuredDelays(believed), kMaxSkew);
   if (other_clock_ == OtherClock::Quarantine)
     for (auto& skew : skews)
       if (skew && *skew != Duration{0}) skew.reset();
@@ -56,7 +59,7 @@ std::vector<std::optional<Duration>> LidarClocks::skewsAtStart(const std::vector
 std::vector<LidarClocks::Change> LidarClocks::settleAtStart(const std::vector<bool>& believed, Timestamp now)
 {
   std::vector<Change> changes;
-  const auto skews = clockSkews(configuredDelays(believed), max_skew_);
+  const auto skews = clockSkews(configuredDelays(believed), kMaxSkew);
   for (LidarIndex i = 0; i < clocks_.size(); ++i)
   {
     if (!skews[i]) continue;
@@ -91,7 +94,7 @@ std::optional<LidarClocks::Change> LidarClocks::settle(LidarIndex lidar, std::op
   if (clock.state() != LidarClock::State::Unknown) return std::nullopt;
   const std::optional<Duration> expected = commonDelay(lidar, now);
   const Duration skew = expected ? *clock.configuredDelay() - *expected : Duration{0};
-  if (!expected || (std::chrono::abs(skew) <= max_skew_ && !(step && isNearerWithout(*step, clock, skew, *expected))))
+  if (!expected || (std::chrono::abs(skew) <= kMaxSkew && !(step && isNearerWithout(*step, clock, skew, *expected))))
   {
     clock.setCommon();
     return std::nullopt;

@@ -63,7 +63,6 @@ class LidarClocks
 
   std::vector<std::string> names_;
   std::vector<LidarClock> clocks_;
-  Duration max_skew_;
   OtherClock other_clock_;
 };
 }  // namespace scanloom

@@ -1,6 +1,6 @@
 #include "input/rig/internal/LiveSensors.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 #include "base/core/fileNameOf.h"
 
 #include <fmt/format.h>

@@ -9,6 +9,13 @@ namespace scanloom
 {
 namespace
 {
+// Assumed: plausible for a machine of 10 to 20 t.
+constexpr double kWorkSway = 0.6;       // sway while the boom works, as a share of that while driving
+constexpr double kVibrationSlow = 3.2;  // Hz: slow frequency of engine and hydraulics
+constexpr double kVibrationFast = 5.0;  // Hz: fast frequency of engine and hydraulics
+constexpr double kWheelbase = 3.5;      // m: distance of the axles: pitch and height follow the ground under them
+constexpr double kTrack = 2.0;          // m: distance of the wheels of an axle: the roll follows the ground under them
+
 constexpr double kBehindStart = 15.0;  // m, where the total station may stand
 
 /** The angle's rate with its derivative. Its second derivative is unknown: NaN, so that a use would show. */
@@ -36,18 +43,18 @@ struct Stance
   Taylor height, pitch, roll;
 };
 
-Stance stand(const Ground& ground, const BodyMotionOptions& body, const Taylor& x, const Taylor& y, const Taylor& yaw)
+Stance stand(const Ground& ground, const Taylor& x, const Taylor& y, const Taylor& yaw)
 {
   const Taylor c = cos(yaw), s = sin(yaw);
   const auto wheel = [&](double along, double left)
   { return ground.height(x + along * c - left * s, y + along * s + left * c); };
-  const double a = body.wheelbase / 2, b = body.track / 2;
+  const double a = kWheelbase / 2, b = kTrack / 2;
   const Taylor front_left = wheel(a, b), front_right = wheel(a, -b), rear_left = wheel(-a, b),
                rear_right = wheel(-a, -b);
   const Taylor rise = 0.5 * (front_left + front_right - rear_left - rear_right);
   const Taylor bank = 0.5 * (front_left + rear_left - front_right - rear_right);
-  return {0.25 * (front_left + front_right + rear_left + rear_right), -atan((1 / body.wheelbase) * rise),
-          atan((1 / body.track) * bank)};
+  return {0.25 * (front_left + front_right + rear_left + rear_right), -atan((1 / kWheelbase) * rise),
+          atan((1 / kTrack) * bank)};
 }
 }  // namespace
 
@@ -68,12 +75,12 @@ Motion Drive::at(double t) const
 {
   Taylor x = route_.progress(t), y = lateral(x);
   const Taylor yaw = atan(curve_ * curve_rate_ * sin(curve_rate_ * x));
-  const Stance stance = stand(ground_, body_, x, y, yaw);
+  const Stance stance = stand(ground_, x, y, yaw);
 
   const Taylor driving = route_.driving(t), working = route_.working(t);
-  const Taylor sway = kDegree * body_.sway_deg * (driving + body_.work_sway * working);
+  const Taylor sway = kDegree * body_.sway_deg * (driving + kWorkSway * working);
   const Taylor shake = driving + working;
-  const double slow = body_.vibration_slow, fast = body_.vibration_fast;
+  const double slow = kVibrationSlow, fast = kVibrationFast;
   Taylor z = stance.height + body_.vibration * shake * (oscillation(t, slow) + oscillation(t, fast, 1.0));
   Taylor pitch = stance.pitch + 2.0 / 3 * sway * oscillation(t, 1.3 * body_.sway_rate, 0.9) +
                  kDegree * body_.vibration_deg * shake * oscillation(t, fast, 2.0);

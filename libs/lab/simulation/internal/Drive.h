@@ -16,13 +16,8 @@ struct BodyMotionOptions
 {
   double sway_deg = 1.2;
   double sway_rate = 0.7;
-  double work_sway = 0.6;
-  double vibration = 0.0003;
-  double vibration_deg = 0.02;
-  double vibration_slow = 3.2;
-  double vibration_fast = 5.0;
-  double wheelbase = 3.5;
-  double track = 2.0;
+  double vibration = 0.0003;    // m: amplitude of the height at each of the two vibration frequencies; 0 at rest
+  double vibration_deg = 0.02;  // deg: amplitude of the roll at the slow and of the pitch at the fast frequency
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -32,24 +27,6 @@ struct BodyMotionOptions
                             between(0, 10)});
     visit(o.sway_rate,
           Field{"sway_rate", "Hz", "frequency of the roll; the pitch is 1.3 times as fast (assumed)", between(0, 5)});
-    visit(o.work_sway, Field{"work_sway", "", "sway while the boom works, as a share of that while driving (assumed)",
-                             between(0, 1)});
-    visit(o.vibration, Field{"vibration", "m",
-                             "amplitude of the height at each of the two vibration frequencies; 0 at rest (assumed)",
-                             between(0, 0.02)});
-    visit(o.vibration_deg,
-          Field{"vibration_deg", "deg",
-                "amplitude of the roll at the slow and of the pitch at the fast frequency (assumed)", between(0, 1)});
-    visit(o.vibration_slow,
-          Field{"vibration_slow", "Hz", "slow frequency of engine and hydraulics (assumed)", between(0, 100)});
-    visit(o.vibration_fast,
-          Field{"vibration_fast", "Hz", "fast frequency of engine and hydraulics (assumed)", between(0, 100)});
-    visit(o.wheelbase,
-          Field{"wheelbase", "m", "distance of the axles: pitch and height follow the ground under them (assumed)",
-                above(0.1)});
-    visit(o.track,
-          Field{"track", "m", "distance of the wheels of an axle: the roll follows the ground under them (assumed)",
-                above(0.1)});
   }
 };
 

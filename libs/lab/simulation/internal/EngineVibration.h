@@ -15,13 +15,14 @@ namespace scanloom
 struct EngineOptions
 {
   double acceleration = 0;
-  double frequency = 30;
-  int harmonics = 4;
-  double decay = 0.5;
-  double broadband = 0.2;
-  double highest_frequency = 250;
-  double sideways = 0.5;
-  double turn_rate_deg = 0;
+  double frequency = 30;   // Hz: firing frequency of the engine
+  int harmonics = 4;       // number of lines: 'frequency' and its multiples
+  double decay = 0.5;      // amplitude of each multiple as a share of the one before
+  double broadband = 0.2;  // root mean square of the acceleration from half of 'frequency' to 'highest_frequency', as a
+                           // share of 'acceleration'
+  double highest_frequency = 250;  // Hz: end of the broad band
+  double sideways = 0.5;           // horizontal accelerations as a share of the vertical ones
+  double turn_rate_deg = 0;        // deg/s: amplitude of the body's roll and pitch rate at 'frequency'
   double imu_mount = 0;
   double starts_at = 0;
 
@@ -31,22 +32,6 @@ struct EngineOptions
     visit(o.acceleration,
           Field{"acceleration", "g", "amplitude of the body's vertical acceleration at 'frequency'; 0: no vibration",
                 between(0, 5)});
-    visit(o.frequency, Field{"frequency", "Hz", "firing frequency of the engine (assumed)", between(5, 100)});
-    visit(o.harmonics,
-          Field{"harmonics", "", "number of lines: 'frequency' and its multiples (assumed)", between(1, 16)});
-    visit(o.decay,
-          Field{"decay", "", "amplitude of each multiple as a share of the one before (assumed)", between(0, 1)});
-    visit(o.broadband,
-          Field{"broadband", "",
-                "root mean square of the acceleration from half of 'frequency' to 'highest_frequency', as a "
-                "share of 'acceleration' (assumed)",
-                between(0, 2)});
-    visit(o.highest_frequency, Field{"highest_frequency", "Hz", "end of the broad band (assumed)", between(20, 1000)});
-    visit(o.sideways,
-          Field{"sideways", "", "horizontal accelerations as a share of the vertical ones (assumed)", between(0, 2)});
-    visit(o.turn_rate_deg,
-          Field{"turn_rate_deg", "deg/s", "amplitude of the body's roll and pitch rate at 'frequency' (assumed)",
-                between(0, 20)});
     visit(o.imu_mount,
           Field{"imu_mount", "g",
                 "amplitude of the further vertical acceleration of the IMU on its own mount; the lidars do "

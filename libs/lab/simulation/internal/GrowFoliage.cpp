@@ -8,6 +8,14 @@ namespace scanloom
 {
 namespace
 {
+// Assumed but for the projection.
+constexpr double kVoxel = 0.5;  // m: edge of the cubes that foliage is made of; halving it takes eight times the memory
+constexpr double kProjection =
+    0.5;  // share of its area that a leaf shows to a ray; 0.5 for leaves in all directions alike (Ross 1981)
+constexpr double kGaps = 0.4;              // share of a crown's cubes that are empty
+constexpr double kUndergrowthPatch = 1.5;  // m: diameter of a patch of undergrowth
+constexpr double kUndergrowthLane = 1.4;   // m: no undergrowth within this distance of the machine's path
+
 /** Random extinction per voxel: a share `gaps` is empty, and the mean over all voxels is mean_extinction. */
 class Density
 {
@@ -68,14 +76,14 @@ class Undergrowth
       ground_(ground),
       lane_(lane),
       seed_(seed),
-      density_(options.projection * options.undergrowth_leaf_area_density, options.gaps, seed)
+      density_(kProjection * options.undergrowth_leaf_area_density, kGaps, seed)
   {
   }
 
   void addTile(const GridCell& tile, double tile_size, FoliageVoxels& voxels) const
   {
     // n discs of area A per square metre leave exp(-n A) of the ground free.
-    const double area = M_PI_4 * options_.undergrowth_patch * options_.undergrowth_patch;
+    const double area = M_PI_4 * kUndergrowthPatch * kUndergrowthPatch;
     const double patches = -std::log1p(-options_.undergrowth_cover) / area * tile_size * tile_size;
     Random random(seed_, RandomStream::Undergrowth, tile.key());
     for (int left = random.poisson(patches); left > 0; --left)
@@ -89,11 +97,11 @@ class Undergrowth
  private:
   void addPatch(const Eigen::Vector2d& centre, double height, FoliageVoxels& voxels) const
   {
-    const double radius = 0.5 * options_.undergrowth_patch;
+    const double radius = 0.5 * kUndergrowthPatch;
     forEachColumn(voxels, centre, radius,
                   [&](int x, int y, const Eigen::Vector2d& place, double distance)
                   {
-                    if (lane_.passes(place, options_.undergrowth_lane)) return;
+                    if (lane_.passes(place, kUndergrowthLane)) return;
                     const double soil = ground_.height(place.x(), place.y());
                     const double top = soil + height * std::sqrt(1 - std::pow(distance / radius, 2));
                     const int last = voxels.voxelAt({0, 0, top}).z();
@@ -121,8 +129,8 @@ FoliageVoxels growFoliage(const FoliageOptions& options, const TreeOptions& tree
   }
   lowest = std::min(lowest, -ground.highest());
   highest = std::max(highest, ground.highest() + 1.5 * options.undergrowth_height);
-  FoliageVoxels voxels(options.voxel, lane.cellsWithin(reach, FoliageVoxels::kTile * options.voxel), lowest, highest);
-  const Density of_crowns(options.projection * options.leaf_area_density, options.gaps, seed);
+  FoliageVoxels voxels(kVoxel, lane.cellsWithin(reach, FoliageVoxels::kTile * kVoxel), lowest, highest);
+  const Density of_crowns(kProjection * options.leaf_area_density, kGaps, seed);
   for (const Stem& stem : stems) addCrown(stem, trees, of_crowns, voxels);
 
   constexpr double kTileSize = 8;  // m

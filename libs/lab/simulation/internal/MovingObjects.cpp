@@ -10,6 +10,20 @@ namespace scanloom
 {
 namespace
 {
+// Assumed.
+constexpr double kPersonSpeed = 2.78;   // m/s: speed of a person; 2.78 m/s are 10 km/h
+constexpr double kPersonHeight = 1.75;  // m: height of the cylinder that a person is
+constexpr double kPersonWidth = 0.5;    // m: diameter of that cylinder
+constexpr double kVehicleSpeed = 2.78;  // m/s: speed of a vehicle
+constexpr double kVehicleLength = 4.2;  // m: length of the box that a vehicle is
+constexpr double kVehicleWidth = 1.9;   // m: width of that box
+constexpr double kPassLength = 60;      // m: length of the straight path at whose ends they appear and vanish
+constexpr double kTreeLength = 16;      // m: length of a felled tree
+constexpr double kTreeDiameter = 0.24;  // m: diameter of that tree at its foot
+constexpr double kTreeTaper = 0.2;      // diameter at its top as a share of that at its foot
+constexpr double kTreeDistance = 6.5;   // m: distance of its foot from the machine's origin
+constexpr double kFallTime = 3;         // s: time of its fall, from upright to lying
+
 constexpr double kShortestStop = 8;  // s: no tree falls at a shorter one
 constexpr double kLying = M_PI / 2;  // rad
 
@@ -57,7 +71,7 @@ std::vector<OrientedBox> boxesOf(const std::vector<MovingObject>& objects)
 MovingObjects::MovingObjects(const ObjectOptions& options, const Drive& drive, std::uint64_t seed)
   : options_(options), drive_(drive), seed_(seed)
 {
-  if (options_.trees.felled_trees) planTrees();
+  if (options_.felled_trees) planTrees();
 }
 
 void MovingObjects::planTrees()
@@ -74,8 +88,8 @@ void MovingObjects::planTrees()
       const double heading = world_T_body.yawPitchRoll().x();
       const double side = random.uniform() < 0.5 ? -1 : 1;
       const double bearing = heading + side * random.uniform(0.4, 1.0);  // rad: ahead, and beside the lane
-      const Eigen::Vector2d foot = world_T_body.translation.head<2>() +
-                                   options_.trees.tree_distance * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+      const Eigen::Vector2d foot =
+          world_T_body.translation.head<2>() + kTreeDistance * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
       tree.foot << foot, drive_.ground().height(foot.x(), foot.y());
       tree.yaw = bearing + random.uniform(-0.5, 0.5);
       tree.falls = stop->begin + 0.3 * (stop->end - stop->begin);
@@ -100,9 +114,9 @@ void MovingObjects::addPassers(std::vector<MovingObject>& objects, ObjectKind ki
 {
   const bool is_person = kind == ObjectKind::Person;
   const double every = is_person ? options_.person_every : options_.vehicle_every;
-  const double speed = is_person ? options_.person_speed : options_.vehicle_speed;
+  const double speed = is_person ? kPersonSpeed : kVehicleSpeed;
   if (every <= 0) return;
-  const double half_time = 0.5 * options_.pass_length / speed;
+  const double half_time = 0.5 * kPassLength / speed;
   const auto first = static_cast<std::int64_t>(std::floor((t - half_time) / every));
   const auto last = static_cast<std::int64_t>(std::floor((t + half_time) / every));
   for (std::int64_t i = std::max<std::int64_t>(first, 0); i <= last; ++i)
@@ -124,9 +138,9 @@ void MovingObjects::addPassers(std::vector<MovingObject>& objects, ObjectKind ki
     object.yaw = yaw;
     object.velocity = speed * along;
     if (is_person)
-      object.size << options_.person_width, options_.person_width, options_.person_height;
+      object.size << kPersonWidth, kPersonWidth, kPersonHeight;
     else
-      object.size << options_.vehicle_length, options_.vehicle_width, options_.vehicle_height;
+      object.size << kVehicleLength, kVehicleWidth, options_.vehicle_height;
     objects.push_back(object);
   }
 }
@@ -144,10 +158,10 @@ void MovingObjects::addTrees(std::vector<MovingObject>& objects, double t) const
     object.kind = ObjectKind::Tree;
     object.ground_point = tree.foot;
     object.yaw = tree.yaw;
-    object.size << options_.trees.tree_diameter, options_.trees.tree_diameter, options_.trees.tree_length;
-    object.taper = options_.trees.tree_taper;
-    object.tilt = kLying * fallenShare((t - tree.falls) / options_.trees.fall_time);
-    object.moves = t >= tree.falls && t <= tree.falls + options_.trees.fall_time;
+    object.size << kTreeDiameter, kTreeDiameter, kTreeLength;
+    object.taper = kTreeTaper;
+    object.tilt = kLying * fallenShare((t - tree.falls) / kFallTime);
+    object.moves = t >= tree.falls && t <= tree.falls + kFallTime;
     objects.push_back(object);
   }
 }

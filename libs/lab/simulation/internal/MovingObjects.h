@@ -8,69 +8,14 @@
 
 namespace scanloom
 {
-/** The tree that falls at each stop for work. */
-struct FelledTreeOptions
-{
-  bool felled_trees = true;
-  double tree_length = 16;
-  double tree_diameter = 0.24;
-  double tree_taper = 0.2;
-  double tree_distance = 6.5;
-  double fall_time = 3;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.felled_trees, Field{"felled_trees", "", "whether a tree falls at every stop for work"});
-    visit(o.tree_length, Field{"tree_length", "m", "length of that tree (assumed)", between(1, 60)});
-    visit(o.tree_diameter,
-          Field{"tree_diameter", "m", "diameter of that tree at its foot (assumed)", between(0.02, 2)});
-    visit(o.tree_taper,
-          Field{"tree_taper", "", "diameter at its top as a share of that at its foot (assumed)", between(0, 1)});
-    visit(o.tree_distance,
-          Field{"tree_distance", "m", "distance of its foot from the machine's origin (assumed)", between(3, 30)});
-    visit(o.fall_time, Field{"fall_time", "s", "time of its fall, from upright to lying (assumed)", between(0.5, 20)});
-  }
-};
-
+/** Not keys of the configuration: tests measure without objects, or with more and larger ones. Assumed. */
 struct ObjectOptions
 {
-  double person_every = 60;
-  double person_speed = 2.78;
-  double person_height = 1.75;
-  double person_width = 0.5;
-  double vehicle_every = 120;
-  double vehicle_speed = 2.78;
-  double vehicle_length = 4.2;
-  double vehicle_width = 1.9;
-  double vehicle_height = 1.7;
-  double pass_distance = 9;
-  double pass_length = 60;
-  FelledTreeOptions trees;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.person_every,
-          Field{"person_every", "s", "mean time between two persons who run past; 0: none (assumed)", atLeast(0)});
-    visit(o.person_speed, Field{"person_speed", "m/s", "speed of a person; 2.78 m/s are 10 km/h", above(0)});
-    visit(o.person_height,
-          Field{"person_height", "m", "height of the cylinder that a person is (assumed)", between(0.1, 3)});
-    visit(o.person_width, Field{"person_width", "m", "diameter of that cylinder (assumed)", between(0.1, 3)});
-    visit(o.vehicle_every,
-          Field{"vehicle_every", "s", "mean time between two vehicles that drive past; 0: none (assumed)", atLeast(0)});
-    visit(o.vehicle_speed, Field{"vehicle_speed", "m/s", "speed of a vehicle (assumed)", above(0)});
-    visit(o.vehicle_length,
-          Field{"vehicle_length", "m", "length of the box that a vehicle is (assumed)", between(0.1, 30)});
-    visit(o.vehicle_width, Field{"vehicle_width", "m", "width of that box (assumed)", between(0.1, 10)});
-    visit(o.vehicle_height, Field{"vehicle_height", "m", "height of that box (assumed)", between(0.1, 10)});
-    visit(o.pass_distance,
-          Field{"pass_distance", "m", "mean distance at which they pass the machine; 0.6 to 1.4 times this (assumed)",
-                between(2, 100)});
-    visit(o.pass_length, Field{"pass_length", "m",
-                               "length of the straight path at whose ends they appear and vanish (assumed)", above(1)});
-    FelledTreeOptions::fields(o.trees, visit);
-  }
+  double person_every = 60;     // s: mean time between two persons who run past; 0: none
+  double vehicle_every = 120;   // s: mean time between two vehicles that drive past; 0: none
+  double vehicle_height = 1.7;  // m: height of that box
+  double pass_distance = 9;     // m: mean distance at which they pass the machine; 0.6 to 1.4 times this
+  bool felled_trees = true;     // a tree falls at every stop for work
 };
 
 enum class ObjectKind

@@ -9,6 +9,12 @@ namespace scanloom
 {
 namespace
 {
+// Between the lidars and the recording computer (assumed).
+constexpr double kDelay = 60e-6;      // s: smallest delay from a packet's last measurement to its receipt
+constexpr double kJitter = 80e-6;     // s: up to this is added to the delay, uniformly distributed
+constexpr double kRareJitter = 2e-3;  // s: the same when the computer is busy; packets never overtake each other
+constexpr double kRareShare = 0.003;  // share of the packets that arrive when the computer is busy
+
 constexpr Duration kBetweenTwins = 30us;
 
 constexpr std::uint64_t kImuIndexOffset = 1ULL << 40;  // the IMU's packets have other random numbers than the lidar's
@@ -162,15 +168,14 @@ Datagram PacketStream::imuDatagram(const std::vector<ImuStream::Sample>& samples
   std::vector<ImuSample> readings;
   for (const ImuStream::Sample& sample : samples) readings.push_back(sample.reading);
   const std::uint16_t port = station_.metadata().imu_port;
-  return {samples.back().truth + delay(random, scene_.network.rare_jitter), IpAddress::parse("127.0.0.1"), port, port,
+  return {samples.back().truth + delay(random, kRareJitter), IpAddress::parse("127.0.0.1"), port, port,
           encoders_[run_].imuPacket(readings)};
 }
 
 Duration PacketStream::delay(Random& random, double packet_time) const
 {
-  const NetworkOptions& network = scene_.network;
-  const double rare = std::min(network.rare_jitter, 0.8 * packet_time);  // so that packets do not overtake each other
-  const double jitter = random.uniform() < network.rare_share ? rare : network.jitter;
-  return fromSeconds(network.delay + jitter * random.uniform());
+  const double rare = std::min(kRareJitter, 0.8 * packet_time);  // so that packets do not overtake each other
+  const double jitter = random.uniform() < kRareShare ? rare : kJitter;
+  return fromSeconds(kDelay + jitter * random.uniform());
 }
 }  // namespace scanloom

@@ -9,6 +9,12 @@ namespace scanloom
 {
 namespace
 {
+// Assumed.
+constexpr double kDropReflectivity = 0.02;  // reflectivity of a drop of water over its disc
+constexpr double kFlakeReflectivity = 0.5;  // reflectivity of a snowflake
+constexpr double kFlakeDensity = 0.1;       // density of a snowflake as a share of that of water
+constexpr double kAperture = 0.005;         // m: diameter of a beam where it leaves the lidar
+
 constexpr double kMillimetres = 1e3;  // per metre
 constexpr double kStep = 0.02;        // m of range, of the table
 constexpr double kFarthestDrop = 20;  // m: farther drops are too weak
@@ -20,7 +26,7 @@ FallingDrops::FallingDrops(double per_mm, double decline, double reflectivity, d
     decline_(decline),
     reflectivity_(reflectivity),
     aperture_(aperture),
-    divergence_(kDegree * ranging.beam_divergence_deg),
+    divergence_(kDegree * kBeamDivergenceDeg),
     least_range_(ranging.least_range),
     range_at_ten_percent_(ranging.range_at_ten_percent)
 {
@@ -64,14 +70,13 @@ std::optional<Speck> FallingDrops::draw(Random& random) const
 Precipitation::Precipitation(const PrecipitationOptions& options, const RangingOptions& ranging)
 {
   if (options.rain > 0)
-    kinds_.emplace_back(8000, 4.1 * std::pow(options.rain, -0.21), options.drop_reflectivity, options.aperture,
-                        ranging);
+    kinds_.emplace_back(8000, 4.1 * std::pow(options.rain, -0.21), kDropReflectivity, kAperture, ranging);
   if (options.snow > 0)
   {
     // A flake is wider than the drop that it melts to.
-    const double wider = std::cbrt(1 / options.flake_density);
+    const double wider = std::cbrt(1 / kFlakeDensity);
     kinds_.emplace_back(3800 * std::pow(options.snow, -0.87) / wider, 2.55 * std::pow(options.snow, -0.48) / wider,
-                        options.flake_reflectivity, options.aperture, ranging);
+                        kFlakeReflectivity, kAperture, ranging);
   }
   for (const FallingDrops& kind : kinds_) extinction_ += kind.extinction();
 }

@@ -20,24 +20,12 @@ struct PrecipitationOptions
 {
   double rain = 0;
   double snow = 0;
-  double drop_reflectivity = 0.02;
-  double flake_reflectivity = 0.5;
-  double flake_density = 0.1;
-  double aperture = 0.005;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.rain, Field{"rain", "mm/h", "rain; light 2, heavy 10 and more; 0: none", between(0, 100)});
     visit(o.snow, Field{"snow", "mm/h", "snow, as water; 0: none", between(0, 20)});
-    visit(o.drop_reflectivity,
-          Field{"drop_reflectivity", "", "reflectivity of a drop of water over its disc (assumed)", between(0.001, 1)});
-    visit(o.flake_reflectivity,
-          Field{"flake_reflectivity", "", "reflectivity of a snowflake (assumed)", between(0.001, 1)});
-    visit(o.flake_density,
-          Field{"flake_density", "", "density of a snowflake as a share of that of water (assumed)", between(0.01, 1)});
-    visit(o.aperture,
-          Field{"aperture", "m", "diameter of a beam where it leaves the lidar (assumed)", between(0.001, 0.1)});
   }
 };
 

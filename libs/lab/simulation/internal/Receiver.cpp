@@ -9,6 +9,12 @@ namespace scanloom
 {
 namespace
 {
+// Assumed.
+constexpr double kLeastSeparation = 0.5;  // m: smallest distance of two returns of a beam; nearer ones are one
+constexpr double kPhotons = 25;           // signal in photons where half of the returns are lost
+constexpr double kSunlight = 1200;        // near infrared photons from a white surface under trees
+constexpr double kSkyLight = 900;         // near infrared photons from the sky
+
 constexpr double kRangeStep = 1e-3;  // m, in packets
 
 /** A unit without a product line counts as an OS1, as in parseOusterMetadata. */
@@ -88,8 +94,7 @@ Reception Receiver::receive(const Echo& echo) const
 
 Reception Receiver::receive(const Echo& on_axis, const Echo& beside) const
 {
-  const bool apart =
-      on_axis.hit && beside.hit && std::abs(on_axis.hit->range - beside.hit->range) >= options_.least_separation;
+  const bool apart = on_axis.hit && beside.hit && std::abs(on_axis.hit->range - beside.hit->range) >= kLeastSeparation;
   if (!apart && !on_axis.speck) return receive(on_axis);
 
   auto stronger = returnOf(on_axis, apart ? 0.5 : 1), weaker = apart ? returnOf(beside, 0.5) : std::nullopt;
@@ -138,7 +143,7 @@ Receiver::Return Receiver::measured(double true_range, double strength, double r
   OusterReturn measured;
   measured.range_mm = static_cast<std::uint32_t>(std::lround(std::max(range, kRangeStep) / kRangeStep));
   measured.reflectivity = static_cast<std::uint8_t>(std::clamp(100 * reflectivity, 1.0, 100.0));
-  measured.signal = photons(options_.photons * strength);
+  measured.signal = photons(kPhotons * strength);
   return {measured, surface};
 }
 
@@ -149,7 +154,7 @@ bool Receiver::isStronger(const Return& a, const std::optional<Return>& b)
 
 std::uint16_t Receiver::nearIrOf(const Echo& echo) const
 {
-  const double sunlight = echo.hit ? options_.daylight * reflectivityOf(*echo.hit, echo.luck) : options_.sky;
+  const double sunlight = echo.hit ? kSunlight * reflectivityOf(*echo.hit, echo.luck) : kSkyLight;
   return photons(sunlight * (1 + options_.shade * echo.luck.shade));
 }
 

@@ -13,6 +13,13 @@ namespace scanloom
 {
 namespace
 {
+// Of the work cycle. Assumed: no published record was found.
+constexpr double kStepMin = 1.0;      // m: shortest drive between two stops
+constexpr double kStepMax = 3.0;      // m: longest drive between two stops
+constexpr double kSpeedMin = 0.3;     // m/s: slowest of these drives
+constexpr double kSpeedMax = 0.8;     // m/s: fastest of these drives
+constexpr double kReturnSpeed = 1.0;  // m/s: speed of the way back
+
 constexpr double kWorkFade = 1.0;  // s
 
 /** 0 before `begin`, 1 after it by `fade` and until `end`, 0 again after `end` by `fade`. */
@@ -51,19 +58,14 @@ void Route::addWinding(const DriveOptions& drive)
 
 void Route::addWorkCycles(const DriveOptions& drive, const WorkCycleOptions& work, std::uint64_t seed)
 {
-  const auto ordered = [](const char* name, double least, double most)
-  {
-    require(least <= most,
-            fmt::format("[simulated_work] {0}_min = {1}: must be at most {0}_max = {2}", name, least, most));
-  };
-  ordered("step", work.step_min, work.step_max);
-  ordered("speed", work.speed_min, work.speed_max);
-  ordered("work", work.work_min, work.work_max);
-  require(work.step_min / work.speed_max >= drive.speed_up,
-          fmt::format("[simulated_drive] speed_up = {} s: must be at most step_min / speed_max = {} s of "
-                      "[simulated_work], or the shortest drive brakes before it has sped up",
-                      drive.speed_up, work.step_min / work.speed_max));
-  require(work.turn_after == 0 || work.turn_after / work.return_speed >= drive.speed_up,
+  require(work.work_min <= work.work_max,
+          fmt::format("[simulated_work] work_min = {}: must be at most work_max = {}", work.work_min, work.work_max));
+  require(
+      kStepMin / kSpeedMax >= drive.speed_up,
+      fmt::format("[simulated_drive] speed_up = {} s: must be at most {} s, or the shortest drive between two stops "
+                  "brakes before it has sped up",
+                  drive.speed_up, kStepMin / kSpeedMax));
+  require(work.turn_after == 0 || work.turn_after / kReturnSpeed >= drive.speed_up,
           "[simulated_work] turn_after: must be 0, or long enough to speed up on the way back");
 
   double x = 0;
@@ -71,8 +73,8 @@ void Route::addWorkCycles(const DriveOptions& drive, const WorkCycleOptions& wor
   {
     const bool returns = work.turn_after > 0 && x >= work.turn_after;
     Random random(seed, RandomStream::Work, legs_.size());
-    const double step = random.uniform(work.step_min, work.step_max);
-    const double speed = returns ? work.return_speed : random.uniform(work.speed_min, work.speed_max);
+    const double step = random.uniform(kStepMin, kStepMax);
+    const double speed = returns ? kReturnSpeed : random.uniform(kSpeedMin, kSpeedMax);
     const double stop = returns ? drive.standstill : random.uniform(work.work_min, work.work_max);
     const double distance = returns ? -x : step;
     legs_.push_back({t, std::abs(distance) / speed, x, std::copysign(speed, distance), !returns});

@@ -38,22 +38,13 @@ struct DriveOptions
 /** The work cycle of a harvester. Assumed: no published record was found. */
 struct WorkCycleOptions
 {
-  double step_min = 1.0;
-  double step_max = 3.0;
-  double speed_min = 0.3;
-  double speed_max = 0.8;
   double work_min = 30.0;
   double work_max = 120.0;
   double turn_after = 40.0;
-  double return_speed = 1.0;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.step_min, Field{"step_min", "m", "shortest drive between two stops (assumed)", above(0)});
-    visit(o.step_max, Field{"step_max", "m", "longest drive between two stops (assumed)", above(0)});
-    visit(o.speed_min, Field{"speed_min", "m/s", "slowest of these drives (assumed)", above(0)});
-    visit(o.speed_max, Field{"speed_max", "m/s", "fastest of these drives (assumed)", between(0, 10)});
     visit(o.work_min, Field{"work_min", "s", "shortest stop for work (assumed)", atLeast(0)});
     visit(o.work_max, Field{"work_max", "s", "longest stop for work (assumed)", atLeast(0)});
     visit(
@@ -61,7 +52,6 @@ struct WorkCycleOptions
         Field{"turn_after", "m",
               "distance from the start after which the machine reverses to the start, rests and begins again; 0: never",
               atLeast(0)});
-    visit(o.return_speed, Field{"return_speed", "m/s", "speed of the way back (assumed)", between(0.1, 10)});
   }
 };
 

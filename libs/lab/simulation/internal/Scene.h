@@ -37,7 +37,6 @@ struct Scene
   RecordingSpan span;
   Scenery scenery;
   std::vector<LidarStation> lidars;
-  NetworkOptions network;
   ImuSetup body_imu;
   TotalStation station;
   Rigid body_T_prism;

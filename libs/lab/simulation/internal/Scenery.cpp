@@ -17,7 +17,7 @@ Moment::Moment(const World& world, const Machine& machine, const Rigid& world_T_
     machine_(&machine),
     world_T_body_(world_T_body),
     body_R_world_(world_T_body.rotation.conjugate().toRotationMatrix()),
-    boom_(machine.boom().boxes(boom)),
+    boom_(machine.boomAt(boom)),
     boxes_(boxesOf(objects)),
     cones_(conesOf(objects)),
     t_(t)

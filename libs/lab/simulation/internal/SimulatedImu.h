@@ -1,5 +1,4 @@
 #pragma once
-#include "base/core/Field.h"
 #include "base/core/ImuSample.h"
 #include "lab/simulation/internal/Drive.h"
 #include "lab/simulation/internal/Random.h"
@@ -10,45 +9,20 @@
 
 namespace scanloom
 {
-/** Rate and errors of an IMU. */
+/** Rate and errors of an IMU, by default like a 3DM-GQ7 (assumed). Not keys: the body's IMU and those of lidars differ.
+ */
 struct SimulatedImuOptions
 {
-  double rate = 200;
-  double gyro_noise_deg = 0.003;
-  double accel_noise = 2.5e-4;
-  double gyro_instability = 1.5;
-  double accel_instability = 1.5e-4;
-  double correlation_time = 200;
-  double gyro_turn_on_deg = 0.02;
-  double accel_turn_on = 0.002;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.rate, Field{"rate", "Hz", "samples per second", between(1, 2000)});
-    visit(o.gyro_noise_deg,
-          Field{"gyro_noise_deg", "deg/s/sqrt(Hz)",
-                "white noise density of the gyroscope; 3DM-GQ7-like 0.003, Ouster-like 0.01 (assumed)", atLeast(0)});
-    visit(o.accel_noise, Field{"accel_noise", "m/s2/sqrt(Hz)",
-                               "white noise density of the accelerometer; 3DM-GQ7-like 2.5e-4 (25 ug), Ouster-like "
-                               "1.77e-3 (180 ug) (assumed)",
-                               atLeast(0)});
-    visit(o.gyro_instability,
-          Field{"gyro_instability", "deg/h",
-                "standard deviation of the gyroscope's varying bias; 3DM-GQ7-like 1.5 (assumed)", atLeast(0)});
-    visit(o.accel_instability,
-          Field{"accel_instability", "m/s2",
-                "standard deviation of the accelerometer's varying bias; 1.5e-4 are 15 ug (assumed)", atLeast(0)});
-    visit(o.correlation_time,
-          Field{"correlation_time", "s", "correlation time of the varying biases, first-order Gauss-Markov (assumed)",
-                above(0)});
-    visit(o.gyro_turn_on_deg,
-          Field{"gyro_turn_on_deg", "deg/s", "standard deviation of the gyroscope's constant bias, each axis (assumed)",
-                atLeast(0)});
-    visit(o.accel_turn_on,
-          Field{"accel_turn_on", "m/s2", "standard deviation of the accelerometer's constant bias, each axis (assumed)",
-                atLeast(0)});
-  }
+  double rate = 200;  // Hz: samples per second
+  double gyro_noise_deg =
+      0.003;  // deg/s/sqrt(Hz): white noise density of the gyroscope; 3DM-GQ7-like 0.003, Ouster-like 0.01
+  double accel_noise = 2.5e-4;  // m/s2/sqrt(Hz): white noise density of the accelerometer; 3DM-GQ7-like 2.5e-4 (25 ug),
+                                // Ouster-like 1.77e-3 (180 ug)
+  double gyro_instability = 1.5;      // deg/h: standard deviation of the gyroscope's varying bias; 3DM-GQ7-like 1.5
+  double accel_instability = 1.5e-4;  // m/s2: standard deviation of the accelerometer's varying bias; 1.5e-4 are 15 ug
+  double correlation_time = 200;      // s: correlation time of the varying biases, first-order Gauss-Markov
+  double gyro_turn_on_deg = 0.02;     // deg/s: standard deviation of the gyroscope's constant bias, each axis
+  double accel_turn_on = 0.002;       // m/s2: standard deviation of the accelerometer's constant bias, each axis
 };
 
 /** Values like those of the IMU inside an Ouster lidar. */

@@ -76,7 +76,7 @@ MeasuredColumn SimulatedLidar::measure(const Scenery& scenery, std::uint64_t col
   for (const Eigen::Vector3d& direction : beam_directions_) add(direction, random);
   if (two_returns_)
     for (const Eigen::Vector3d& direction : beam_directions_)
-      add(besideAxis(direction, kDegree * receiver_.options().beam_divergence_deg, random_beside), random_beside);
+      add(besideAxis(direction, kDegree * kBeamDivergenceDeg, random_beside), random_beside);
 
   const std::vector<std::optional<Hit>> hits = moment.cast(queries);
   const auto echo = [&](std::size_t ray) { return Echo{hits[ray], lucks[ray]}; };

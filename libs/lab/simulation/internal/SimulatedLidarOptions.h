@@ -10,25 +10,20 @@ namespace scanloom
 /** Errors of a lidar's rotor and clock. */
 struct LidarClockOptions
 {
-  double rate_error_ppm = 0;
+  double rate_error_ppm = 0;  // ppm: how much too slowly its rotor turns
   double clock_offset = 0;
   double clock_drift_ppm = 0;
   double clock_jump = 0;
   double clock_jump_at = 0;
-  int first_frame_id = -1;
+  int first_frame_id = -1;  // frame id of the first frame; 65500 wraps within seconds; -1: random, below 60000
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.rate_error_ppm,
-          Field{"rate_error_ppm", "ppm", "how much too slowly its rotor turns", between(-1000, 1000)});
     visit(o.clock_offset, Field{"clock_offset", "s", "offset of its stamps; positive: too late", between(-1e6, 1e6)});
     visit(o.clock_drift_ppm, Field{"clock_drift_ppm", "ppm", "how much too fast its clock runs", between(-1000, 1000)});
     visit(o.clock_jump, Field{"clock_jump", "s", "step of its clock at clock_jump_at", between(-1e6, 1e6)});
     visit(o.clock_jump_at, Field{"clock_jump_at", "s", "time of that step after the start; 0: no step", atLeast(0)});
-    visit(o.first_frame_id, Field{"first_frame_id", "",
-                                  "frame id of the first frame; 65500 wraps within seconds; -1: random, below 60000",
-                                  between(-1, 65535)});
   }
 };
 
@@ -37,13 +32,13 @@ struct LidarFaultOptions
 {
   double loss = 0;
   double burst_every = 0;
-  double burst_length = 0.02;
+  double burst_length = 0.02;  // s: length of such a burst
   double reordered = 0;
   double duplicated = 0;
   double silent_from = 0;
   double silent_to = 0;
   double restart_at = 0;
-  double restart_takes = 10;
+  double restart_takes = 10;  // s: time from the restart until it sends again
   std::string pose_error = "0 0 0 0 0 0";
 
   template <typename Self, typename Visitor>
@@ -52,7 +47,6 @@ struct LidarFaultOptions
     visit(o.loss, Field{"loss", "", "share of its packets that are lost independently of each other", between(0, 1)});
     visit(o.burst_every,
           Field{"burst_every", "s", "mean time between bursts in which all its packets are lost; 0: none", atLeast(0)});
-    visit(o.burst_length, Field{"burst_length", "s", "length of such a burst", atLeast(0)});
     visit(o.reordered,
           Field{"reordered", "", "share of its packets that arrive after one or two later ones", between(0, 1)});
     visit(o.duplicated, Field{"duplicated", "", "share of its packets that arrive twice", between(0, 1)});
@@ -61,34 +55,9 @@ struct LidarFaultOptions
           Field{"silent_to", "s", "end of that time; if not greater than silent_from, there is none", atLeast(0)});
     visit(o.restart_at, Field{"restart_at", "s",
                               "time of a restart: new init id, frame ids and stamps from zero; 0: none", atLeast(0)});
-    visit(o.restart_takes,
-          Field{"restart_takes", "s", "time from the restart until it sends again (assumed)", atLeast(0)});
     visit(o.pose_error, Field{"pose_error", "m deg",
                               "error of the pose that extrinsics.txt gets, in the sensor's frame: x y z yaw "
                               "pitch roll"});
-  }
-};
-
-/** Delays from a lidar's measurement to its receipt by the recording computer. */
-struct NetworkOptions
-{
-  double delay = 60e-6;
-  double jitter = 80e-6;
-  double rare_jitter = 2e-3;
-  double rare_share = 0.003;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.delay, Field{"delay", "s", "smallest delay from a packet's last measurement to its receipt (assumed)",
-                         between(0, 0.1)});
-    visit(o.jitter,
-          Field{"jitter", "s", "up to this is added to the delay, uniformly distributed (assumed)", between(0, 0.1)});
-    visit(o.rare_jitter,
-          Field{"rare_jitter", "s", "the same when the computer is busy; packets never overtake each other (assumed)",
-                between(0, 0.1)});
-    visit(o.rare_share, Field{"rare_share", "", "share of the packets that arrive when the computer is busy (assumed)",
-                              between(0, 1)});
   }
 };
 
@@ -132,77 +101,42 @@ struct SimulatedLidarOptions
   }
 };
 
-/** Reflectivities at 865 nm. */
+/** Full angle of a beam; profiles with two returns find the second one within it (an OS0's data sheet, assumed for OS1
+ * and OS2, which have 0.18 and 0.09). */
+inline constexpr double kBeamDivergenceDeg = 0.35;
+
+/** Reflectivities at 865 nm (assumed). Not keys of the configuration: tests change them. */
 struct ReflectivityOptions
 {
-  double ground = 0.15;
-  double stem = 0.3;
-  double branch = 0.3;
-  double crown = 0.4;
-  double undergrowth = 0.4;
-  double machine = 0.6;
-  double object = 0.3;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.ground, Field{"ground", "", "reflectivity at 865 nm: litter and moss (assumed)", between(0, 1)});
-    visit(o.stem, Field{"stem", "", "reflectivity of bark (assumed)", between(0, 1)});
-    visit(o.branch, Field{"branch", "", "reflectivity of branches (assumed)", between(0, 1)});
-    visit(o.crown, Field{"crown", "", "reflectivity of needles and leaves (assumed)", between(0, 1)});
-    visit(o.undergrowth, Field{"undergrowth", "", "reflectivity of shrubs and grass (assumed)", between(0, 1)});
-    visit(o.machine, Field{"machine", "", "reflectivity of the painted machine and its boom (assumed)", between(0, 1)});
-    visit(o.object, Field{"object", "", "reflectivity of persons and vehicles (assumed)", between(0, 1)});
-  }
+  double ground = 0.15;      // reflectivity at 865 nm: litter and moss
+  double stem = 0.3;         // reflectivity of bark
+  double branch = 0.3;       // reflectivity of branches
+  double crown = 0.4;        // reflectivity of needles and leaves
+  double undergrowth = 0.4;  // reflectivity of shrubs and grass
+  double machine = 0.6;      // reflectivity of the painted machine and its boom
+  double object = 0.3;       // reflectivity of persons and vehicles
 };
 
 /** Returns of all lidars: range, noise, signal. */
 struct RangingOptions
 {
-  double range_noise = 0.008;
-  double range_noise_weak = 0.02;
+  double range_noise = 0.008;  // m: standard deviation of the range of strong returns
+  double range_noise_weak =
+      0.02;  // m: further standard deviation where half of the returns are lost; it falls with the root of the signal
   double range_at_ten_percent = 0;
-  double least_range = 0;
+  double least_range = 0;  // m: smallest range that is measured; 0: from the data sheet (0.3, 0.5, 1)
   double farthest_range = 50;
-  double beam_divergence_deg = 0.35;
-  double least_separation = 0.5;
-  double shade = 0.1;
-  double photons = 25;
-  double daylight = 1200;
-  double sky = 900;
+  double shade = 0.1;  // standard deviation of a reflectivity, as a share of it
   ReflectivityOptions reflectivity;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.range_noise,
-          Field{"range_noise", "m", "standard deviation of the range of strong returns", between(0, 0.2)});
-    visit(o.range_noise_weak, Field{"range_noise_weak", "m",
-                                    "further standard deviation where half of the returns are lost; it falls with "
-                                    "the root of the signal (assumed)",
-                                    between(0, 0.5)});
     visit(o.range_at_ten_percent, Field{"range_at_ten_percent", "m",
                                         "range at which half of the returns of 10 % reflectivity are lost: for an OS0 "
                                         "15 in rain, 35 at best; 0: from the data sheet (35, 90, 200)",
                                         between(0, 500)});
-    visit(o.least_range,
-          Field{"least_range", "m", "smallest range that is measured; 0: from the data sheet (0.3, 0.5, 1)",
-                between(0, 10)});
     visit(o.farthest_range, Field{"farthest_range", "m", "greatest range that is simulated", between(1, 500)});
-    visit(o.beam_divergence_deg, Field{"beam_divergence_deg", "deg",
-                                       "full angle of a beam, in which profiles with two returns find the second one "
-                                       "(assumed: an OS0's data sheet; OS1 and OS2 0.18, 0.09)",
-                                       between(0, 2)});
-    visit(o.least_separation,
-          Field{"least_separation", "m", "smallest distance of two returns of a beam; nearer ones are one (assumed)",
-                between(0, 10)});
-    visit(o.shade,
-          Field{"shade", "", "standard deviation of a reflectivity, as a share of it (assumed)", between(0, 0.5)});
-    visit(o.photons, Field{"photons", "", "signal in photons where half of the returns are lost (assumed)", above(0)});
-    visit(o.daylight,
-          Field{"daylight", "", "near infrared photons from a white surface under trees (assumed)", atLeast(0)});
-    visit(o.sky, Field{"sky", "", "near infrared photons from the sky (assumed)", atLeast(0)});
-    ReflectivityOptions::fields(o.reflectivity, visit);
   }
 };
 }  // namespace scanloom

@@ -12,6 +12,11 @@ namespace scanloom
 {
 namespace
 {
+// Assumed.
+constexpr double kClusterSize = 6;     // m: distance from one dense place to the next
+constexpr double kFreeLane = 2.6;      // m: within this distance of the machine's path stems are felled to stumps
+constexpr double kStumpHeight = 0.25;  // m: height of stumps above the ground
+
 constexpr double kSquareMetresPerHectare = 1e4;
 constexpr double kCellSize = 2.0;  // m: at least the largest spacing, so that only neighbouring cells matter
 constexpr int kCellsPerTile = 8;
@@ -101,7 +106,7 @@ class Places
       const Eigen::Vector2d place = kCellSize * Eigen::Vector2d(cell.x + x, cell.y + y);
       const double rank = random.uniform(), lot = random.uniform();
       const std::uint64_t key = random.bits();
-      const double noise = options_.clustering > 0 ? smoothNoise(place, options_.cluster_size, seed_) : 0;
+      const double noise = options_.clustering > 0 ? smoothNoise(place, kClusterSize, seed_) : 0;
       if (lot * most_candidates_ < candidatesFor(density() * (1 + options_.clustering * noise)))
         candidates.push_back({place, rank, key});
     }
@@ -142,13 +147,13 @@ Stand growStand(const StandOptions& options, const TreeOptions& trees, const Gro
     for (const Places::Candidate& candidate : places.in(cell))
     {
       const Stem stem = grow(candidate);
-      if (lane.passes(candidate.place, options.free_lane))
-        stand.stumps.push_back(stumpOf(stem, options.stump_height));
+      if (lane.passes(candidate.place, kFreeLane))
+        stand.stumps.push_back(stumpOf(stem, kStumpHeight));
       else
         stand.stems.push_back(stem);
     }
     for (const Places::Candidate& candidate : old_places.in(cell))
-      stand.stumps.push_back(stumpOf(grow(candidate), options.stump_height));
+      stand.stumps.push_back(stumpOf(grow(candidate), kStumpHeight));
   }
   return stand;
 }

@@ -16,11 +16,8 @@ struct StandOptions
   double stems_per_hectare = 650;
   double spacing = 1.2;
   double clustering = 0;
-  double cluster_size = 6;
-  double free_lane = 2.6;
-  double reach = 55;
+  double reach = 55;  // m: the stand is grown within this distance of the path (assumed: beyond an OS0's range)
   double stumps_per_hectare = 150;
-  double stump_height = 0.25;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -30,17 +27,8 @@ struct StandOptions
     visit(o.clustering, Field{"clustering", "",
                               "how much denser and thinner the stand is in places, as a share of the mean (assumed)",
                               between(0, 0.95)});
-    visit(o.cluster_size,
-          Field{"cluster_size", "m", "distance from one dense place to the next (assumed)", between(2, 100)});
-    visit(o.free_lane,
-          Field{"free_lane", "m", "within this distance of the machine's path stems are felled to stumps (assumed)",
-                atLeast(0)});
-    visit(o.reach,
-          Field{"reach", "m", "the stand is grown within this distance of the path (assumed: beyond an OS0's range)",
-                between(1, 500)});
     visit(o.stumps_per_hectare, Field{"stumps_per_hectare", "1/ha",
                                       "number of stumps of earlier thinnings per hectare (assumed)", between(0, 5000)});
-    visit(o.stump_height, Field{"stump_height", "m", "height of stumps above the ground (assumed)", between(0.02, 1)});
   }
 };
 

@@ -9,6 +9,11 @@ namespace scanloom
 {
 namespace
 {
+// Assumed but for the rate.
+constexpr double kStationRate = 7;      // Hz: measurements per second, with some jitter
+constexpr double kStationY = 0;         // m: y of the station in the world frame
+constexpr double kStationHeight = 1.7;  // m: height of the instrument above the ground
+
 constexpr double kArcSecond = kDegree / 3600;
 constexpr double kPrismRadius = 0.1;  // m: nearer things are the prism's own mount
 }  // namespace
@@ -28,7 +33,7 @@ TotalStation::TotalStation(const TotalStationOptions& options, const Eigen::Vect
 double TotalStation::secondsOf(std::uint64_t n) const
 {
   Random random(seed_, RandomStream::TotalStation, n);
-  return (static_cast<double>(n) + random.uniform(0.2, 0.4)) / options_.rate;
+  return (static_cast<double>(n) + random.uniform(0.2, 0.4)) / kStationRate;
 }
 
 std::optional<PrismMeasurement> TotalStation::measure(const Scenery& scenery, std::uint64_t n) const
@@ -52,7 +57,7 @@ std::optional<PrismMeasurement> TotalStation::measure(const Scenery& scenery, st
 
 Eigen::Vector3d TotalStation::eye(const World& world) const
 {
-  return {options_.x, options_.y, world.ground().height(options_.x, options_.y) + options_.height};
+  return {options_.x, kStationY, world.ground().height(options_.x, kStationY) + kStationHeight};
 }
 
 bool TotalStation::isHidden(const Scenery& scenery, double t, const Eigen::Vector3d& prism, std::uint64_t draw) const

@@ -11,29 +11,19 @@ namespace scanloom
 {
 struct TotalStationOptions
 {
-  double rate = 7;
-  double noise = 0.003;
-  double angle_noise = 1;
+  double noise = 0.003;    // m: standard deviation of each coordinate
+  double angle_noise = 1;  // arc seconds: further standard deviation, across the line of sight
   double stamp_offset = 0;
   double lost = 0;
   bool occlusion = true;
-  double x = -12;
-  double y = 0;
-  double height = 1.7;
+  double x = -12;  // m: x of the station in the world frame; the machine starts at (0, 0)
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.rate, Field{"rate", "Hz", "measurements per second, with some jitter", between(0.01, 100)});
-    visit(o.noise, Field{"noise", "m", "standard deviation of each coordinate", between(0, 1)});
-    visit(o.angle_noise, Field{"angle_noise", "arc seconds", "further standard deviation, across the line of sight",
-                               between(0, 3600)});
     visit(o.stamp_offset, Field{"stamp_offset", "s", "offset of its stamps; positive: too late", between(-1000, 1000)});
     visit(o.lost, Field{"lost", "", "share of the measurements that are lost at random", between(0, 1)});
     visit(o.occlusion, Field{"occlusion", "", "whether what is in the line of sight hides the prism"});
-    visit(o.x, Field{"x", "m", "x of the station in the world frame; the machine starts at (0, 0) (assumed)"});
-    visit(o.y, Field{"y", "m", "y of the station in the world frame (assumed)"});
-    visit(o.height, Field{"height", "m", "height of the instrument above the ground (assumed)", between(0, 20)});
   }
 };
 

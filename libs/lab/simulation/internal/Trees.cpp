@@ -9,6 +9,13 @@ namespace scanloom
 {
 namespace
 {
+// Assumed.
+constexpr double kDeadBranchBase = 0.15;  // height of the lowest dead branch, as a share of the tree's height
+constexpr double kPineBranchDeg = 20;     // deg: elevation of a pine's living branches
+constexpr double kSpruceBranchDeg = -10;  // deg: elevation of a spruce's living branches
+constexpr double kBirchBranchDeg = 45;    // deg: elevation of a birch's living branches
+constexpr double kBranchSpreadDeg = 10;   // deg: standard deviation of a branch's elevation
+
 constexpr double kBreastHeight = 1.3;  // m
 constexpr double kRootDepth = 0.5;     // m: stems begin this deep, below the ground on any slope
 constexpr double kTipRadius = 0.004;   // m
@@ -25,16 +32,16 @@ int classOfLength(double length)
 }
 
 /** Elevation of living branches, deg. */
-double branchElevation(const TreeOptions& options, Species species)
+double branchElevation(Species species)
 {
   switch (species)
   {
     case Species::Pine:
-      return options.branches.pine_branch_deg;
+      return kPineBranchDeg;
     case Species::Spruce:
-      return options.branches.spruce_branch_deg;
+      return kSpruceBranchDeg;
     case Species::Birch:
-      return options.branches.birch_branch_deg;
+      return kBirchBranchDeg;
   }
   return 0;
 }
@@ -122,17 +129,17 @@ std::vector<Cone> growBranches(const TreeOptions& options, const TreeLook& look)
   {
     const double share = (i + random.uniform()) / options.branches.living_branches;
     const double height = options.crown_base + (1 - options.crown_base) * (0.02 + 0.93 * share);
-    const double mean = branchElevation(options, look.species);
+    const double mean = branchElevation(look.species);
     const double length = crownRadius(options, look.species, height) / std::cos(kDegree * mean);
-    const double elevation = mean + options.branches.branch_spread_deg * random.normal();
+    const double elevation = mean + kBranchSpreadDeg * random.normal();
     if (length > 0)
       branches.push_back(growBranch(tree * height, tree * length, elevation, thickest * (1 - 0.7 * share), random));
   }
-  for (int i = 0; i < options.branches.dead_branches && options.branches.dead_branch_base < options.crown_base; ++i)
+  for (int i = 0; i < options.branches.dead_branches && kDeadBranchBase < options.crown_base; ++i)
   {
-    const double height = random.uniform(options.branches.dead_branch_base, options.crown_base);
+    const double height = random.uniform(kDeadBranchBase, options.crown_base);
     const double length = options.crown_radius * random.uniform(0.1, 0.8);  // some are broken off
-    const double elevation = options.branches.branch_spread_deg * random.normal();
+    const double elevation = kBranchSpreadDeg * random.normal();
     branches.push_back(growBranch(tree * height, tree * length, elevation, 0.6 * thickest, random));
   }
   return branches;

@@ -23,12 +23,7 @@ struct BranchOptions
 {
   int living_branches = 30;
   int dead_branches = 12;
-  double dead_branch_base = 0.15;
   double branch_diameter = 0.03;
-  double pine_branch_deg = 20;
-  double spruce_branch_deg = -10;
-  double birch_branch_deg = 45;
-  double branch_spread_deg = 10;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -37,19 +32,8 @@ struct BranchOptions
           Field{"living_branches", "", "number of living branches of a tree (assumed)", between(0, 500)});
     visit(o.dead_branches,
           Field{"dead_branches", "", "number of dead branches of a tree, below its crown (assumed)", between(0, 500)});
-    visit(o.dead_branch_base,
-          Field{"dead_branch_base", "", "height of the lowest dead branch, as a share of the tree's height (assumed)",
-                between(0, 0.95)});
     visit(o.branch_diameter, Field{"branch_diameter", "m", "diameter of the thickest branches of a mean tree (assumed)",
                                    between(0.002, 0.2)});
-    visit(o.pine_branch_deg,
-          Field{"pine_branch_deg", "deg", "elevation of a pine's living branches (assumed)", between(-60, 80)});
-    visit(o.spruce_branch_deg,
-          Field{"spruce_branch_deg", "deg", "elevation of a spruce's living branches (assumed)", between(-60, 80)});
-    visit(o.birch_branch_deg,
-          Field{"birch_branch_deg", "deg", "elevation of a birch's living branches (assumed)", between(-60, 80)});
-    visit(o.branch_spread_deg,
-          Field{"branch_spread_deg", "deg", "standard deviation of a branch's elevation (assumed)", between(0, 30)});
   }
 };
 

@@ -12,39 +12,15 @@ namespace scanloom
 struct WindOptions
 {
   double speed = 0;
-  double direction_deg = 60;
+  double direction_deg = 60;  // deg: direction that it blows to, from the x axis
   double gusts = 0.5;
-  double gust_length = 35;
-  double tip_sway = 0.3;
-  double sway_rate = 0;
-  double leaf_sway = 0.03;
-  double leaf_rate = 1.2;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
     visit(o.speed, Field{"speed", "m/s", "mean wind speed at the tree tops; 0: calm, nothing moves", between(0, 25)});
-    visit(o.direction_deg,
-          Field{"direction_deg", "deg", "direction that it blows to, from the x axis", between(-360, 360)});
     visit(o.gusts, Field{"gusts", "", "how much the displacement varies in gusts, as a share of its mean (assumed)",
                          between(0, 2)});
-    visit(o.gust_length, Field{"gust_length", "m",
-                               "distance from one gust to the next; gusts travel with the wind "
-                               "(assumed)",
-                               between(20, 500)});
-    visit(o.tip_sway, Field{"tip_sway", "m",
-                            "mean displacement of the tip of a mean tree in a wind of 10 m/s; it grows "
-                            "with the square of the speed (assumed)",
-                            between(0, 2)});
-    visit(o.sway_rate, Field{"sway_rate", "Hz",
-                             "natural frequency of the stems; 0: 0.0948 + 3.4317 diameter [cm] / "
-                             "height [m]^2 of a mean tree (Moore and Maguire 2004)",
-                             between(0, 5)});
-    visit(o.leaf_sway, Field{"leaf_sway", "m",
-                             "amplitude of leaves on their twigs in a wind of 10 m/s; it grows with the "
-                             "speed (assumed)",
-                             between(0, 0.3)});
-    visit(o.leaf_rate, Field{"leaf_rate", "Hz", "frequency of that (assumed)", between(0, 5)});
   }
 };
 

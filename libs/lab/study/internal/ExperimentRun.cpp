@@ -1,7 +1,7 @@
 #include "lab/study/internal/ExperimentRun.h"
 
-#include "base/core/AtomicFile.h"
 #include "base/core/Interruption.h"
+#include "base/core/OutputFile.h"
 #include "base/core/jsonText.h"
 #include "base/formats/Trajectory.h"
 #include "lab/evaluation/Evaluation.h"

@@ -1,7 +1,7 @@
 #include "lab/study/internal/Study.h"
 
 #include "base/config/Names.h"
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 #include "base/core/jsonText.h"
 
 #include <fmt/format.h>

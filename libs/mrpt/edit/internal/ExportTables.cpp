@@ -1,6 +1,5 @@
 #include "mrpt/edit/internal/ExportTables.h"
 
-#include "base/core/AtomicFile.h"
 #include "base/core/OutputFile.h"
 #include "base/core/csvField.h"
 #include "base/core/fileNameOf.h"
@@ -39,7 +38,7 @@ class ImuTable
   }
 
  private:
-  AtomicFile file_;
+  OutputFile file_;
   ImuCsvWriter writer_;
 };
 

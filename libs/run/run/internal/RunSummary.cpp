@@ -1,6 +1,6 @@
 #include "run/run/internal/RunSummary.h"
 
-#include "base/core/AtomicFile.h"
+#include "base/core/OutputFile.h"
 #include "base/core/jsonText.h"
 
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-#include "base/core/ResultFolder.h"
+#include "base/core/OutputFolder.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -22,20 +22,20 @@ Path createdWithin(const Path& folder)
 }
 }  // namespace
 
-ResultFolder::ResultFolder(Path folder) : folder_(std::move(folder)), running_(createdWithin(folder_)) {}
+OutputFolder::OutputFolder(Path folder) : folder_(std::move(folder)), running_(createdWithin(folder_)) {}
 
-ResultFolder::~ResultFolder()
+OutputFolder::~OutputFolder()
 {
   std::error_code ignored;  // a destructor cannot report it
   if (!committed_) std::filesystem::remove_all(running_, ignored);
 }
 
-bool ResultFolder::holdsAny(const std::vector<std::string>& names) const
+bool OutputFolder::holdsAny(const std::vector<std::string>& names) const
 {
   return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return isTaken(folder_ / name); });
 }
 
-Path ResultFolder::commit(const std::vector<std::string>& names, Completeness completeness)
+Path OutputFolder::commit(const std::vector<std::string>& names, Completeness completeness)
 {
   Path results = folder_;
   if (completeness == Completeness::Partial && holdsAny(names))
@@ -50,7 +50,7 @@ Path ResultFolder::commit(const std::vector<std::string>& names, Completeness co
   return results;
 }
 
-void ResultFolder::move(const std::vector<std::string>& names)
+void OutputFolder::move(const std::vector<std::string>& names)
 {
   for (auto name = names.rbegin(); name != names.rend(); ++name)
     if (*name == names.back() || !isTaken(running_ / *name)) std::filesystem::remove(folder_ / *name);

@@ -12,14 +12,14 @@ namespace scanloom
  * The files of a run are written to a folder of their own within the results' folder, and moved into it together by
  * commit(). Without commit() they are removed.
  */
-class ResultFolder
+class OutputFolder
 {
  public:
   /** Creates both folders. Throws std::filesystem::filesystem_error. */
-  explicit ResultFolder(std::filesystem::path folder);
-  ResultFolder(const ResultFolder&) = delete;
-  ResultFolder& operator=(const ResultFolder&) = delete;
-  ~ResultFolder();
+  explicit OutputFolder(std::filesystem::path folder);
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  ~OutputFolder();
 
   /** Where the run writes its files. */
   const std::filesystem::path& running() const { return running_; }

@@ -1,10 +1,10 @@
-#include "base/core/ResultFolder.h"
+#include "base/core/OutputFolder.h"
 
 #include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
 
-namespace scanloom::result_folder_unittest
+namespace scanloom::output_folder_unittest
 {
 namespace
 {
@@ -17,7 +17,7 @@ struct Results : testing::Test
 
   const std::vector<std::string> names{"poses.tum", "map.bt", "summary.json"};
 
-  static void write(const ResultFolder& results, const std::vector<std::string>& names, const std::string& run)
+  static void write(const OutputFolder& results, const std::vector<std::string>& names, const std::string& run)
   {
     for (const std::string& name : names) std::ofstream(results.running() / name) << run;
   }
@@ -34,7 +34,7 @@ struct Results : testing::Test
 
 TEST_F(Results, appearTogetherWhenTheyAreCommitted)
 {
-  ResultFolder first(folder);
+  OutputFolder first(folder);
   write(first, {"poses.tum", "summary.json"}, "first");
   EXPECT_FALSE(std::filesystem::exists(folder / "poses.tum"));
   EXPECT_EQ(first.commit(names, Completeness::Whole), folder);
@@ -43,11 +43,11 @@ TEST_F(Results, appearTogetherWhenTheyAreCommitted)
 
 TEST_F(Results, ofAnEarlierRunGoAlsoWhereTheNewRunHasNone)
 {
-  ResultFolder first(folder);
+  OutputFolder first(folder);
   write(first, {"poses.tum", "map.bt", "summary.json"}, "first");
   first.commit(names, Completeness::Whole);
   std::ofstream(folder / "notes.txt") << "mine";
-  ResultFolder second(folder);
+  OutputFolder second(folder);
   write(second, {"poses.tum", "summary.json"}, "second");
   second.commit(names, Completeness::Whole);
   EXPECT_THAT(filesIn(folder), UnorderedElementsAre("poses.tum: second", "summary.json: second", "notes.txt: mine"));
@@ -55,12 +55,12 @@ TEST_F(Results, ofAnEarlierRunGoAlsoWhereTheNewRunHasNone)
 
 TEST_F(Results, thatArePartialStayBesideThoseOfAnEarlierRun)
 {
-  ResultFolder first(folder);
+  OutputFolder first(folder);
   write(first, {"poses.tum"}, "first");
   EXPECT_EQ(first.commit(names, Completeness::Partial), folder) << "there was no earlier run";
   for (const std::string kept : {"partial", "partial-2"})
   {
-    ResultFolder next(folder);
+    OutputFolder next(folder);
     write(next, {"poses.tum", "map.bt"}, kept);
     EXPECT_EQ(next.commit(names, Completeness::Partial), folder / kept);
     EXPECT_THAT(filesIn(folder / kept), UnorderedElementsAre("poses.tum: " + kept, "map.bt: " + kept));
@@ -70,14 +70,14 @@ TEST_F(Results, thatArePartialStayBesideThoseOfAnEarlierRun)
 
 TEST_F(Results, thatAreNotCommittedLeaveTheFolderAsItWas)
 {
-  ResultFolder first(folder);
+  OutputFolder first(folder);
   write(first, {"poses.tum"}, "first");
   first.commit(names, Completeness::Whole);
   {
-    ResultFolder failed(folder);
+    OutputFolder failed(folder);
     write(failed, {"poses.tum", "map.bt"}, "failed");
   }
   EXPECT_THAT(filesIn(folder), UnorderedElementsAre("poses.tum: first"));
 }
 }  // namespace
-}  // namespace scanloom::result_folder_unittest
+}  // namespace scanloom::output_folder_unittest

@@ -1,4 +1,4 @@
-#include "mrpt/edit/StagedOutputs.h"
+#include "mrpt/edit/namesOfExport.h"
 
 #include <algorithm>
 #include <set>
@@ -39,8 +39,9 @@ std::set<Path> earlierClouds(const Path& folder, const std::set<Path>& written)
   return earlier;
 }
 
-/** Clouds first, then the tables of their stamps. */
-std::vector<std::string> namesOf(const Path& folder, const Path& running)
+}  // namespace
+
+std::vector<std::string> namesOfExport(const Path& folder, const Path& running)
 {
   std::set<Path> files = filesWithin(running);
   files.merge(earlierClouds(folder, files));
@@ -48,23 +49,5 @@ std::vector<std::string> namesOf(const Path& folder, const Path& running)
   for (const Path& file : files) names.push_back(file.string());
   std::stable_partition(names.begin(), names.end(), [](const std::string& name) { return isNumbered(name); });
   return names;
-}
-}  // namespace
-
-StagedOutputs::StagedOutputs(const EditOutputs& outputs) : outputs_(outputs), files_(outputs.files)
-{
-  if (!outputs.folder.empty()) folder_.emplace(outputs.folder);
-}
-
-EditOutputs StagedOutputs::running() const
-{
-  return {files_.running(), folder_ ? folder_->running() : std::filesystem::path()};
-}
-
-EditOutputs StagedOutputs::commit(Completeness completeness)
-{
-  EditOutputs committed{files_.commit(completeness), {}};
-  if (folder_) committed.folder = folder_->commit(namesOf(outputs_.folder, folder_->running()), completeness);
-  return committed;
 }
 }  // namespace scanloom
