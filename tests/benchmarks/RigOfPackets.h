@@ -3,7 +3,7 @@
 #include "input/batching/TimeBatcher.h"
 #include "input/lidar/OusterDecoder.h"
 #include "input/lidar/OusterEncoder.h"
-#include "input/lidar/internal/Crc64.h"
+#include "input/lidar/internal/OusterLayout.h"
 
 #include <memory>
 #include <random>

@@ -9,7 +9,7 @@
 #include "base/core/So3.h"
 #include "diagnosis/DoctorFindings.h"
 #include "input/lidar/OusterDecoder.h"
-#include "input/lidar/internal/Crc64.h"
+#include "input/lidar/internal/OusterLayout.h"
 #include "input/packets/MergedCaptures.h"
 #include "support/TestData.h"
 

@@ -4,7 +4,6 @@
  */
 #include <algorithm>
 
-#include "input/lidar/CloudDecoder.h"
 #include "input/lidar/CloudPacket.h"
 #include "require.h"
 
@@ -12,18 +11,18 @@ using namespace scanloom;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  static const CloudDecoder decoder({10, 16}, Rigid::identity());
+  static const auto decoder = makeCloudDecoder({10, 16}, Rigid::identity());
   static const std::vector<std::uint8_t> kEmpty = cloudPacket({});
   if (size < kEmpty.size()) return 0;
   std::vector<std::uint8_t> packet(data, data + size);
   std::copy(kEmpty.begin(), kEmpty.begin() + 8, packet.begin());
-  if (decoder.kind(packet) != PacketKind::Lidar) return 0;
+  if (decoder->kind(packet) != PacketKind::Lidar) return 0;
   std::vector<MeasurementBlock> blocks;
-  decoder.readBlocks(packet, blocks);
+  decoder->readBlocks(packet, blocks);
   PointCloud points;
   for (const MeasurementBlock& block : blocks) try
     {
-      decoder.appendPoints(packet, block.index, 0, 0, points);
+      decoder->appendPoints(packet, block.index, 0, 0, points);
     }
     catch (const std::out_of_range&)
     {

@@ -10,11 +10,8 @@
 #include <string>
 
 #include "../input/lidar/simpleMetadata.h"
-#include "input/lidar/MetadataKeys.h"
+#include "input/lidar/LidarModels.h"
 #include "input/lidar/OusterDecoder.h"
-#include "input/lidar/internal/HesaiDecoder.h"
-#include "input/lidar/internal/RobosenseDecoder.h"
-#include "input/lidar/internal/VelodyneDecoder.h"
 #include "require.h"
 
 using namespace scanloom;
@@ -126,22 +123,10 @@ std::string changed(const SoundFile& file, Bytes changes)
 
 void decode(const std::string& text)
 {
-  if (looksLikeVelodyne(text))
+  if (!looksLikeOuster(text) || text.find("\"lidar\"") != std::string::npos)
   {
-    const VelodyneDecoder decoder(parseVelodyneMetadata(text, "fuzz.json"), Rigid::identity());
-    require(decoder.description().blockPeriod() > Duration{0} && decoder.description().columns_per_frame > 0);
-    return;
-  }
-  if (looksLikeHesai(text))
-  {
-    const HesaiDecoder hesai(parseHesaiMetadata(text, "fuzz.json"), Rigid::identity());
-    require(hesai.description().blockPeriod() > Duration{0} && hesai.description().columns_per_frame > 0);
-    return;
-  }
-  if (looksLikeRobosense(text))
-  {
-    const RobosenseDecoder robosense(parseRobosenseMetadata(text, "fuzz.json"), Rigid::identity());
-    require(robosense.description().blockPeriod() > Duration{0} && robosense.description().columns_per_frame > 0);
+    const auto decoder = makeDecoder(text, "fuzz.json", Rigid::identity());
+    require(decoder->description().blockPeriod() > Duration{0} && decoder->description().columns_per_frame > 0);
     return;
   }
   const OusterMetadata metadata = parseOusterMetadata(text, "fuzz.json");

@@ -9,7 +9,7 @@
 
 #include "../input/lidar/simpleMetadata.h"
 #include "input/lidar/FrameFields.h"
-#include "input/lidar/internal/Crc64.h"
+#include "input/lidar/internal/OusterLayout.h"
 #include "require.h"
 
 using namespace scanloom;

@@ -2,11 +2,10 @@
  * Any bytes as a packet of every Robosense model, chosen by the input: what kind() accepts is decoded without
  * exceptions; anything else throws at most std::out_of_range. fuzz options: -max_len=1300
  */
-#include <stdexcept>
 #include <string>
 
-#include "input/lidar/internal/RobosenseDecoder.h"
-#include "require.h"
+#include "decodeAll.h"
+#include "input/lidar/internal/Robosense.h"
 
 using namespace scanloom;
 
@@ -21,20 +20,19 @@ enum Mend : std::uint8_t
   kTime = 16,
 };
 
-std::vector<RobosenseDecoder> everyDecoder()
+std::vector<RobosenseMetadata> everyLidar()
 {
-  std::vector<RobosenseDecoder> decoders;
+  std::vector<RobosenseMetadata> lidars;
   for (const RobosenseModel& model : kRobosenseModels)
     for (const int returns : {1, 2})
     {
-      RobosenseMetadata metadata;
+      RobosenseMetadata& metadata = lidars.emplace_back();
       metadata.model = &model;
       metadata.returns = returns;
       metadata.angles.vertical.resize(static_cast<std::size_t>(model.channels));
       metadata.angles.azimuth = metadata.angles.vertical;
-      decoders.emplace_back(metadata, Rigid::identity());
     }
-  return decoders;
+  return lidars;
 }
 
 void mendMarker(std::vector<std::uint8_t>& packet, std::uint32_t marker)
@@ -58,54 +56,21 @@ void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const RobosenseM
   if (what & kTime) store(packet, 20, std::uint16_t{0});
   if (what & kTime) packet[26] = packet[27] = 0;
 }
-
-void decode(const RobosenseDecoder& decoder, Bytes packet)
-{
-  static std::vector<MeasurementBlock> blocks;
-  static PointCloud points;
-  const LidarDescription& d = decoder.description();
-  decoder.header(packet);
-  decoder.readBlocks(packet, blocks);
-  points.clear();
-  for (const MeasurementBlock& block : blocks)
-  {
-    require(block.measurement_id < d.columns_per_frame);
-    require(!block.valid || (nanoseconds(block.stamp) >= 0 && nanoseconds(block.stamp) < std::int64_t{1} << 62));
-    require(block.stamp >= blocks.front().stamp);
-    const std::size_t before = points.size();
-    decoder.appendPoints(packet, block.index, 0, 0, points);
-    require(block.valid || points.size() == before);
-    require(points.size() - before <= static_cast<std::size_t>(d.channels * d.returns));
-  }
-  for (std::size_t i = 0; i < points.size(); ++i)
-    require(points.range[i] > 0 && points.ring[i] < d.channels && points.t[i] >= 0 && points.t[i] < 55'560 &&
-            points.position(i).allFinite());
-}
-
-void refuse(const RobosenseDecoder& decoder, Bytes packet)
-{
-  try
-  {
-    decode(decoder, packet);
-  }
-  catch (const std::out_of_range&)
-  {
-  }
-}
 }  // namespace
 
 /** The first byte tells what is corrected, the second which decoder must read the rest. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  static const std::vector<RobosenseDecoder> decoders = everyDecoder();
+  static const std::vector<RobosenseMetadata> lidars = everyLidar();
+  static const auto decoders = decodersOf(lidars, makeRobosense);
   static std::vector<std::uint8_t> packet;
   if (size < 2) return 0;
-  const RobosenseDecoder& decoder = decoders[data[1] % decoders.size()];
+  const std::size_t chosen = data[1] % lidars.size();
   packet.assign(data + 2, data + size);
-  mend(packet, data[0], decoder.metadata());
-  if (decoder.kind(packet) == PacketKind::Lidar)
-    decode(decoder, packet);
+  mend(packet, data[0], lidars[chosen]);
+  if (decoders[chosen]->kind(packet) == PacketKind::Lidar)
+    decodeAll(*decoders[chosen], packet, [](std::size_t, std::size_t) { return true; });
   else if (packet.size() < kRobosensePacketBytes)
-    refuse(decoder, packet);
+    refuse(*decoders[chosen], packet);
   return 0;
 }

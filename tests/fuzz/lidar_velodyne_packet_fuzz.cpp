@@ -3,10 +3,9 @@
  * else throws at most std::out_of_range. fuzz options: -max_len=1300
  */
 #include <array>
-#include <stdexcept>
 
-#include "input/lidar/internal/VelodyneDecoder.h"
-#include "require.h"
+#include "decodeAll.h"
+#include "input/lidar/internal/Velodyne.h"
 
 using namespace scanloom;
 
@@ -20,17 +19,17 @@ enum Mend : std::uint8_t
   kTurn = 8,     // azimuths up to 360 degrees
 };
 
-VelodyneDecoder decoderOf(const VelodyneModel& model, int returns)
+VelodyneMetadata metadataOf(const VelodyneModel& model, int returns)
 {
   VelodyneMetadata m;
   m.model = &model;
   m.returns = returns;
   m.product_id = model.product_id;
   const auto lasers = static_cast<std::size_t>(model.channels);
-  for (std::size_t laser = 0; laser < lasers; ++laser) m.vertical_deg.push_back(static_cast<double>(laser % 16) - 8);
-  m.azimuth_offset_deg.assign(lasers, 1.4);
+  for (std::size_t i = 0; i < lasers; ++i) m.angles.vertical.push_back(static_cast<double>(i % 16) - 8);
+  m.angles.azimuth.assign(lasers, 1.4);
   m.vertical_offset_mm.assign(lasers, -3);
-  return {m, Rigid::identity()};
+  return m;
 }
 
 void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const VelodyneMetadata& metadata)
@@ -43,67 +42,32 @@ void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const VelodyneMe
   {
     if (what & kModel) store(packet, block * 100, kFlags[model.channels == 128 ? block % 4 : 0]);
     const auto azimuth = load<std::uint16_t>(packet, block * 100 + 2);
-    if (what & kTurn) store(packet, block * 100 + 2, static_cast<std::uint16_t>(azimuth % (kVelodyneTurn + 1)));
+    if (what & kTurn) store(packet, block * 100 + 2, static_cast<std::uint16_t>(azimuth % (kTurn + 1)));
   }
   if (what & kReturns) packet[1204] = static_cast<std::uint8_t>(metadata.returns == 2 ? 0x39 : 0x37 + packet[1204] % 2);
   if (what & kModel) packet[1205] = model.product_id;
-}
-
-void decode(const VelodyneDecoder& decoder, Bytes packet)
-{
-  static std::vector<MeasurementBlock> blocks;
-  static PointCloud points;
-  const LidarDescription& d = decoder.description();
-  decoder.header(packet);
-  decoder.readBlocks(packet, blocks);
-  points.clear();
-  for (const MeasurementBlock& block : blocks)
-  {
-    require(block.stamp >= Timestamp{} && block.stamp < Timestamp{d.stamp_modulus});
-    require(block.measurement_id < d.columns_per_frame);
-    // The order holds but for the top of the hour.
-    const Duration after_first = block.stamp - blocks.front().stamp;
-    require(after_first >= Duration{0} || after_first < -d.stamp_modulus / 2);
-    // The first, the last and one more: points take most of the time, and blocks are alike.
-    if (block.index != 0 && block.index + 1u != blocks.size() && block.index != packet[1203] % blocks.size()) continue;
-    const std::size_t before = points.size();
-    decoder.appendPoints(packet, block.index, 0, 0, points);
-    require(block.valid || points.size() == before);
-    require(points.size() - before <= static_cast<std::size_t>(d.channels * d.returns));
-  }
-  for (std::size_t i = 0; i < points.size(); ++i)
-    require(points.range[i] > 0 && points.ring[i] < d.channels && points.t[i] >= 0 && points.t[i] < 60'000 &&
-            points.position(i).allFinite());
-}
-
-void refuse(const VelodyneDecoder& decoder, Bytes packet)
-{
-  try
-  {
-    decode(decoder, packet);
-  }
-  catch (const std::out_of_range&)
-  {
-  }
 }
 }  // namespace
 
 /** The first byte tells what is corrected, the second which decoder must also refuse a packet that is too short. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  static const std::array<VelodyneDecoder, 5> decoders{
-      decoderOf(kVelodyneModels[0], 1), decoderOf(kVelodyneModels[0], 2), decoderOf(kVelodyneModels[1], 1),
-      decoderOf(kVelodyneModels[2], 2), decoderOf(kVelodyneModels[3], 1)};
+  static const std::array<VelodyneMetadata, 5> lidars{
+      metadataOf(kVelodyneModels[0], 1), metadataOf(kVelodyneModels[0], 2), metadataOf(kVelodyneModels[1], 1),
+      metadataOf(kVelodyneModels[2], 2), metadataOf(kVelodyneModels[3], 1)};
+  static const auto decoders = decodersOf(lidars, makeVelodyne);
   static std::vector<std::uint8_t> packet;
   if (size < 2) return 0;
-  for (const VelodyneDecoder& decoder : decoders)
+  for (std::size_t i = 0; i < lidars.size(); ++i)
   {
     packet.assign(data + 2, data + size);
-    mend(packet, data[0], decoder.metadata());
-    if (decoder.kind(packet) == PacketKind::Lidar)
-      decode(decoder, packet);
-    else if (&decoder == &decoders[data[1] % decoders.size()] && packet.size() < kVelodynePacketBytes)
-      refuse(decoder, packet);
+    mend(packet, data[0], lidars[i]);
+    const auto chosen = [](std::size_t block, std::size_t blocks)
+    { return block == 0 || block + 1 == blocks || block == packet[1203] % blocks; };
+    if (decoders[i]->kind(packet) == PacketKind::Lidar)
+      decodeAll(*decoders[i], packet, chosen);
+    else if (i == data[1] % lidars.size() && packet.size() < kVelodynePacketBytes)
+      refuse(*decoders[i], packet);
   }
   return 0;
 }

@@ -12,9 +12,9 @@
 #include "../input/lidar/simpleMetadata.h"
 #include "input/lidar/MetadataKeys.h"
 #include "input/lidar/OusterDecoder.h"
-#include "input/lidar/internal/HesaiModels.h"
-#include "input/lidar/internal/RobosensePacket.h"
-#include "input/lidar/internal/VelodynePacket.h"
+#include "input/lidar/internal/Hesai.h"
+#include "input/lidar/internal/Robosense.h"
+#include "input/lidar/internal/Velodyne.h"
 #include "input/packets/CaptureReader.h"
 
 namespace fs = std::filesystem;

@@ -61,12 +61,12 @@ TEST_P(VelodyneScan, consistsOfPointsOfOurs)
   VelodyneMetadata metadata = velodyneMetadata(GetParam().model);
   metadata.product_id = 0x21;                                                              // also of early VLP-16s
   std::fill(metadata.vertical_offset_mm.begin(), metadata.vertical_offset_mm.end(), 0.0);  // not in MRPT's calibration
-  const VelodyneDecoder decoder(metadata, Rigid::identity());
+  const auto decoder = makeVelodyne(metadata, Rigid::identity());
   std::vector<std::vector<std::uint8_t>> packets = payloadsOf(capture);
   packets.erase(std::remove_if(packets.begin(), packets.end(),
-                               [&](const auto& packet) { return decoder.kind(packet) != PacketKind::Lidar; }),
+                               [&](const auto& packet) { return decoder->kind(packet) != PacketKind::Lidar; }),
                 packets.end());
-  const auto ours = everyPoint(decoder, packets), theirs = decodedByMrpt(packets, GetParam().mrpt_model);
+  const auto ours = positionsOf(everyPoint(*decoder, packets)), theirs = decodedByMrpt(packets, GetParam().mrpt_model);
   EXPECT_GT(theirs.size(), 0.49 * static_cast<double>(ours.size()));
   EXPECT_GT(shareFound(theirs, ours, 0.02), 0.999) << "their angles come in steps of 0.01 degrees";
 }

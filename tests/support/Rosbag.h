@@ -86,6 +86,13 @@ inline std::vector<StampedPacket> packetsOfScans(const std::filesystem::path& ba
   return packets;
 }
 
+inline std::vector<std::vector<std::uint8_t>> bytesOf(const std::vector<StampedPacket>& packets)
+{
+  std::vector<std::vector<std::uint8_t>> bytes;
+  for (const StampedPacket& packet : packets) bytes.push_back(packet.bytes);
+  return bytes;
+}
+
 /** The packets of pandar_msgs/PandarScan messages. */
 inline std::vector<StampedPacket> pandarPacketsOfBag(const std::filesystem::path& bag)
 {

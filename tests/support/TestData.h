@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 namespace scanloom
@@ -16,6 +17,14 @@ inline std::optional<std::filesystem::path> testData(const std::string& relative
   const std::filesystem::path folder = root ? root : std::filesystem::path(SCANLOOM_SOURCE_DIR) / "../shared/data";
   if (!std::filesystem::exists(folder / relative)) return std::nullopt;
   return folder / relative;
+}
+
+/** The file in the folder, or in one of its folders, that has this extension. */
+inline std::filesystem::path theFile(const std::filesystem::path& folder, const std::string& extension)
+{
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().extension() == extension) return entry.path();
+  throw std::runtime_error(folder.string() + ": has no " + extension);
 }
 }  // namespace scanloom
 

@@ -4,7 +4,7 @@
 #include "base/core/printable.h"
 #include "input/bags/internal/CloudMessage.h"
 #include "input/bags/internal/PacketMessages.h"
-#include "input/lidar/CloudDecoder.h"
+#include "input/lidar/CloudPacket.h"
 #include "input/lidar/LidarModels.h"
 
 #include <fmt/format.h>

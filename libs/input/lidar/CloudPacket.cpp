@@ -1,7 +1,12 @@
 #include "input/lidar/CloudPacket.h"
 
+#include "input/lidar/MetadataKeys.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace scanloom
 {
@@ -10,6 +15,17 @@ namespace
 constexpr std::uint64_t kMagic = 0x00636C6F75643101;  // no lidar's packets begin like this
 constexpr std::size_t kColumnsAt = 8, kPointsAt = 12, kHeader = 16;
 constexpr std::size_t kColumnBytes = 8 + 4 + 4, kPointBytes = 8 + 3 * 4 + 2;
+constexpr std::size_t kCloudColumns = 4096;  // more would make the scan's order finer than lidars fire
+constexpr double kLowestRate = 1, kHighestRate = 100;
+constexpr int kMostCloudChannels = 256;
+constexpr float kFarthest = 4e6F;  // m, in mm below 2^32
+
+/** Points of about the same stamp. */
+struct CloudColumn
+{
+  Timestamp stamp;  // of its first point
+  std::uint32_t first = 0, points = 0;
+};
 
 bool isUsable(const TimedPoint& p)
 {
@@ -36,6 +52,125 @@ std::vector<CloudColumn> columnsOf(const std::vector<TimedPoint>& points)
   }
   return columns;
 }
+
+/** Reads what cloudPacket() wrote, and trusts nothing in it. */
+class CloudPacket
+{
+ public:
+  explicit CloudPacket(Bytes bytes) : bytes_(bytes) {}
+
+  /** Whether it begins like one, and its lengths agree. */
+  bool isSound() const
+  {
+    return bytes_.size() >= kHeader && load<std::uint64_t>(bytes_, 0) == kMagic && columns() <= kCloudColumns + 1 &&
+           bytes_.size() == kHeader + columns() * kColumnBytes + points() * kPointBytes;
+  }
+
+  std::size_t columns() const { return load<std::uint32_t>(bytes_, kColumnsAt); }
+
+  /** Throws std::out_of_range for a column or a point that is not there. */
+  CloudColumn column(std::size_t i) const
+  {
+    if (i >= columns()) throw std::out_of_range("CloudPacket: no such column");
+    const Bytes at = bytes_.slice(kHeader + i * kColumnBytes, kColumnBytes);
+    return {fromNanoseconds(load<std::int64_t>(at, 0)), load<std::uint32_t>(at, 8), load<std::uint32_t>(at, 12)};
+  }
+
+  TimedPoint point(std::size_t i) const
+  {
+    const Bytes at = bytes_.slice(kHeader + columns() * kColumnBytes + i * kPointBytes, kPointBytes);
+    return {fromNanoseconds(load<std::int64_t>(at, 0)),
+            load<float>(at, 8),
+            load<float>(at, 12),
+            load<float>(at, 16),
+            at[20],
+            at[21]};
+  }
+
+ private:
+  std::size_t points() const { return load<std::uint32_t>(bytes_, kPointsAt); }
+
+  Bytes bytes_;
+};
+
+class CloudDecoder final : public PacketDecoder
+{
+ public:
+  CloudDecoder(const CloudMetadata& metadata, const Rigid& body_T_sensor)
+  {
+    LidarDescription& d = description_;
+    d.model = "PointCloud2";
+    d.channels = metadata.channels;
+    d.frame_rate = metadata.rate;
+    d.columns_per_frame = d.columns_per_packet = static_cast<int>(kCloudColumns) + 1;
+    d.last_column = d.columns_per_frame - 1;
+    d.frame_id_modulus = 1;
+    d.numbering = Numbering::Stamps;
+    d.body_T_sensor = body_T_sensor;
+    d.clock = "POINTS";
+    body_T_sensor_.matrix() = body_T_sensor.matrix().cast<float>();
+  }
+
+  const LidarDescription& description() const override { return description_; }
+  PacketHeader header(Bytes) const override { return {}; }
+  std::vector<ImuSample> imuSamples(Bytes) const override { return {}; }
+
+  PacketKind kindByHeader(Bytes packet) const override
+  {
+    return CloudPacket(packet).isSound() ? PacketKind::Lidar : PacketKind::Malformed;
+  }
+
+  void readBlocks(Bytes packet, std::vector<MeasurementBlock>& blocks) const override
+  {
+    const CloudPacket cloud(packet);
+    blocks.clear();
+    for (std::size_t i = 0; i < cloud.columns(); ++i)
+    {
+      MeasurementBlock block;
+      block.stamp = cloud.column(i).stamp;
+      block.measurement_id = block.index = static_cast<std::uint16_t>(i);
+      block.valid = block.stamp >= Timestamp{};
+      blocks.push_back(block);
+    }
+  }
+
+  void appendPoints(Bytes packet, std::size_t block_index, std::int32_t t, std::uint8_t sensor_id,
+                    PointCloud& points) const override
+  {
+    const CloudPacket cloud(packet);
+    const CloudColumn column = cloud.column(block_index);
+    if (column.points == 0) return;
+    cloud.point(std::size_t{column.first} + column.points - 1);  // throws before memory is taken for points not there
+    const PointRoom to = points.room(column.points);
+    std::size_t n = 0;
+    for (std::size_t i = column.first; i < std::size_t{column.first} + column.points; ++i)
+    {
+      const TimedPoint point = cloud.point(i);
+      const Eigen::Vector3f in_sensor(point.x, point.y, point.z);
+      const float range = in_sensor.norm();
+      const bool is_later = point.stamp >= column.stamp && column.stamp >= Timestamp{};
+      if (!(range < kFarthest) || !is_later || point.stamp - column.stamp > 1s) continue;
+      const Duration after = point.stamp - column.stamp;
+      const Eigen::Vector3f in_body = body_T_sensor_ * in_sensor;
+      to.x[n] = in_body.x();
+      to.y[n] = in_body.y();
+      to.z[n] = in_body.z();
+      to.intensity[n] = point.intensity;
+      to.t[n] = t + static_cast<std::int32_t>(after.count());
+      to.ring[n] = point.ring;
+      to.column[n] = static_cast<std::uint16_t>(block_index);
+      to.sensor_id[n] = sensor_id;
+      to.range[n] = static_cast<std::uint32_t>(std::lround(1000 * range));
+      to.signal[n] = to.near_ir[n] = 0;
+      ++n;
+    }
+    points.grow(n);
+  }
+
+ private:
+  LidarDescription description_;
+  Eigen::Isometry3f body_T_sensor_;
+};
 }  // namespace
 
 std::vector<std::uint8_t> cloudPacket(std::vector<TimedPoint> points)
@@ -70,30 +205,24 @@ std::vector<std::uint8_t> cloudPacket(std::vector<TimedPoint> points)
   return bytes;
 }
 
-bool CloudPacket::isSound() const
+CloudMetadata parseCloudMetadata(const std::string& text, const std::string& name)
 {
-  return bytes_.size() >= kHeader && load<std::uint64_t>(bytes_, 0) == kMagic && columns() <= kCloudColumns + 1 &&
-         bytes_.size() == kHeader + columns() * kColumnBytes + points() * kPointBytes;
+  const MetadataKeys keys(text, name);
+  CloudMetadata metadata;
+  metadata.rate = keys.number("", "rate", kLowestRate, kHighestRate).value_or(metadata.rate);
+  metadata.channels = keys.integer("", "channels", 1, kMostCloudChannels).value_or(metadata.channels);
+  return metadata;
 }
 
-std::size_t CloudPacket::columns() const { return load<std::uint32_t>(bytes_, kColumnsAt); }
-std::size_t CloudPacket::points() const { return load<std::uint32_t>(bytes_, kPointsAt); }
-
-CloudColumn CloudPacket::column(std::size_t i) const
+std::string toJson(const CloudMetadata& metadata)
 {
-  if (i >= columns()) throw std::out_of_range("CloudPacket: no such column");
-  const Bytes at = bytes_.slice(kHeader + i * kColumnBytes, kColumnBytes);
-  return {fromNanoseconds(load<std::int64_t>(at, 0)), load<std::uint32_t>(at, 8), load<std::uint32_t>(at, 12)};
+  return fmt::format(R"({{"lidar": "cloud", "rate": {:g}, "channels": {}}})",
+                     std::clamp(metadata.rate, kLowestRate, kHighestRate),
+                     std::clamp(metadata.channels, 1, kMostCloudChannels));
 }
 
-TimedPoint CloudPacket::point(std::size_t i) const
+std::unique_ptr<PacketDecoder> makeCloudDecoder(const CloudMetadata& metadata, const Rigid& body_T_sensor)
 {
-  const Bytes at = bytes_.slice(kHeader + columns() * kColumnBytes + i * kPointBytes, kPointBytes);
-  return {fromNanoseconds(load<std::int64_t>(at, 0)),
-          load<float>(at, 8),
-          load<float>(at, 12),
-          load<float>(at, 16),
-          at[20],
-          at[21]};
+  return std::make_unique<CloudDecoder>(metadata, body_T_sensor);
 }
 }  // namespace scanloom

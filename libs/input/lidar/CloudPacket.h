@@ -1,9 +1,9 @@
 /** A cloud whose points have stamps of their own, as one packet: what is left of lidars whose packets were not kept. */
 #pragma once
-#include "base/core/Bytes.h"
-#include "base/core/Time.h"
+#include "input/lidar/PacketDecoder.h"
 
-#include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace scanloom
@@ -15,37 +15,26 @@ struct TimedPoint
   std::uint8_t intensity = 0, ring = 0;
 };
 
-/** Points of about the same stamp. */
-struct CloudColumn
-{
-  Timestamp stamp;  // of its first point
-  std::uint32_t first = 0, points = 0;
-};
-
-/** Most columns of a packet. A cloud with more different stamps has points of several stamps in each column. */
-constexpr std::size_t kCloudColumns = 4096;
-
-/** In the order of stamps; those without finite coordinates or at the origin are left out. */
+/**
+ * A packet in the order of stamps; points without finite coordinates or at the origin are left out. A cloud with more
+ * than 4096 different stamps has points of several stamps in each measurement block.
+ */
 std::vector<std::uint8_t> cloudPacket(std::vector<TimedPoint>);
 
-/** Reads what cloudPacket() wrote, and trusts nothing in it. */
-class CloudPacket
+/** What is known of a lidar by its clouds; as JSON {"lidar": "cloud", "rate": 10, "channels": 64}. */
+struct CloudMetadata
 {
- public:
-  explicit CloudPacket(Bytes bytes) : bytes_(bytes) {}
-
-  /** Whether it begins like one, and its lengths agree. */
-  bool isSound() const;
-
-  std::size_t columns() const;
-
-  /** Throws std::out_of_range for a column or a point that is not there. */
-  CloudColumn column(std::size_t) const;
-  TimedPoint point(std::size_t) const;
-
- private:
-  std::size_t points() const;
-
-  Bytes bytes_;
+  double rate = 10;  // Hz, 1 to 100: clouds a second, each a turn
+  int channels = 1;  // 1 to 256
 };
+
+/** Throws std::invalid_argument with file, key and what is expected. */
+CloudMetadata parseCloudMetadata(const std::string& text, const std::string& name);
+std::string toJson(const CloudMetadata&);
+
+/**
+ * A packet is a turn, a block its points of one stamp. A block waits a turn longer than those of other lidars, which
+ * the batcher adds to deadline_ms by itself: columns_per_packet is a turn.
+ */
+std::unique_ptr<PacketDecoder> makeCloudDecoder(const CloudMetadata&, const Rigid& body_T_sensor);
 }  // namespace scanloom

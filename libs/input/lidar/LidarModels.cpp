@@ -1,11 +1,12 @@
 #include "input/lidar/LidarModels.h"
 
 #include "input/lidar/BuiltInModels.h"
-#include "input/lidar/CloudDecoder.h"
+#include "input/lidar/CloudPacket.h"
+#include "input/lidar/MetadataKeys.h"
 #include "input/lidar/OusterDecoder.h"
-#include "input/lidar/internal/HesaiDecoder.h"
-#include "input/lidar/internal/RobosenseDecoder.h"
-#include "input/lidar/internal/VelodyneDecoder.h"
+#include "input/lidar/internal/Hesai.h"
+#include "input/lidar/internal/Robosense.h"
+#include "input/lidar/internal/Velodyne.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,46 +23,49 @@ namespace
 {
 struct LidarFamily
 {
+  std::string_view name;  // the value of "lidar" in its metadata; empty: its maker's own files, which have no such key
   const char* described;  // what its metadata file is, for the error that lists the families
-  bool (*recognises)(const std::string& metadata_text);
   std::unique_ptr<PacketDecoder> (*make)(const std::string& metadata_text, const std::string& file_name,
                                          const Rigid& body_T_sensor);
+  std::vector<StampedModel> (*models)();  // the rows of its table
 };
 
-std::unique_ptr<PacketDecoder> makeOuster(const std::string& text, const std::string& name, const Rigid& body_T_sensor)
+template <auto kParse, auto kMake>
+std::unique_ptr<PacketDecoder> make(const std::string& text, const std::string& name, const Rigid& body_T_sensor)
 {
-  return std::make_unique<OusterDecoder>(parseOusterMetadata(text, name), body_T_sensor);
+  return kMake(kParse(text, name), body_T_sensor);
 }
 
-std::unique_ptr<PacketDecoder> makeVelodyne(const std::string& text, const std::string& name,
-                                            const Rigid& body_T_sensor)
+std::unique_ptr<PacketDecoder> makeOuster(const OusterMetadata& metadata, const Rigid& body_T_sensor)
 {
-  return std::make_unique<VelodyneDecoder>(parseVelodyneMetadata(text, name), body_T_sensor);
+  return std::make_unique<OusterDecoder>(metadata, body_T_sensor);
 }
 
-std::unique_ptr<PacketDecoder> makeHesai(const std::string& text, const std::string& name, const Rigid& body_T_sensor)
+template <const auto& kModels>
+std::vector<StampedModel> rowsOf()
 {
-  return std::make_unique<HesaiDecoder>(parseHesaiMetadata(text, name), body_T_sensor);
+  return {kModels.begin(), kModels.end()};
 }
 
-std::unique_ptr<PacketDecoder> makeRobosense(const std::string& text, const std::string& name,
-                                             const Rigid& body_T_sensor)
-{
-  return std::make_unique<RobosenseDecoder>(parseRobosenseMetadata(text, name), body_T_sensor);
-}
-
-std::unique_ptr<PacketDecoder> makeCloud(const std::string& text, const std::string& name, const Rigid& body_T_sensor)
-{
-  return std::make_unique<CloudDecoder>(parseCloudMetadata(text, name), body_T_sensor);
-}
+std::vector<StampedModel> noRows() { return {}; }
 
 const std::array<LidarFamily, 5> kFamilies{{
-    {"a JSON file that begins with \"lidar\": \"velodyne\" (params/lidars/)", &looksLikeVelodyne, &makeVelodyne},
-    {"a JSON file that begins with \"lidar\": \"hesai\" (params/lidars/)", &looksLikeHesai, &makeHesai},
-    {"a JSON file that begins with \"lidar\": \"robosense\" (params/lidars/)", &looksLikeRobosense, &makeRobosense},
-    {R"(the text {"lidar": "cloud"} for clouds of a bag)", &looksLikeCloud, &makeCloud},
-    {"the JSON text of an Ouster sensor's metadata", &looksLikeOuster, &makeOuster},
+    {"velodyne", R"(a JSON file that begins with "lidar": "velodyne" (params/lidars/))",
+     &make<parseVelodyneMetadata, makeVelodyne>, &rowsOf<kVelodyneModels>},
+    {"hesai", R"(a JSON file that begins with "lidar": "hesai" (params/lidars/))", &make<parseHesaiMetadata, makeHesai>,
+     &rowsOf<kHesaiModels>},
+    {"robosense", R"(a JSON file that begins with "lidar": "robosense" (params/lidars/))",
+     &make<parseRobosenseMetadata, makeRobosense>, &rowsOf<kRobosenseModels>},
+    {"cloud", R"(the text {"lidar": "cloud"} for clouds of a bag)", &make<parseCloudMetadata, makeCloudDecoder>,
+     &noRows},
+    {"", "the JSON text of an Ouster sensor's metadata", &make<parseOusterMetadata, makeOuster>, &noRows},
 }};
+
+bool recognises(const LidarFamily& family, const std::string& text)
+{
+  return family.name.empty() ? looksLikeOuster(text) : namesLidar(text, std::string(family.name));
+}
+
 using Packets = std::vector<std::vector<std::uint8_t>>;
 
 /** Perhaps of another model or, as an early VLP-16 is known by its rotor, of another rotor. */
@@ -125,7 +129,7 @@ std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_text, con
   std::string expected;
   for (const LidarFamily& family : kFamilies)
   {
-    if (family.recognises(metadata_text)) return family.make(metadata_text, name, body_T_sensor);
+    if (recognises(family, metadata_text)) return family.make(metadata_text, name, body_T_sensor);
     expected += fmt::format("{}{}", expected.empty() ? "" : ", or ", family.described);
   }
   throw std::invalid_argument(fmt::format("{}: belongs to no known lidar; expected {}", name, expected));
@@ -134,7 +138,7 @@ std::unique_ptr<PacketDecoder> makeDecoder(const std::string& metadata_text, con
 bool isLidarMetadata(const std::string& text)
 {
   return std::any_of(kFamilies.begin(), kFamilies.end(),
-                     [&](const LidarFamily& family) { return family.recognises(text); });
+                     [&](const LidarFamily& family) { return recognises(family, text); });
 }
 
 std::vector<std::string> modelsThatSend(const std::vector<std::vector<std::uint8_t>>& packets)
@@ -150,22 +154,20 @@ std::vector<std::string> modelsThatSend(const std::vector<std::vector<std::uint8
 std::vector<std::string> metadataToComplete(Bytes packet)
 {
   std::vector<std::string> texts;
-  const auto addIfItFits = [&](const char* family, std::string_view model, int channels)
-  {
-    if (builtInMetadata(std::string(model))) return;
-    for (const int returns : {1, 2})
-    {
-      const std::string text = fmt::format(R"("lidar": "{}", "model": "{}", "returns": {})", family, model, returns);
-      const std::vector<double> level(static_cast<std::size_t>(channels), 0.0);
-      const auto decoder = makeDecoder(
-          fmt::format(R"({{{}, "vertical_angles_deg": {}, "azimuth_offsets_deg": {}}})", text, level, level),
-          std::string(model), Rigid::identity());
-      if (decoder->kind(packet) == PacketKind::Lidar)
-        texts.push_back(fmt::format(R"({{{}, "angles": "ANGLES.csv"}})", text));
-    }
-  };
-  for (const HesaiModel& model : kHesaiModels) addIfItFits("hesai", model.name, model.channels);
-  for (const RobosenseModel& model : kRobosenseModels) addIfItFits("robosense", model.name, model.channels);
+  for (const LidarFamily& family : kFamilies)
+    for (const StampedModel& model : family.models())
+      for (const int returns : {1, 2})
+      {
+        if (builtInMetadata(std::string(model.name))) continue;
+        const std::string text =
+            fmt::format(R"("lidar": "{}", "model": "{}", "returns": {})", family.name, model.name, returns);
+        const std::vector<double> level(static_cast<std::size_t>(model.channels), 0.0);
+        const auto decoder = family.make(
+            fmt::format(R"({{{}, "vertical_angles_deg": {}, "azimuth_offsets_deg": {}}})", text, level, level),
+            std::string(model.name), Rigid::identity());
+        if (decoder->kind(packet) == PacketKind::Lidar)
+          texts.push_back(fmt::format(R"({{{}, "angles": "ANGLES.csv"}})", text));
+      }
   return texts;
 }
 

@@ -44,6 +44,6 @@ struct SensorPorts
   std::uint16_t lidar = 0, imu = 0;
 };
 
-/** Where a sensor sends by default that tells its metadata over HTTP: needed until it has told them. */
+/** Default ports of a sensor that is asked for its metadata over HTTP: in use until it has answered. */
 SensorPorts defaultPorts();
 }  // namespace scanloom

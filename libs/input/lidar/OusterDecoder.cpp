@@ -1,9 +1,8 @@
 #include "input/lidar/OusterDecoder.h"
 
 #include "base/core/Angle.h"
-#include "input/lidar/internal/Crc64.h"
-#include "input/lidar/internal/OusterImu.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -59,6 +58,45 @@ bool crcHolds(Bytes packet)
   const std::size_t end = packet.size() - kOusterCrcBytes;
   const auto stored = load<std::uint64_t>(packet, end);
   return stored == kNoCrcFirmware22 || stored == kNoCrcFirmware23 || stored == crc64(packet.slice(0, end));
+}
+
+Eigen::Vector3d loadVector(Bytes bytes, std::size_t offset)
+{
+  return {load<float>(bytes, offset), load<float>(bytes, offset + 4), load<float>(bytes, offset + 8)};
+}
+
+/** Leaves out what is not finite, and stamps beyond 62 bits. */
+void appendIfUsable(std::vector<ImuSample>& samples, std::uint64_t stamp, const Eigen::Vector3d& gyro,
+                    const Eigen::Vector3d& accel)
+{
+  if (stamp < kOusterEndOfTime && gyro.allFinite() && accel.allFinite())
+    samples.push_back({fromNanoseconds(static_cast<std::int64_t>(stamp)), gyro, accel});
+}
+
+std::vector<ImuSample> readLegacyImu(Bytes packet)
+{
+  namespace at = ouster_legacy_imu;
+  std::vector<ImuSample> samples;
+  appendIfUsable(samples, load<std::uint64_t>(packet, at::kGyroStamp), kOusterDegree * loadVector(packet, at::kGyro),
+                 kOusterStandardGravity * loadVector(packet, at::kAccel));
+  return samples;
+}
+
+std::vector<ImuSample> readAccelGyro(Bytes packet, const OusterLayout& layout)
+{
+  namespace at = ouster_accel_gyro;
+  const std::size_t first = headerFields(layout.imu_header).bytes + at::kNmeaBytes;
+  std::vector<ImuSample> samples;
+  for (std::size_t i = 0; i < layout.imu_measurements; ++i)
+  {
+    const Bytes measurement = packet.slice(first + i * at::kMeasurementBytes, at::kMeasurementBytes);
+    if ((load<std::uint16_t>(measurement, at::kStatus) & 1) == 0) continue;  // the sensor calls it invalid
+    appendIfUsable(samples, load<std::uint64_t>(measurement, at::kStamp), loadVector(measurement, at::kGyro),
+                   loadVector(measurement, at::kAccel));
+  }
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const ImuSample& a, const ImuSample& b) { return a.stamp < b.stamp; });
+  return samples;
 }
 }  // namespace
 
@@ -196,5 +234,17 @@ void OusterDecoder::appendPoints(Bytes packet, std::size_t block_index, std::int
                  points);
 }
 
-std::vector<ImuSample> OusterDecoder::imuSamples(Bytes packet) const { return readOusterImu(packet, layout_); }
+std::vector<ImuSample> OusterDecoder::imuSamples(Bytes packet) const
+{
+  switch (layout_.imu_profile)
+  {
+    case OusterImuProfile::Legacy:
+      return readLegacyImu(packet);
+    case OusterImuProfile::Accel32Gyro32Nmea:
+      return readAccelGyro(packet, layout_);
+    case OusterImuProfile::Off:
+      break;
+  }
+  return {};
+}
 }  // namespace scanloom

@@ -13,7 +13,7 @@ namespace scanloom
 /**
  * Points: x, y, z by BeamTable; intensity is REFLECTIVITY; a range of 0 is no return; of two returns the second is left
  * out where its range is 0 or that of the first. A block is invalid if the sensor says so, and also if its measurement
- * id lies outside the turn or its stamp outside of 62 bits of ns: no points come from it.
+ * id is outside the turn or its stamp outside of 62 bits of ns: no points come from it.
  *
  * A packet whose header has another serial number is Foreign, whatever its size. Another init id does not make it so:
  * the sensor has started again (header()). A packet is not intact if the last 8 bytes after a STANDARD header are

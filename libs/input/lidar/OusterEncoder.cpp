@@ -1,8 +1,5 @@
 #include "input/lidar/OusterEncoder.h"
 
-#include "input/lidar/internal/Crc64.h"
-#include "input/lidar/internal/OusterImu.h"
-
 #include <fmt/format.h>
 
 #include <stdexcept>

@@ -53,7 +53,7 @@ TEST(BuiltInModels, areFoundByAPacket)
 {
   for (const char* name : {"XT16", "XT32", "XT32M"})
   {
-    const HesaiModel& model = *findHesaiModel(name);
+    const HesaiModel& model = modelNamed(kHesaiModels, name);
     HesaiContent content;
     EXPECT_THAT(modelsThatSend({hesaiPacket(model, content)}), ElementsAre(std::string(model.name)));
     content.return_mode = 0x39;

@@ -19,13 +19,6 @@ namespace
 {
 const std::string kHesai = "other-lidars/tier4+nebula/src/nebula_hesai/";
 
-std::filesystem::path theFile(const std::filesystem::path& folder, const std::string& extension)
-{
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.path().extension() == extension) return entry.path();
-  throw std::runtime_error(folder.string() + ": has no " + extension);
-}
-
 struct RecordedHesai
 {
   const char* model;
@@ -54,26 +47,17 @@ TEST_P(HesaiClouds, consistOfPointsOfOurs)
   const HesaiMetadata metadata = parseHesaiMetadata(
       fmt::format(R"({{"model": "{}", "returns": 2, "angles": "{}"}})", GetParam().model, angles.filename().string()),
       angles.string());
-  const HesaiDecoder decoder(metadata, Rigid::identity());
+  const auto decoder = makeHesai(metadata, Rigid::identity());
 
-  PointCloud cloud;
-  std::vector<MeasurementBlock> blocks;
-  const auto packets = pandarPacketsOfBag(theFile(folder, ".db3"));
+  const auto packets = bytesOf(pandarPacketsOfBag(theFile(folder, ".db3")));
   EXPECT_EQ(packets.size(), GetParam().packets);
-  for (const StampedPacket& packet : packets)
-  {
-    ASSERT_EQ(decoder.kind(packet.bytes), PacketKind::Lidar);
-    decoder.readBlocks(packet.bytes, blocks);
-    for (const MeasurementBlock& block : blocks) decoder.appendPoints(packet.bytes, block.index, 0, 0, cloud);
-  }
+  for (const auto& packet : packets) ASSERT_EQ(decoder->kind(packet), PacketKind::Lidar);
   if (builtInMetadata(GetParam().model))
   {
-    EXPECT_EQ(modelsThatSend({packets.front().bytes}), std::vector{std::string(GetParam().model) + " dual"});
+    EXPECT_EQ(modelsThatSend({packets.front()}), std::vector{std::string(GetParam().model) + " dual"});
   }
 
-  std::vector<Eigen::Vector3f> ours;
-  for (std::size_t i = 0; i < cloud.size(); ++i) ours.push_back(cloud.position(i));
   const auto theirs = readPlainPcd(theFile(folder, ".pcd"));
-  EXPECT_EQ(shareFound(theirs, ours, 0), 1) << "within 0.1 mm";
+  EXPECT_EQ(shareFound(theirs, positionsOf(everyPoint(*decoder, packets)), 0), 1) << "within 0.1 mm";
 }
 }  // namespace scanloom::hesai_reference_unittest

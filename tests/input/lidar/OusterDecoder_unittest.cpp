@@ -7,7 +7,7 @@
 #include <random>
 
 #include "captures.h"
-#include "input/lidar/internal/Crc64.h"
+#include "input/lidar/internal/OusterLayout.h"
 #include "simpleMetadata.h"
 
 namespace scanloom::ouster_decoder_unittest

@@ -22,25 +22,14 @@ namespace
 const std::string kNebula = "other-lidars/tier4+nebula/";
 const std::string kRecording = kNebula + "nebula_tests/data/robosense/helios16P";
 
-PointCloud everyPointOf(const PacketDecoder& decoder, const std::vector<StampedPacket>& packets)
+std::vector<std::vector<std::uint8_t>> recordedIn(const std::filesystem::path& folder)
 {
-  PointCloud cloud;
-  std::vector<MeasurementBlock> blocks;
-  for (const StampedPacket& packet : packets)
-  {
-    decoder.readBlocks(packet.bytes, blocks);
-    for (const MeasurementBlock& block : blocks) decoder.appendPoints(packet.bytes, block.index, 0, 0, cloud);
-  }
-  return cloud;
-}
-
-std::vector<StampedPacket> recordedIn(const std::filesystem::path& folder)
-{
-  auto packets = robosensePacketsOfBag(folder / "rosbag2_2023_08_03-11_02_46/rosbag2_2023_08_03-11_02_46_0.db3");
+  const auto decoder = makeDecoder("Helios-5515", Rigid::identity());
+  auto packets = bytesOf(robosensePacketsOfBag(theFile(folder, ".db3")));
   EXPECT_EQ(packets.size(), 751U);
   const auto behind = std::remove_if(packets.begin(), packets.end(),
-                                     [](const StampedPacket& packet) { return isRobosenseDeviceInfo(packet.bytes); });
-  EXPECT_EQ(packets.end() - behind, 1);
+                                     [&](const auto& packet) { return decoder->kind(packet) == PacketKind::Other; });
+  EXPECT_EQ(packets.end() - behind, 1) << "about the device";
   packets.erase(behind, packets.end());
   return packets;
 }
@@ -51,12 +40,10 @@ TEST(RobosenseClouds, consistOfPointsOfOursIfReadAsTheyWere)
 {
   SCANLOOM_NEEDS_DATA(folder, kRecording);
   SCANLOOM_NEEDS_DATA(angles, kNebula + "nebula_decoders/calibration/robosense/RobosenseHelios16P.csv");
-  const RobosenseDecoder decoder(
+  const auto decoder = makeRobosense(
       parseRobosenseMetadata(R"({"model": "Helios-16P", "angles": "RobosenseHelios16P.csv"})", angles.string()),
       Rigid::identity());
-  const PointCloud cloud = everyPointOf(decoder, recordedIn(folder));
-  std::vector<Eigen::Vector3f> ours;
-  for (std::size_t i = 0; i < cloud.size(); ++i) ours.push_back(cloud.position(i));
+  const std::vector<Eigen::Vector3f> ours = positionsOf(everyPoint(*decoder, recordedIn(folder)));
   int clouds = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder))
   {
@@ -74,16 +61,16 @@ TEST(RobosenseRecording, isOfAHelios5515)
 {
   SCANLOOM_NEEDS_DATA(folder, kRecording);
   const auto packets = recordedIn(folder);
-  EXPECT_EQ(modelsThatSend({packets.front().bytes}), std::vector<std::string>{"Helios-5515"});
+  EXPECT_EQ(modelsThatSend({packets.front()}), std::vector<std::string>{"Helios-5515"});
   const auto decoder = makeDecoder("Helios-5515", Rigid::identity());
-  for (const StampedPacket& packet : packets) ASSERT_EQ(decoder->kind(packet.bytes), PacketKind::Lidar);
+  for (const auto& packet : packets) ASSERT_EQ(decoder->kind(packet), PacketKind::Lidar);
 }
 
 /** Its twelve lowest beams see one floor on the right: with the angles of another model they would not. */
 TEST(RobosenseRecording, showsALevelFloor)
 {
   SCANLOOM_NEEDS_DATA(folder, kRecording);
-  const PointCloud cloud = everyPointOf(*makeDecoder("Helios-5515", Rigid::identity()), recordedIn(folder));
+  const PointCloud cloud = everyPoint(*makeDecoder("Helios-5515", Rigid::identity()), recordedIn(folder));
   std::map<int, std::vector<float>> heights;
   for (std::size_t i = 0; i < cloud.size(); ++i)
     if (cloud.ring[i] >= 20 && cloud.column[i] >= 300 && cloud.column[i] < 600)

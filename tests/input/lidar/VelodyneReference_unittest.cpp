@@ -16,13 +16,6 @@ namespace
 const std::string kNebula =
     "other-lidars/tier4+nebula/src/nebula_velodyne/nebula_velodyne/test_resources/decoder_ground_truth/";
 const std::string kVeloView = "other-lidars/Kitware+VeloView/Testing/Data/";
-
-std::filesystem::path theFile(const std::filesystem::path& folder, const std::string& extension)
-{
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.path().extension() == extension) return entry.path();
-  throw std::runtime_error(folder.string() + ": has no " + extension);
-}
 }  // namespace
 
 /**
@@ -34,12 +27,20 @@ std::filesystem::path theFile(const std::filesystem::path& folder, const std::st
  */
 constexpr double kAngle_deg = 0.02;
 
+constexpr std::array<std::int32_t, 128> kAtOnce{};
+constexpr std::array<std::int32_t, 32> kOneByOne = []() constexpr
+{
+  std::array<std::int32_t, 32> times{};
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] = 2304 * static_cast<std::int32_t>(i);
+  return times;
+}
+();
+
 struct NebulaCloud
 {
   const char* model;
   const char* folder;
-  int lasers_per_shot;
-  Duration shot;
+  ShotTimes shots;
   int returns;
   double least_share;
 };
@@ -47,9 +48,9 @@ class NebulaClouds : public testing::TestWithParam<NebulaCloud>
 {
 };
 INSTANTIATE_TEST_SUITE_P(Models, NebulaClouds,
-                         testing::Values(NebulaCloud{"vlp16", "vlp16", 1, 2304ns, 2, 0.83},
-                                         NebulaCloud{"vlp32c", "vlp32", 1, 2304ns, 1, 0.92},
-                                         NebulaCloud{"vls128", "vls128", 8, 0ns, 1, 0.83}),
+                         testing::Values(NebulaCloud{"vlp16", "vlp16", shotTimes(kOneByOne), 2, 0.83},
+                                         NebulaCloud{"vlp32c", "vlp32", shotTimes(kOneByOne), 1, 0.92},
+                                         NebulaCloud{"vls128", "vls128", shotTimes(kAtOnce), 1, 0.83}),
                          [](const auto& cloud) { return std::string(cloud.param.model); });
 
 TEST_P(NebulaClouds, consistOfPointsOfOurs)
@@ -58,15 +59,14 @@ TEST_P(NebulaClouds, consistOfPointsOfOurs)
   VelodyneMetadata metadata = velodyneMetadata(GetParam().model);
   std::fill(metadata.vertical_offset_mm.begin(), metadata.vertical_offset_mm.end(), 0.0);  // not in their calibration
   VelodyneModel model = *metadata.model;
-  model.lasers_per_shot = GetParam().lasers_per_shot;
-  model.shot = GetParam().shot;
+  model.shots = GetParam().shots;
   metadata.model = &model;
   metadata.returns = GetParam().returns;
 
   const auto packets = packetsOfBag(theFile(folder, ".db3"), kVelodynePacketBytes);
-  const VelodyneDecoder decoder(metadata, Rigid::identity());
-  for (const auto& packet : packets) ASSERT_EQ(decoder.kind(packet), PacketKind::Lidar);
-  const auto ours = everyPoint(decoder, packets), theirs = readPlainPcd(theFile(folder, ".pcd"));
+  const auto decoder = makeVelodyne(metadata, Rigid::identity());
+  for (const auto& packet : packets) ASSERT_EQ(decoder->kind(packet), PacketKind::Lidar);
+  const auto ours = positionsOf(everyPoint(*decoder, packets)), theirs = readPlainPcd(theFile(folder, ".pcd"));
   EXPECT_GT(shareFound(theirs, ours, kAngle_deg), GetParam().least_share);
 
   std::vector<Eigen::Vector3f> turned = theirs;
@@ -114,24 +114,24 @@ TEST_P(VeloViewCaptures, giveTheTurnsAndPointsThatVeloViewGives)
   SCANLOOM_NEEDS_DATA(capture, kVeloView + GetParam().name);
   VelodyneMetadata metadata = velodyneMetadata(GetParam().model);
   VelodyneModel model = *metadata.model;
-  model.shot = 0ns;  // VeloView gives all points of a sequence the azimuth of its first
+  model.shots = shotTimes(kAtOnce);  // VeloView gives all points of a sequence the azimuth of its first
   metadata.model = &model;
   metadata.product_id = 0x21;  // the VLP-16 is an early one that says HDL-32E
   std::fill(metadata.vertical_offset_mm.begin(), metadata.vertical_offset_mm.end(), 0.0);
-  const VelodyneDecoder decoder(metadata, Rigid::identity());
+  const auto decoder = makeVelodyne(metadata, Rigid::identity());
 
   std::vector<PointCloud> turns(1);
   int last_azimuth = 0;
   for (const auto& packet : payloadsOf(capture))
   {
-    if (decoder.kind(packet) != PacketKind::Lidar) continue;
-    for (const MeasurementBlock& block : blocksOf(decoder, packet))
+    if (decoder->kind(packet) != PacketKind::Lidar) continue;
+    for (const MeasurementBlock& block : blocksOf(*decoder, packet))
     {
-      const auto data_block = block.index * 12 / decoder.description().columns_per_packet;
+      const auto data_block = block.index * 12 / decoder->description().columns_per_packet;
       const int azimuth = load<std::uint16_t>(packet, static_cast<std::size_t>(data_block) * 100 + 2);
       if (azimuth < last_azimuth) turns.emplace_back();
       last_azimuth = azimuth;
-      decoder.appendPoints(packet, block.index, 0, 0, turns.back());
+      decoder->appendPoints(packet, block.index, 0, 0, turns.back());
     }
   }
   ASSERT_EQ(turns.size(), GetParam().turns);

@@ -1,12 +1,14 @@
 /** Hesai packets put together by hand, and sensors that send them. */
 #pragma once
-#include "input/lidar/internal/HesaiDecoder.h"
+#include "input/lidar/internal/Hesai.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>
 #include <vector>
+
+#include "decoding.h"
 
 namespace scanloom
 {
@@ -27,9 +29,9 @@ inline std::string hesaiText(const HesaiModel& model, int returns = 1)
       .dump();
 }
 
-inline HesaiMetadata hesaiMetadata(const std::string& model, int returns = 1)
+inline std::unique_ptr<PacketDecoder> hesaiDecoder(const HesaiModel& model, int returns = 1)
 {
-  return parseHesaiMetadata(hesaiText(*findHesaiModel(model), returns), model);
+  return makeHesai(parseHesaiMetadata(hesaiText(model, returns), "its file"), Rigid::identity());
 }
 
 /** What the packet says; every channel sees `range_counts` of 4 mm, in a second return `second_counts`. */
@@ -46,14 +48,14 @@ inline std::vector<std::uint8_t> hesaiPacket(const HesaiModel& model, const Hesa
 {
   std::vector<std::uint8_t> packet(model.packetBytes(), 0);
   if (model.header_bytes != 0) store(packet, 0, std::uint16_t{0xFFEE});
-  const auto channels = static_cast<std::uint8_t>(model.channels), blocks = static_cast<std::uint8_t>(model.blocks);
+  const auto channels = static_cast<std::uint8_t>(model.channels), blocks = static_cast<std::uint8_t>(model.firings);
   const std::vector<std::uint8_t> short_header{0xEE, 0xFF, channels, blocks, 0, 4, 0, 0};
   const std::vector<std::uint8_t> long_header{
       0xEE, 0xFF, model.protocol_major, model.protocol_minor, 0, 0, channels, blocks, 0, 4, 1, 0};
   const auto& header = model.header_bytes == 8 ? short_header : long_header;
   if (model.header_bytes != 0) std::copy(header.begin(), header.end(), packet.begin());
   const int returns = content.return_mode < 0x39 ? 1 : 2;
-  for (int block = 0; block < model.blocks; ++block)
+  for (int block = 0; block < model.firings; ++block)
   {
     const std::size_t at = model.header_bytes + static_cast<std::size_t>(block) * model.blockBytes();
     if (model.azimuth_at != 0) store(packet, at, std::uint16_t{0xEEFF});

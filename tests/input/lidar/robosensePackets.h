@@ -1,12 +1,14 @@
 /** Robosense packets put together by hand, and sensors that send them. */
 #pragma once
-#include "input/lidar/internal/RobosenseDecoder.h"
+#include "input/lidar/internal/Robosense.h"
 
 #include <nlohmann/json.hpp>
 
 #include <ctime>
 #include <string>
 #include <vector>
+
+#include "decoding.h"
 
 namespace scanloom
 {
@@ -27,9 +29,9 @@ inline std::string robosenseText(const RobosenseModel& model, int returns = 1)
       .dump();
 }
 
-inline RobosenseDecoder robosenseDecoder(const RobosenseModel& model, int returns = 1)
+inline std::unique_ptr<PacketDecoder> robosenseDecoder(const RobosenseModel& model, int returns = 1)
 {
-  return {parseRobosenseMetadata(robosenseText(model, returns), "its file"), Rigid::identity()};
+  return makeRobosense(parseRobosenseMetadata(robosenseText(model, returns), "its file"), Rigid::identity());
 }
 
 inline void storeBigEndian(std::vector<std::uint8_t>& bytes, std::size_t offset, std::uint64_t value, std::size_t count)
@@ -74,7 +76,7 @@ inline std::vector<std::uint8_t> robosensePacket(const RobosenseModel& model, co
   storeRobosenseTime(packet, model, content);
   packet[30] = model.type;
   packet[31] = model.version;
-  for (int slot = 0; slot < static_cast<int>(kRobosenseReadings); ++slot)
+  for (int slot = 0; slot < 12 * 32; ++slot)
   {
     const int firing = slot / (model.channels * content.returns);
     const auto block = static_cast<std::size_t>(42 + slot / 32 * 100), at = block + 4 + slot % 32 * 3;

@@ -1,10 +1,12 @@
 /** Velodyne packets put together by hand, and sensors from the files of params/lidars/. */
 #pragma once
 #include "input/lidar/MetadataKeys.h"
-#include "input/lidar/internal/VelodyneDecoder.h"
+#include "input/lidar/internal/Velodyne.h"
 
 #include <string>
 #include <vector>
+
+#include "decoding.h"
 
 namespace scanloom
 {
@@ -56,30 +58,4 @@ inline std::vector<std::uint8_t> velodynePacket(const VelodyneContent& content)
   return packet;
 }
 
-inline std::vector<MeasurementBlock> blocksOf(const PacketDecoder& decoder, Bytes packet)
-{
-  std::vector<MeasurementBlock> blocks;
-  decoder.readBlocks(packet, blocks);
-  return blocks;
-}
-
-inline PointCloud pointsOf(const PacketDecoder& decoder, Bytes packet, std::size_t block)
-{
-  PointCloud points;
-  decoder.appendPoints(packet, block, 0, 0, points);
-  return points;
-}
-
-/** What a sensor sees in these packets, in its own frame. */
-inline std::vector<Eigen::Vector3f> everyPoint(const VelodyneDecoder& decoder,
-                                               const std::vector<std::vector<std::uint8_t>>& packets)
-{
-  PointCloud cloud;
-  for (const auto& packet : packets)
-    for (const MeasurementBlock& block : blocksOf(decoder, packet))
-      decoder.appendPoints(packet, block.index, 0, 0, cloud);
-  std::vector<Eigen::Vector3f> points;
-  for (std::size_t i = 0; i < cloud.size(); ++i) points.push_back(cloud.position(i));
-  return points;
-}
 }  // namespace scanloom

@@ -23,13 +23,6 @@ namespace
 const std::string kRecordings =
     "other-lidars/tier4+nebula/src/nebula_hesai/nebula_hesai/test_resources/decoder_ground_truth/";
 
-std::filesystem::path bagIn(const std::filesystem::path& folder)
-{
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".db3") return entry.path();
-  throw std::runtime_error(folder.string() + ": has no bag");
-}
-
 std::vector<Datagram> datagramsOf(std::vector<StampedPacket> packets, std::uint16_t port)
 {
   std::vector<Datagram> datagrams;
@@ -106,10 +99,10 @@ TEST_P(HesaiReplay, losesNothing)
   std::string name = GetParam();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
   SCANLOOM_NEEDS_DATA(folder, kRecordings + name);
-  const auto decoder = std::make_shared<HesaiDecoder>(hesaiMetadata(GetParam(), 2), Rigid::identity());
+  const auto decoder = std::shared_ptr<PacketDecoder>(hesaiDecoder(modelNamed(kHesaiModels, GetParam()), 2));
   TimeBatcher batcher({{"roof", decoder, Duration{0}}}, {});
   Outcome outcome;
-  for (const Datagram& datagram : captured(datagramsOf(pandarPacketsOfBag(bagIn(folder)), 2368)))
+  for (const Datagram& datagram : captured(datagramsOf(pandarPacketsOfBag(theFile(folder, ".db3")), 2368)))
     outcome.take(push(batcher, 0, datagram.payload, datagram.received));
   outcome.take(batcher.finish());
 
@@ -129,9 +122,10 @@ TEST(MixedReplay, weavesLidarsOfFourMakersIntoOneScan)
   SCANLOOM_NEEDS_DATA(velodyne, "other-lidars/Kitware+VeloView/Testing/Data/monterey-first-100-packets.pcap");
   SCANLOOM_NEEDS_DATA(hesai, kRecordings + "xt32");
   SCANLOOM_NEEDS_DATA(robosense, "other-lidars/tier4+nebula/nebula_tests/data/robosense/helios16P");
-  std::vector<std::vector<Datagram>> recordings{
-      datagramsOf(ouster / "recording.pcap", 390ms), datagramsOf(velodyne, 390ms),
-      datagramsOf(robosensePacketsOfBag(bagIn(robosense)), 6699), datagramsOf(pandarPacketsOfBag(bagIn(hesai)), 2370)};
+  std::vector<std::vector<Datagram>> recordings{datagramsOf(ouster / "recording.pcap", 390ms),
+                                                datagramsOf(velodyne, 390ms),
+                                                datagramsOf(robosensePacketsOfBag(theFile(robosense, ".db3")), 6699),
+                                                datagramsOf(pandarPacketsOfBag(theFile(hesai, ".db3")), 2370)};
   const std::vector<std::pair<std::string, std::uint16_t>> sensors{{(ouster / "left.json").string(), 7502},
                                                                    {(ouster / "right.json").string(), 7504},
                                                                    {velodyneFile("hdl32e"), 2368},
@@ -144,7 +138,7 @@ TEST(MixedReplay, weavesLidarsOfFourMakersIntoOneScan)
     lidars.push_back({file, makeDecoder(file, Rigid::identity()), Duration{0}});
   }
   index_of_port[2370] = lidars.size();
-  lidars.push_back({"xt32", std::make_shared<HesaiDecoder>(hesaiMetadata("XT32", 2), Rigid::identity()), Duration{0}});
+  lidars.push_back({"xt32", hesaiDecoder(modelNamed(kHesaiModels, "XT32"), 2), Duration{0}});
   TimeBatcher batcher(lidars, {});
   Outcome outcome;
   for (const Datagram& datagram : captured(asOfOneDrive(std::move(recordings))))

@@ -28,7 +28,7 @@ struct Outcome
 
 Outcome batch(const VelodyneMetadata& metadata, const std::vector<Arrived>& stream)
 {
-  TimeBatcher batcher({{"roof", std::make_shared<VelodyneDecoder>(metadata, Rigid::identity()), Duration{0}}}, {});
+  TimeBatcher batcher({{"roof", makeVelodyne(metadata, Rigid::identity()), Duration{0}}}, {});
   Outcome outcome;
   const auto take = [&](const std::vector<Scan>& scans)
   {
@@ -151,7 +151,7 @@ TEST_P(VelodyneReplay, losesNothing)
   EXPECT_EQ(outcome.counters.packets, GetParam().packets);
   expectNothingMissing(outcome.counters);
   const auto [shortest, longest] = spacing(outcome.columns);
-  EXPECT_GE(shortest, metadata.model->sequence - 2us);
-  EXPECT_LE(longest, metadata.model->sequence + 2us);
+  EXPECT_GE(shortest, metadata.model->period - 2us);
+  EXPECT_LE(longest, metadata.model->period + 2us);
 }
 }  // namespace scanloom::velodyne_replay_unittest

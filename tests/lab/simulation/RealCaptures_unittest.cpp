@@ -1,7 +1,7 @@
 /** Packets simulated for real sensors' metadata beside the packets that those sensors sent: every field by its meaning.
  */
 #include "base/core/Bytes.h"
-#include "input/lidar/internal/Crc64.h"
+#include "input/lidar/internal/OusterLayout.h"
 #include "input/packets/CaptureReader.h"
 #include "lab/simulation/internal/ScenePackets.h"
 #include "support/TestData.h"

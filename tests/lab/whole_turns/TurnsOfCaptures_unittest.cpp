@@ -47,7 +47,7 @@ TEST(TurnsOfCaptures, velodyneTurnsAreThoseOfVeloView)
     SCANLOOM_NEEDS_DATA(capture, std::string("other-lidars/Kitware+VeloView/Testing/Data/") + file.name);
     VelodyneMetadata metadata = velodyneMetadata(file.model);
     metadata.product_id = 0x21;  // the VLP-16 is an early one that says HDL-32E
-    const auto turns = turnsOf(capture, std::make_shared<VelodyneDecoder>(metadata, Rigid::identity()));
+    const auto turns = turnsOf(capture, makeVelodyne(metadata, Rigid::identity()));
 
     // VeloView cuts between data blocks, which hold two firing sequences of a VLP-16.
     const std::size_t cut = metadata.model->channels == 16 ? 16 : 0;

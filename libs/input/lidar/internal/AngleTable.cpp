@@ -39,14 +39,6 @@ std::optional<Row> rowOf(const std::string& line)
   return comma == ',' && next_comma == ',' && ends && angles ? std::optional(row) : std::nullopt;
 }
 
-std::vector<double> perChannel(const MetadataKeys& keys, const std::string& key, int channels, double limit)
-{
-  auto list = keys.numbers(kTopLevel, key, -limit, limit);
-  if (!list) keys.fail(key, fmt::format("is missing; expected {} numbers, or \"angles\": \"FILE.csv\"", channels));
-  if (list->size() != static_cast<std::size_t>(channels))
-    keys.fail(key, fmt::format("must have {} numbers, one per channel, not {}", channels, list->size()));
-  return *std::move(list);
-}
 }  // namespace
 
 AngleTable parseAngleTable(const std::string& text, const std::string& name, int channels)
@@ -81,6 +73,16 @@ AngleTable parseAngleTable(const std::string& text, const std::string& name, int
   return table;
 }
 
+std::vector<double> numberPerChannel(const MetadataKeys& keys, const std::string& key, int channels, double limit,
+                                     const char* instead)
+{
+  auto list = keys.numbers(kTopLevel, key, -limit, limit);
+  if (!list) keys.fail(key, fmt::format("is missing; expected {} numbers{}", channels, instead));
+  if (list->size() != static_cast<std::size_t>(channels))
+    keys.fail(key, fmt::format("must have {} numbers, one per channel, not {}", channels, list->size()));
+  return *std::move(list);
+}
+
 AngleTable readAngles(const MetadataKeys& keys, const std::string& name, int channels)
 {
   if (const auto file = keys.text(kTopLevel, "angles"))
@@ -88,6 +90,8 @@ AngleTable readAngles(const MetadataKeys& keys, const std::string& name, int cha
     const std::string path = (std::filesystem::path(name).parent_path() / *file).string();
     return parseAngleTable(readMetadataText(path), path, channels);
   }
-  return {perChannel(keys, "vertical_angles_deg", channels, 90), perChannel(keys, "azimuth_offsets_deg", channels, 30)};
+  const char* const instead = ", or \"angles\": \"FILE.csv\"";
+  return {numberPerChannel(keys, "vertical_angles_deg", channels, 90, instead),
+          numberPerChannel(keys, "azimuth_offsets_deg", channels, 30, instead)};
 }
 }  // namespace scanloom

@@ -21,8 +21,16 @@ struct AngleTable
 AngleTable parseAngleTable(const std::string& text, const std::string& name, int channels);
 
 /**
- * Of the csv file that the key "angles" of the metadata file `name` gives, relative to its folder; else of the lists
- * "vertical_angles_deg" and "azimuth_offsets_deg". Throws std::invalid_argument as parseAngleTable and MetadataKeys do.
+ * The list of `channels` numbers within +-limit that a key gives. Throws std::invalid_argument as MetadataKeys does;
+ * `instead` completes the message that the key is missing.
+ */
+std::vector<double> numberPerChannel(const MetadataKeys&, const std::string& key, int channels, double limit,
+                                     const char* instead = "");
+
+/**
+ * The angles of the csv file that the key "angles" of the metadata file `name` gives, relative to its folder; else of
+ * the lists "vertical_angles_deg" and "azimuth_offsets_deg". Throws std::invalid_argument as parseAngleTable and
+ * MetadataKeys do.
  */
 AngleTable readAngles(const MetadataKeys& keys, const std::string& name, int channels);
 }  // namespace scanloom

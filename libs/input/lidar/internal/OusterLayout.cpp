@@ -3,6 +3,7 @@
 #include "input/lidar/OusterMetadata.h"
 
 #include <fmt/format.h>
+#include <lzma.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -19,6 +20,8 @@ constexpr bool allConsistent()
 }
 static_assert(allConsistent(), "a field of kOusterProfiles does not fit into its channel or its type");
 }  // namespace
+
+std::uint64_t crc64(Bytes bytes) { return lzma_crc64(bytes.data(), bytes.size(), 0); }
 
 std::size_t OusterLayout::imuPacketBytes() const
 {

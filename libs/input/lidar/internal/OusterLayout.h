@@ -61,8 +61,15 @@ constexpr std::size_t kOusterColumnEncoder = 12;  // LEGACY only: ticks of a tur
 constexpr std::uint32_t kOusterEncoderTicks = 90112;
 constexpr std::size_t kOusterCrcBytes = 8;
 
+/** CRC-64/XZ: ECMA-182 polynomial, reflected (0xC96C5795D7870F42), initial value and final xor all ones. */
+std::uint64_t crc64(Bytes);
+
 /** Stamps from here on are invalid: differences of valid ones always fit into 64 bits. */
 constexpr std::uint64_t kOusterEndOfTime = std::uint64_t{1} << 62;  // ns, 146 years
+
+/** Units of LEGACY IMU packets. */
+constexpr double kOusterStandardGravity = 9.80665;  // m/s2 per g
+constexpr double kOusterDegree = 3.14159265358979323846 / 180;
 
 /** LEGACY IMU packet: stamps u64, accelerations f32 in g, rates f32 in deg/s. */
 namespace ouster_legacy_imu

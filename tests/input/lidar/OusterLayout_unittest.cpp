@@ -1,11 +1,11 @@
-#include "input/lidar/internal/Crc64.h"
+#include "input/lidar/internal/OusterLayout.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <string>
 
-namespace scanloom::crc64_unittest
+namespace scanloom::ouster_layout_unittest
 {
 namespace
 {
@@ -38,4 +38,4 @@ TEST(Crc64, equalsTheDefinitionAtEveryLengthAndAlignment)
     ASSERT_EQ(crc64(some), bitByBit(some)) << length;
   }
 }
-}  // namespace scanloom::crc64_unittest
+}  // namespace scanloom::ouster_layout_unittest
