@@ -52,6 +52,9 @@ decltype(EvaluationInput::reference) referenceOf(const EvaluateArguments& argume
   if (isBag(arguments.reference))
   {
     BagPoses found = readBagPoses({arguments.reference}, arguments.reference_topic);
+    if (found.unreadable > 0)
+      warn(fmt::format("{}: {} messages with poses end too early: left out", arguments.reference.string(),
+                       found.unreadable));
     if (!found.have_rotations) return positionsOf(found.poses);
     return std::move(found.poses);
   }

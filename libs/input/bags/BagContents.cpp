@@ -149,12 +149,19 @@ class Inventory
   BagContents contents_;
 };
 
-/** The messages of a topic as values, in order of stamps. */
 template <typename Value>
-std::vector<Value> valuesOf(const BagPaths& paths, const std::string& name, bool (*isWanted)(const std::string&),
-                            Value (*valueOf)(const BagTopic&, Bytes), const char* what)
+struct TopicValues
 {
   std::vector<Value> values;
+  std::size_t unreadable = 0;  // messages that end too early
+};
+
+/** The messages of a topic as values, in order of stamps. */
+template <typename Value>
+TopicValues<Value> valuesOf(const BagPaths& paths, const std::string& name, bool (*isWanted)(const std::string&),
+                            Value (*valueOf)(const BagTopic&, Bytes), const char* what)
+{
+  TopicValues<Value> found;
   std::vector<std::string> possible;
   for (const BagTopic& topic : topicsOf(paths))
     if (isWanted(topic.type)) possible.push_back(topic.name);
@@ -169,16 +176,17 @@ std::vector<Value> valuesOf(const BagPaths& paths, const std::string& name, bool
                    if (topic.name != name || !isWanted(topic.type)) return true;
                    try
                    {
-                     values.push_back(valueOf(topic, message.data));
+                     found.values.push_back(valueOf(topic, message.data));
                    }
-                   catch (const std::out_of_range&)  // a message that ends too early
+                   catch (const std::out_of_range&)
                    {
+                     ++found.unreadable;
                    }
                    return true;
                  });
   const auto earlier = [](const Value& a, const Value& b) { return a.stamp < b.stamp; };
-  std::stable_sort(values.begin(), values.end(), earlier);
-  return values;
+  std::stable_sort(found.values.begin(), found.values.end(), earlier);
+  return found;
 }
 
 ImuSample imuSampleOf(const BagTopic& topic, Bytes message) { return imuOf(topic, message).sample; }
@@ -232,7 +240,10 @@ std::string metadataIn(const BagPaths& paths, const std::string& name)
 
 ImuOfEachStamp readBagImu(const BagPaths& paths, const std::string& topic)
 {
-  return oneOfEachStamp(valuesOf(paths, topic, &isImuType, &imuSampleOf, "sensor_msgs/Imu"));
+  const auto found = valuesOf(paths, topic, &isImuType, &imuSampleOf, "sensor_msgs/Imu");
+  ImuOfEachStamp imu = oneOfEachStamp(found.values);
+  imu.unreadable = found.unreadable;
+  return imu;
 }
 
 BagPoses readBagPoses(const BagPaths& paths, const std::string& topic)
@@ -246,9 +257,9 @@ BagPoses readBagPoses(const BagPaths& paths, const std::string& topic)
     if (topic.empty() || known.name == topic) type = known.type;
   }
   const std::string name = topic.empty() && names.size() == 1 ? *names.begin() : topic;
-  Trajectory poses = valuesOf(paths, name, &isPoseType, &poseOf, "poses");
+  auto [poses, unreadable] = valuesOf(paths, name, &isPoseType, &poseOf, "poses");
   const auto same = [](const StampedPose& a, const StampedPose& b) { return a.stamp == b.stamp; };
   poses.erase(std::unique(poses.begin(), poses.end(), same), poses.end());
-  return {std::move(poses), type != "geometry_msgs/PointStamped"};
+  return {std::move(poses), type != "geometry_msgs/PointStamped", unreadable};
 }
 }  // namespace scanloom

@@ -54,6 +54,7 @@ struct BagPoses
 {
   Trajectory poses;
   bool have_rotations = true;  // PointStamped has none
+  std::size_t unreadable = 0;  // messages that end too early
 };
 
 /**

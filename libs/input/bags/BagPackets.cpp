@@ -5,6 +5,7 @@
 #include "input/packets/CaptureReader.h"
 
 #include <algorithm>
+#include <deque>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -44,7 +45,8 @@ class BagPackets : public DatagramReader
  public:
   BagPackets(const Path& path, const std::set<std::string>& topics) : bag_(BagReader::open(path)), topics_(topics)
   {
-    lookAhead(path);
+    const auto& all = bag_->topics();
+    if (std::any_of(all.begin(), all.end(), [&](const BagTopic& topic) { return hasClouds(topic); })) lookAhead();
   }
 
   bool next(Datagram& datagram) override
@@ -78,17 +80,35 @@ class BagPackets : public DatagramReader
     return a.datagram.received != b.datagram.received ? a.datagram.received > b.datagram.received : a.number > b.number;
   }
 
-  /** The first clouds of each topic, so that the very first is not taken for punctual. */
-  void lookAhead(const Path& path)
+  /** A message that was read before it is due. */
+  struct Ahead
+  {
+    std::size_t topic = 0;
+    Timestamp received;
+    std::vector<std::uint8_t> data;  // of a cloud; of others, which are only counted, none
+  };
+
+  /** False at the end, which may have been reached ahead. */
+  bool readOne(BagMessage& message)
+  {
+    at_end_ = at_end_ || !bag_->next(message);
+    return !at_end_;
+  }
+
+  bool hasClouds(const BagTopic& topic) const { return isCloudType(topic.type) && topics_.count(topic.name) > 0; }
+
+  /** Reads the first clouds of each topic ahead, so that the very first is not taken for punctual. */
+  void lookAhead()
   {
     constexpr std::size_t kMessages = 1000, kClouds = 20, kBytes = 32'000'000;
-    const auto bag = BagReader::open(path);
     BagMessage message;
     std::size_t clouds = 0, bytes = 0;
-    for (std::size_t i = 0; i < kMessages && clouds < kClouds && bytes < kBytes && bag->next(message); ++i)
+    while (ahead_.size() < kMessages && clouds < kClouds && bytes < kBytes && readOne(message))
     {
-      const BagTopic& topic = bag->topics()[message.topic];
-      if (!isCloudType(topic.type) || topics_.count(topic.name) == 0) continue;
+      Ahead& ahead = ahead_.emplace_back(Ahead{message.topic, message.received, {}});
+      const BagTopic& topic = bag_->topics()[message.topic];
+      if (!hasClouds(topic)) continue;
+      ahead.data.assign(message.data.begin(), message.data.end());
       bytes += message.data.size();
       ++clouds;
       try
@@ -111,17 +131,29 @@ class BagPackets : public DatagramReader
   /** False at the end of the bag. */
   bool readMessage()
   {
-    BagMessage message;
-    const bool has_message = bag_->next(message);
     for (std::string& warning : bag_->takeWarnings()) counters_.damages.push_back(std::move(warning));
-    if (!has_message) return false;
+    if (!ahead_.empty())
+    {
+      const Ahead ahead = std::move(ahead_.front());
+      ahead_.pop_front();
+      take({ahead.topic, ahead.received, ahead.data});
+      return true;
+    }
+    BagMessage message;
+    const bool has_message = readOne(message);
+    for (std::string& warning : bag_->takeWarnings()) counters_.damages.push_back(std::move(warning));
+    if (has_message) take(message);
+    return has_message;
+  }
+
+  void take(const BagMessage& message)
+  {
     ++counters_.records;
     const BagTopic& topic = bag_->topics()[message.topic];
     if (topics_.count(topic.name) == 0 || !(isPacketType(topic.type) || isCloudType(topic.type)))
       ++counters_.not_udp;
     else
       hold(topic, message);
-    return true;
   }
 
   void hold(const BagTopic& topic, const BagMessage& message)
@@ -161,7 +193,9 @@ class BagPackets : public DatagramReader
   }
 
   std::unique_ptr<BagReader> bag_;
-  std::set<std::string> topics_;              // with packets, or clouds
+  std::set<std::string> topics_;  // with packets, or clouds
+  std::deque<Ahead> ahead_;
+  bool at_end_ = false;
   std::map<std::string, Punctual> punctual_;  // by topic
   std::vector<Held> held_;                    // a heap, the earliest first
   std::size_t held_bytes_ = 0;

@@ -95,6 +95,20 @@ TEST(BagContents, sayWhatTheTimeOfCloudsIs)
   EXPECT_THAT(problemOf([&] { metadataIn({folder / "bag"}, "/c"); }), HasSubstr("it has some on: /a"));
 }
 
+TEST(BagContents, countMessagesThatEndTooEarly)
+{
+  const TemporaryFolder folder;
+  const char* type = "geometry_msgs/PointStamped";
+  writeFile(folder / "bag", ros1Of({{"/prism", type, 1, point(5, 2)},
+                                    {"/prism", type, 2, point(6, 1).substr(0, 20)},
+                                    {"/imu", "sensor_msgs/Imu", 3, point(7, 1)}}));
+  EXPECT_EQ(readBagPoses({folder / "bag"}, "/prism").poses.size(), 1u);
+  EXPECT_EQ(readBagPoses({folder / "bag"}, "/prism").unreadable, 1u);
+  const ImuOfEachStamp imu = readBagImu({folder / "bag"}, "/imu");
+  EXPECT_TRUE(imu.samples.empty());
+  EXPECT_THAT(imu.leftOut().value_or(""), HasSubstr("1 messages end too early"));
+}
+
 TEST(BagContents, givePosesInTheOrderOfStampsEachOnce)
 {
   const TemporaryFolder folder;

@@ -2,6 +2,7 @@
 #pragma once
 #include "base/formats/CompressedFile.h"
 #include "input/bags/BagReader.h"
+#include "input/bags/internal/unpacked.h"
 
 #include <cstdint>
 #include <map>
@@ -62,6 +63,64 @@ class ChunkSource
 
   /** Chunks that were left out because their content is damaged. */
   virtual std::uint64_t damagedChunks() const = 0;
+};
+
+/** A container whose `Topics` are met as its records are read. */
+template <typename Topics>
+class RecordSource : public ChunkSource
+{
+ public:
+  RecordSource(const std::filesystem::path& path, std::uint64_t magic_bytes)
+    : file_(path), unpacker_(std::filesystem::file_size(path))
+  {
+    file_.skip(magic_bytes);
+  }
+
+  const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
+  const BagFile& file() const override { return file_; }
+  std::uint64_t damagedChunks() const override { return damaged_; }
+
+ protected:
+  /** For a file whose index names no topics. What is damaged in it is said when its messages are read. */
+  void readAllForTopics(RecordSource& whole)
+  {
+    try
+    {
+      for (BagChunk ignored; whole.read(ignored);)
+      {
+      }
+    }
+    catch (const std::exception&)  // all topics before it are known
+    {
+    }
+    topics_ = whole.topics_;
+  }
+
+  /** Calls fill(), which makes `chunk` of its record: one that is damaged is left out and counted. */
+  template <typename Fill>
+  void fillOrCount(BagChunk& chunk, Fill&& fill)
+  {
+    try
+    {
+      fill();
+    }
+    catch (const UnpacksToTooMuch&)
+    {
+      throw;
+    }
+    catch (const std::exception&)
+    {
+      chunk.messages.clear();
+      ++damaged_;
+    }
+  }
+
+  BagFile file_;
+  Unpacker unpacker_;
+  Topics topics_;
+
+ private:
+  std::uint64_t damaged_ = 0;
 };
 
 /** Messages of a chunk in the order of receive times, chunks in that of the file. */

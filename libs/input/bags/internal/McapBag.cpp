@@ -2,7 +2,6 @@
 
 #include "input/bags/internal/ChunkedBag.h"
 #include "input/bags/internal/MessageReader.h"
-#include "input/bags/internal/unpacked.h"
 
 #include <zlib.h>
 
@@ -108,17 +107,10 @@ std::vector<std::uint8_t> summaryOf(const std::filesystem::path& path)
   return start == 0 ? std::vector<std::uint8_t>() : indexBytes(path, start, size - kEnd);
 }
 
-class McapSource : public ChunkSource
+class McapSource : public RecordSource<McapTopics>
 {
  public:
-  explicit McapSource(const std::filesystem::path& path) : file_(path), unpacker_(std::filesystem::file_size(path))
-  {
-    file_.skip(kMagicBytes);
-  }
-
-  const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
-  const BagFile& file() const override { return file_; }
-  std::uint64_t damagedChunks() const override { return damaged_; }
+  explicit McapSource(const std::filesystem::path& path) : RecordSource(path, kMagicBytes) {}
 
   /** From the summary, or by reading the file. */
   void findTopics(const std::filesystem::path& path)
@@ -133,16 +125,7 @@ class McapSource : public ChunkSource
     }
     if (!topics().empty()) return;
     McapSource whole(path);
-    try
-    {
-      while (whole.read(ignored))
-      {
-      }
-    }
-    catch (const std::exception&)  // it is told when it is read
-    {
-    }
-    topics_ = whole.topics_;
+    readAllForTopics(whole);
   }
 
   bool read(BagChunk& chunk) override
@@ -175,29 +158,16 @@ class McapSource : public ChunkSource
     const auto crc = fields.number<std::uint32_t>();
     const std::string compression = fields.string();
     const Bytes records = fields.bytes(fields.number<std::uint64_t>());
-    try
-    {
-      chunk.bytes = compression.empty() ? std::vector<std::uint8_t>(records.begin(), records.end())
-                                        : unpacker_.unpacked(records, compression, size);
-      const auto found = ::crc32_z(0, chunk.bytes.data(), chunk.bytes.size());
-      if (crc != 0 && found != crc) throw std::runtime_error("a wrong checksum");
-      addRecords(chunk.bytes, topics_, chunk);
-    }
-    catch (const UnpacksToTooMuch&)
-    {
-      throw;
-    }
-    catch (const std::exception&)  // as unpacked() and addRecords() throw
-    {
-      chunk.messages.clear();
-      ++damaged_;
-    }
+    fillOrCount(chunk,
+                [&]
+                {
+                  chunk.bytes = compression.empty() ? std::vector<std::uint8_t>(records.begin(), records.end())
+                                                    : unpacker_.unpacked(records, compression, size);
+                  const auto found = ::crc32_z(0, chunk.bytes.data(), chunk.bytes.size());
+                  if (crc != 0 && found != crc) throw std::runtime_error("a wrong checksum");
+                  addRecords(chunk.bytes, topics_, chunk);
+                });
   }
-
-  BagFile file_;
-  Unpacker unpacker_;
-  McapTopics topics_;
-  std::uint64_t damaged_ = 0;
 };
 }  // namespace
 

@@ -1,7 +1,6 @@
 #include "input/bags/internal/Ros1Bag.h"
 
 #include "input/bags/internal/ChunkedBag.h"
-#include "input/bags/internal/unpacked.h"
 
 #include <fmt/format.h>
 
@@ -111,17 +110,10 @@ void addRos1Records(Bytes bytes, Ros1Topics& topics, BagChunk& chunk)
   }
 }
 
-class Ros1Source : public ChunkSource
+class Ros1Source : public RecordSource<Ros1Topics>
 {
  public:
-  explicit Ros1Source(const std::filesystem::path& path) : file_(path), unpacker_(std::filesystem::file_size(path))
-  {
-    file_.skip(kRos1Magic);
-  }
-
-  const std::vector<BagTopic>& topics() const override { return topics_.topics(); }
-  const BagFile& file() const override { return file_; }
-  std::uint64_t damagedChunks() const override { return damaged_; }
+  explicit Ros1Source(const std::filesystem::path& path) : RecordSource(path, kRos1Magic) {}
 
   /** From the index, or by reading the file. */
   void findTopics(const std::filesystem::path& path)
@@ -139,16 +131,7 @@ class Ros1Source : public ChunkSource
     }
     if (!topics().empty()) return;
     Ros1Source whole(path);
-    try
-    {
-      while (whole.read(ignored))
-      {
-      }
-    }
-    catch (const std::exception&)  // it is told when it is read
-    {
-    }
-    topics_ = whole.topics_;
+    readAllForTopics(whole);
   }
 
   bool read(BagChunk& chunk) override
@@ -195,29 +178,19 @@ class Ros1Source : public ChunkSource
 
   void readChunk(const Ros1Header& header, std::vector<std::uint8_t> data, BagChunk& chunk)
   {
-    try
-    {
-      const std::string compression = header.text("compression");
-      chunk.bytes = compression == "none" ? std::move(data)
-                                          : unpacker_.unpacked(data, compression, header.number<std::uint32_t>("size"));
-      addRos1Records(chunk.bytes, topics_, chunk);
-    }
-    catch (const UnpacksToTooMuch&)
-    {
-      throw;
-    }
-    catch (const std::exception&)  // as unpacked() and addRos1Records() throw
-    {
-      chunk.messages.clear();
-      ++damaged_;
-    }
+    fillOrCount(chunk,
+                [&]
+                {
+                  const std::string compression = header.text("compression");
+                  chunk.bytes = compression == "none"
+                                    ? std::move(data)
+                                    : unpacker_.unpacked(data, compression, header.number<std::uint32_t>("size"));
+                  addRos1Records(chunk.bytes, topics_, chunk);
+                });
   }
 
-  BagFile file_;
-  Unpacker unpacker_;
-  Ros1Topics topics_;
   std::vector<std::uint8_t> header_bytes_;
-  std::uint64_t index_at_ = 0, chunks_expected_ = 0, chunks_ = 0, damaged_ = 0;
+  std::uint64_t index_at_ = 0, chunks_expected_ = 0, chunks_ = 0;
 };
 }  // namespace
 
