@@ -8,9 +8,9 @@
 #include "diagnosis/internal/ClockKind.h"
 #include "diagnosis/internal/RigExamination.h"
 #include "diagnosis/internal/RotorPhase.h"
-#include "input/packets/MergedCaptures.h"
 #include "input/rig/Rig.h"
 #include "support/TestData.h"
+#include "support/mergedCaptures.h"
 #include "traces.h"
 
 namespace scanloom::clocks_unittest
@@ -167,7 +167,7 @@ TEST(RotorPhase, ofARecordedVelodyneIsThatOfItsAzimuths)
   settings.lidars.front().metadata = SCANLOOM_SOURCE_DIR "/params/lidars/velodyne_hdl32e.json";
   const Rig rig = makeRig(settings);
   RigListener listener(rig, false);
-  MergedCaptures captures(rig.captures);
+  MergedCaptures captures = mergedCaptures(rig.captures);
   double hundredths = 0;
   std::optional<std::pair<int, std::uint32_t>> first, last;  // azimuth, us
   for (Datagram datagram; captures.next(datagram);)

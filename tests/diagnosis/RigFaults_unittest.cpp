@@ -10,8 +10,8 @@
 #include "diagnosis/DoctorFindings.h"
 #include "input/lidar/OusterDecoder.h"
 #include "input/lidar/internal/OusterLayout.h"
-#include "input/packets/MergedCaptures.h"
 #include "support/TestData.h"
+#include "support/mergedCaptures.h"
 
 namespace scanloom::rig_faults_unittest
 {
@@ -71,7 +71,7 @@ struct Examined
 Examined examined(const Rig& rig, const Fault& fault = {}, Duration longest = 1h)
 {
   RigListener listener(rig, true);
-  MergedCaptures captures(rig.captures);
+  MergedCaptures captures = mergedCaptures(rig.captures);
   std::optional<Timestamp> start;
   for (Datagram datagram; captures.next(datagram);)
   {

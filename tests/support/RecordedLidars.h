@@ -1,7 +1,7 @@
 /** Two recorded lidars as live ones: what they sent, from 127.0.0.2 and 127.0.0.3 to free ports of this computer. */
 #pragma once
-#include "input/packets/MergedCaptures.h"
 #include "support/UdpSender.h"
+#include "support/mergedCaptures.h"
 
 #include <filesystem>
 #include <map>
@@ -25,7 +25,7 @@ class RecordedLidars
   {
     const std::uint16_t shared = freeUdpPort();
     for (std::uint16_t port : {7502, 7503, 7504, 7505}) ports_[port] = ports == Ports::One ? shared : freeUdpPort();
-    MergedCaptures captures({recording_ / "recording.pcap"});
+    MergedCaptures captures = mergedCaptures({recording_ / "recording.pcap"});
     for (Datagram datagram; datagrams_.size() < datagrams && captures.next(datagram);)
     {
       datagram.source = IpAddress::parse(datagram.destination_port < 7504 ? "127.0.0.2" : "127.0.0.3");

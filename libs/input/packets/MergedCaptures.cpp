@@ -1,7 +1,5 @@
 #include "input/packets/MergedCaptures.h"
 
-#include "input/packets/CaptureReader.h"
-
 #include <algorithm>
 #include <numeric>
 #include <stdexcept>
@@ -9,18 +7,6 @@
 
 namespace scanloom
 {
-namespace
-{
-std::vector<std::unique_ptr<DatagramReader>> capturesAt(const std::vector<std::filesystem::path>& paths)
-{
-  std::vector<std::unique_ptr<DatagramReader>> captures;
-  for (const auto& path : paths) captures.push_back(std::make_unique<CaptureReader>(path));
-  return captures;
-}
-}  // namespace
-
-MergedCaptures::MergedCaptures(const std::vector<std::filesystem::path>& paths) : MergedCaptures(capturesAt(paths)) {}
-
 MergedCaptures::MergedCaptures(std::vector<std::unique_ptr<DatagramReader>> readers)
 {
   if (readers.empty()) throw std::invalid_argument("no capture file given");

@@ -1,9 +1,9 @@
 #pragma once
 #include "input/packets/DatagramReader.h"
 
-#include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace scanloom
 {
@@ -11,9 +11,6 @@ namespace scanloom
 class MergedCaptures
 {
  public:
-  /** Throws as CaptureReader does, and std::invalid_argument if there is no file. */
-  explicit MergedCaptures(const std::vector<std::filesystem::path>&);
-
   /** Throws std::invalid_argument if there is none. */
   explicit MergedCaptures(std::vector<std::unique_ptr<DatagramReader>>);
 

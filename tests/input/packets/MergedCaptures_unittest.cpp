@@ -1,8 +1,9 @@
 #include "input/packets/MergedCaptures.h"
 
-#include "HandmadeCapture.h"
-
 #include <gmock/gmock.h>
+
+#include "HandmadeCapture.h"
+#include "support/mergedCaptures.h"
 
 namespace scanloom::merged_captures_unittest
 {
@@ -28,7 +29,7 @@ TEST(MergedCaptures, comeInTheOrderOfTimeAndOfFilesAtEqualTime)
   HandmadeCapture a, b, empty;
   const auto first = capture(a, {{1s, 'a'}, {3s, 'd'}, {5s, 'f'}});
   const auto second = capture(b, {{1s, 'b'}, {2s, 'c'}, {3s, 'e'}});
-  MergedCaptures merged({first, empty.file(), second});
+  MergedCaptures merged = mergedCaptures({first, empty.file(), second});
   EXPECT_EQ(marksOf(merged), "abcdef");
   EXPECT_EQ(merged.counters().datagrams, 6u);
   EXPECT_DOUBLE_EQ(merged.progress(), 1.0);
@@ -37,7 +38,7 @@ TEST(MergedCaptures, comeInTheOrderOfTimeAndOfFilesAtEqualTime)
 TEST(MergedCaptures, keepTheOrderWithinAFileEvenWhereItsTimeGoesBack)
 {
   HandmadeCapture a;
-  MergedCaptures merged({capture(a, {{2s, 'a'}, {1s, 'b'}, {3s, 'c'}})});
+  MergedCaptures merged = mergedCaptures({capture(a, {{2s, 'a'}, {1s, 'b'}, {3s, 'c'}})});
   EXPECT_EQ(marksOf(merged), "abc");
 }
 
@@ -46,15 +47,12 @@ TEST(MergedCaptures, endTheDamagedFileOnly)
   HandmadeCapture a, b;
   const auto damaged = capture(a, {{1s, 'a'}});
   std::ofstream(damaged, std::ios::binary | std::ios::app) << std::string(16, '\xff') << std::string(100, 'x');
-  MergedCaptures merged({damaged, capture(b, {{2s, 'b'}, {3s, 'c'}})});
+  MergedCaptures merged = mergedCaptures({damaged, capture(b, {{2s, 'b'}, {3s, 'c'}})});
   EXPECT_EQ(marksOf(merged), "abc");
   ASSERT_EQ(merged.counters().damages.size(), 1u);
   EXPECT_EQ(merged.counters().damages[0].rfind(damaged.string() + ": damaged after record 1", 0), 0u);
 }
 
-TEST(MergedCaptures, needAFile)
-{
-  EXPECT_THROW(MergedCaptures(std::vector<std::filesystem::path>{}), std::invalid_argument);
-}
+TEST(MergedCaptures, needAFile) { EXPECT_THROW(mergedCaptures({}), std::invalid_argument); }
 }  // namespace
 }  // namespace scanloom::merged_captures_unittest

@@ -1,8 +1,8 @@
 /** Real captures compared with what tshark reads from them, also after conversion by stock tools. */
 #include "HandmadeCapture.h"
 #include "input/packets/CaptureReader.h"
-#include "input/packets/MergedCaptures.h"
 #include "support/TestData.h"
+#include "support/mergedCaptures.h"
 #include "support/stockTool.h"
 
 #include <fmt/format.h>
@@ -189,7 +189,7 @@ TEST(MergedCaptures, agreeWithMergecap)
   linesOf(fmt::format("editcap -t 0.0021 '{}' '{}'", a.string(), b.string()));
   linesOf(fmt::format("mergecap -F pcap -w '{}' '{}' '{}'", merged.string(), a.string(), b.string()));
 
-  MergedCaptures ours_merged({a, b});
+  MergedCaptures ours_merged = mergedCaptures({a, b});
   const auto lines = describe(ours_merged);
   EXPECT_EQ(lines.size(), 8u);
   EXPECT_TRUE(std::is_permutation(lines.begin(), lines.end(), ours(merged).begin()));

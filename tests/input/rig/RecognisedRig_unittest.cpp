@@ -2,12 +2,12 @@
 
 #include "base/core/ConfigError.h"
 #include "input/packets/CaptureWriter.h"
-#include "input/packets/MergedCaptures.h"
 #include "input/rig/Rig.h"
 #include "input/rig/internal/RigReplay.h"
 #include "support/Rosbag.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/mergedCaptures.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ using Path = std::filesystem::path;
 /** Those of the first datagrams that `wanted` keeps and may change. */
 void writeSome(const Path& from, const Path& to, const std::function<bool(Datagram&)>& wanted)
 {
-  MergedCaptures datagrams({from});
+  MergedCaptures datagrams = mergedCaptures({from});
   CaptureWriter writer(to);
   Datagram datagram;
   for (int i = 0; i < 2000 && datagrams.next(datagram); ++i)

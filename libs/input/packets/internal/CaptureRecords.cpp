@@ -31,7 +31,7 @@ std::optional<Timestamp> stampOf(const pcap_pkthdr& record, std::int64_t per_uni
   return Timestamp{std::chrono::seconds{record.ts.tv_sec} + Duration{record.ts.tv_usec / per_unit}};
 }
 
-constexpr std::uint64_t kBelieved = 10;  // records: fewer may be damaged
+constexpr std::uint64_t kMostDamaged = 10;  // records that show nanoseconds: with more, the whole file holds them
 
 class PcapRecords : public CaptureRecords
 {
@@ -52,7 +52,7 @@ class PcapRecords : public CaptureRecords
       constexpr std::int64_t kSecond = 1'000'000'000;  // ns: no fraction of one has more
       const bool in_nanoseconds = record->ts.tv_usec >= kSecond;
       in_nanoseconds_ += in_nanoseconds;
-      const std::int64_t per_unit = in_nanoseconds || in_nanoseconds_ > kBelieved ? 1000 : 1;
+      const std::int64_t per_unit = in_nanoseconds || in_nanoseconds_ > kMostDamaged ? 1000 : 1;
       return CaptureRecord{link_type_, stampOf(*record, per_unit), record->len, {frame, record->caplen}};
     }
     if (fault_) std::rethrow_exception(fault_);
@@ -103,6 +103,7 @@ class PcapRecords : public CaptureRecords
   int link_type_;
   std::uint64_t in_nanoseconds_ = 0;  // records of a file of microseconds that show nanoseconds
 };
+
 std::string nameOf(int link_type)
 {
   const char* name = pcap_datalink_val_to_name(link_type);

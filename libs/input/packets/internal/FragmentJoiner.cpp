@@ -20,7 +20,7 @@ bool FragmentJoiner::add(Timestamp received, const IpContent& fragment, std::vec
   auto found = under_construction_.find(key);
   const Fit how = found == under_construction_.end() ? Fit::New : fit(found->second, piece, fragment.payload);
   if (how == Fit::Repeated) return false;
-  if (how == Fit::InnovationMonitor) found = (lose(found), under_construction_.end());
+  if (how == Fit::Contradictory) found = (lose(found), under_construction_.end());
   if (found == under_construction_.end())
   {
     makeRoom();
@@ -47,14 +47,14 @@ void FragmentJoiner::finish()
 FragmentJoiner::Fit FragmentJoiner::fit(const Construction& construction, const Piece& piece, Bytes payload)
 {
   if (construction.size && (piece.end > *construction.size || (piece.last && piece.end != *construction.size)))
-    return Fit::InnovationMonitor;
+    return Fit::Contradictory;
   for (const Piece& other : construction.pieces)
   {
-    if (piece.last && other.end > piece.end) return Fit::InnovationMonitor;
+    if (piece.last && other.end > piece.end) return Fit::Contradictory;
     if (piece.end <= other.begin || other.end <= piece.begin) continue;
     const bool same = piece.begin == other.begin && piece.end == other.end && piece.last == other.last &&
                       std::equal(payload.begin(), payload.end(), construction.bytes.begin() + piece.begin);
-    return same ? Fit::Repeated : Fit::InnovationMonitor;
+    return same ? Fit::Repeated : Fit::Contradictory;
   }
   return Fit::New;
 }

@@ -62,7 +62,7 @@ class FragmentJoiner
   {
     New,
     Repeated,
-    InnovationMonitor
+    Contradictory
   };
 
   static Fit fit(const Construction&, const Piece&, Bytes payload);
