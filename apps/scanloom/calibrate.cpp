@@ -187,10 +187,8 @@ int runDrive(const CalibrateArguments& arguments)
     std::cout << toIni(loaded);
     return kDone;
   }
-  catchInterruption();
   calibration.reference = indexOf(arguments.reference, calibration.lidars);
   const CalibrationDrive drive = driven(source, loaded.settings, calibration);
-  if (interrupted()) return kInterrupted;
   if (calibration.imu && calibration.imu->outcome == ImuMountOutcome::Contradicted)
     return contradicted(*calibration.imu);
   if (!isPath(drive)) return noPath(calibration, drive.run.summary.outcome);
@@ -223,7 +221,15 @@ int run(CalibrateArguments arguments)
     if (!arguments.recording.given()) throw UsageError("--out-dir is required where no RECORDING is given");
     arguments.output.folder = besideRecording(arguments.recording, "_calibration");
   }
-  return arguments.clouds ? runStatic(arguments) : runDrive(arguments);
+  catchInterruption();
+  try
+  {
+    return arguments.clouds ? runStatic(arguments) : runDrive(arguments);
+  }
+  catch (const Interrupted&)
+  {
+    return kInterrupted;
+  }
 }
 
 std::function<int()> addCalibrateOptions(CLI::App& app)

@@ -38,11 +38,6 @@ struct SimulateArguments
   std::string pictures;
 };
 
-/** Thrown to stop writing: an incomplete recording is removed. */
-struct Interrupted : std::exception
-{
-};
-
 void refuseUnknownTurns(const SimulatedRecordingOptions& recording)
 try
 {
@@ -66,7 +61,7 @@ int write(const Scene& scene, const Loaded<SimulationSettings>& loaded, const st
                    [&](double share)
                    {
                      progress.update(static_cast<std::uint64_t>(std::llround(share * scene.span.duration)));
-                     if (interrupted()) throw Interrupted();
+                     throwIfInterrupted();
                    });
   }
   catch (const Interrupted&)

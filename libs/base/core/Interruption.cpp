@@ -47,4 +47,9 @@ void catchUnhandledInterruption()
 }
 
 bool interrupted() { return g_interrupted != 0; }
+
+void throwIfInterrupted()
+{
+  if (interrupted()) throw Interrupted();
+}
 }  // namespace scanloom

@@ -1,5 +1,6 @@
 /** SIGINT (Ctrl-C) and SIGTERM: a verb finishes the step that it is at, saves, and ends with status 130. */
 #pragma once
+#include <exception>
 
 namespace scanloom
 {
@@ -11,4 +12,13 @@ void catchInterruption();
 void catchUnhandledInterruption();
 
 bool interrupted();
+
+/** Ends work that has nothing to save: thrown by throwIfInterrupted(), caught by the verb. */
+struct Interrupted : std::exception
+{
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+/** For work of many seconds, several times in each. */
+void throwIfInterrupted();
 }  // namespace scanloom

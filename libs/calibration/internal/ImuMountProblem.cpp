@@ -1,6 +1,7 @@
 #include "calibration/internal/ImuMountProblem.h"
 
 #include "base/core/Angle.h"
+#include "base/core/Interruption.h"
 #include "calibration/internal/ImuMountFactor.h"
 #include "calibration/internal/ImuMountInformation.h"
 #include "estimation/graph/ImuFactor.h"
@@ -233,6 +234,7 @@ ImuMountSolution solveImuMount(const Trajectory& poses, const std::vector<ImuSam
   ImuMountSolution solution;
   for (int round = 0; round < kMostRounds; ++round)
   {
+    throwIfInterrupted();
     Drive drive(poses, samples, mount, bias, noise, pose_noise);
     solution = drive.solve();
     mount = solution.mount;

@@ -1,6 +1,7 @@
 #include "calibration/internal/MountEquations.h"
 
 #include "base/core/Decompositions.h"
+#include "base/core/Interruption.h"
 #include "estimation/ndt/LidarInformation.h"
 #include "estimation/ndt/NormalEquations.h"
 
@@ -60,6 +61,7 @@ MountEquations mountEquations(std::vector<CellCorrespondences>& stations, const 
   MountEquations sum;
   for (std::size_t i = 0; i < stations.size(); ++i)
   {
+    throwIfInterrupted();
     const Rigid pose = boxPlus(Rigid::identity(), -correction.clock * twists[i]) * correction.pose;
     const NormalEquations one = normalEquations(stations[i], pose, d2);
     Eigen::Matrix<double, 6, 7> step_of;

@@ -1,6 +1,7 @@
 #include "calibration/internal/StationMaps.h"
 
 #include "base/core/Decompositions.h"
+#include "base/core/Interruption.h"
 #include "base/core/Statistics.h"
 
 #include <Eigen/Eigenvalues>
@@ -71,7 +72,11 @@ const GaussianCell* nearestTo(const Eigen::Vector3d& mean, const CellCorresponde
 std::vector<NdtMap> mapsOfReference(const std::vector<Station>& stations, const MountLevel& level)
 {
   std::vector<NdtMap> maps;
-  for (const Station& station : stations) maps.push_back(thinMap(station.reference, level));
+  for (const Station& station : stations)
+  {
+    throwIfInterrupted();
+    maps.push_back(thinMap(station.reference, level));
+  }
   return maps;
 }
 
@@ -81,6 +86,7 @@ StationCells cellsOfLidar(const std::vector<Station>& stations, const Mount& mou
   StationCells cells;
   for (const Station& station : stations)
   {
+    throwIfInterrupted();
     std::vector<View> views;
     const std::size_t count = std::min(level.scans, station.scans.size());
     for (std::size_t i = 0; i < count; ++i)

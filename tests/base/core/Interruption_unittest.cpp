@@ -28,4 +28,16 @@ TEST(Interruption, leavesSignalsThatAreHandledToTheirHandlers)
 
   std::signal(SIGINT, SIG_DFL);
 }
+
+TEST(Interruption, endsWorkThatAsksForIt)
+{
+  std::signal(SIGTERM, SIG_DFL);
+  catchUnhandledInterruption();
+  EXPECT_NO_THROW(throwIfInterrupted());
+  std::raise(SIGTERM);
+  EXPECT_THROW(throwIfInterrupted(), Interrupted);
+
+  catchUnhandledInterruption();  // clears it
+  std::signal(SIGTERM, SIG_DFL);
+}
 }  // namespace scanloom::interruption_unittest
