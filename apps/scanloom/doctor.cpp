@@ -38,7 +38,7 @@ struct DoctorSettings
   CropOptions crop;
 
   template <typename Self, typename Visitor>
-  static void sections(Self& s, Visitor&&)
+  static void sections(Self& s, Visitor&& visit)
   {
     visit(s.crop, Section{"crop", CropOptions::kMeaning});
   }

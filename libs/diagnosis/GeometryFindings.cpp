@@ -1,7 +1,7 @@
 #include "base/core/Angle.h"
 #include "base/core/FindingLimits.h"
-#include "calibration/GroundFinding.h"
 #include "diagnosis/DoctorFindings.h"
+#include "diagnosis/internal/GroundFinding.h"
 
 #include <fmt/format.h>
 

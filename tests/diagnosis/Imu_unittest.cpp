@@ -262,7 +262,7 @@ TEST(ImuComparison, isNotFitWhereTheyTurnFiveDegreesOffOneAnother)
 {
   const Rigid turned = Rigid::fromXyzYawPitchRoll(0, 0, 0, 0, 0, 5 * kDegree);
   const std::vector<ImuSample> a = swayingImu({}), b = swayingImu(turned, 30, 100, 2);
-  const Finding finding = turnsFinding(compareImus({{"a", a, {}}, {"b", b, {}}}, {}).front(), "b", "a", {});
+  const Finding finding = turnsFinding(compareImus({{"a", a, {}}, {"b", b, {}}}).front(), "b", "a", {});
   EXPECT_EQ(finding.verdict, Verdict::NotFit) << finding.says;
 }
 
