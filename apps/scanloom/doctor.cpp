@@ -153,7 +153,9 @@ std::function<int()> addDoctorOptions(CLI::App& app)
 
 Verb doctorVerb()
 {
-  return {"doctor", "faults of a rig's lidars, clocks, IMUs and poses, and how to mend them", rigSchema("lidars"),
+  Schema schema = rigSchema("lidars");
+  merge(schema, schemaOf<DoctorSettings>());
+  return {"doctor", "faults of a rig's lidars, clocks, IMUs and poses, and how to mend them", schema,
           &addDoctorOptions};
 }
 }  // namespace scanloom

@@ -190,7 +190,7 @@ TEST_F(RawlogCheck, aLabelThatIsNoTextIsToldAllTheSame)
         return Observations{o};
       });
   const auto json = nlohmann::json::parse(toJson(checkRawlog(in, {}, [](std::uint64_t) { return true; })));
-  EXPECT_EQ(json["rawlog"]["labels"]["\uFFFD("]["count"], 2);
+  EXPECT_EQ(json["rawlog"]["labels"]["?("]["count"], 2);
   EXPECT_NO_THROW(toJson(rawlogInfo(in)));
 }
 

@@ -29,7 +29,7 @@ if [ "$what" = links ]; then
     done
   done
 
-  scanloom config --parameters > "$dir/parameters.md"
+  { scanloom config --parameters; scanloom config --parameters laboratory; } > "$dir/parameters.md"
   for key in $(cat $pages | grep -oE -- '--set [a-z_0-9]+\.[a-z_0-9]+=' | sed 's/--set //; s/=//' | grep -v '^section.key' | sort -u); do
     sed -n "/^## \[${key%%.*}\]/,/^## /p" "$dir/parameters.md" | grep -q "^| \`${key#*.}\`" || complain "--set $key: no such key"
   done

@@ -25,8 +25,8 @@ struct BagMessage
 
 /**
  * A bag, whatever its container: SQLite (.db3), MCAP, ROS 1 (.bag), a rawlog of packets. Damaged and cut files are read
- * up to the damage, which is reported once. At no time more than one message (SQLite, rawlog) or one chunk (the others) of
- * a file is in memory.
+ * up to the damage, which is reported once. At no time more than one message (SQLite, rawlog) or one chunk (the others)
+ * of a file is in memory.
  */
 class BagReader
 {

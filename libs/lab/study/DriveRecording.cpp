@@ -30,6 +30,7 @@ catch (const std::exception& e)
 void removePackets(const std::filesystem::path& folder)
 {
   std::error_code ignored;
-  for (const char* name : {"recording.pcap", "recording.rawlog", "imu.csv"}) std::filesystem::remove(folder / name, ignored);
+  for (const char* name : {"recording.pcap", "recording.rawlog", "imu.csv"})
+    std::filesystem::remove(folder / name, ignored);
 }
 }  // namespace scanloom

@@ -43,8 +43,8 @@ mrpt::obs::CObservationPointCloud::Ptr toObservation(const Scan&, CloudClass = C
  *
  * A rawlog does not contain columns without a valid return (columns_of does not count them), frame ids, range, signal
  * and near infrared (all 0), and whether the scan was complete (assumed). Stamps have errors of up to 104 ns, relative
- * to each other of up to 4 ns (t is a float). Without a rate of scans in the header, the period ends with the last point. Throws
- * std::invalid_argument if the cloud is stored in a file that does not exist.
+ * to each other of up to 4 ns (t is a float). Without a rate of scans in the header, the period ends with the last
+ * point. Throws std::invalid_argument if the cloud is stored in a file that does not exist.
  */
 Scan fromObservation(const mrpt::obs::CObservationPointCloud&, const std::optional<RecordingHeader>&);
 
