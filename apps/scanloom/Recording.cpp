@@ -61,9 +61,9 @@ RecordingFiles withoutResults(RecordingFiles files, const Paths& given)
   const auto wasGiven = [&](const std::filesystem::path& file)
   { return std::find(given.begin(), given.end(), file) != given.end(); };
   const auto isExport = [&](const std::filesystem::path& file) { return !wasGiven(file) && isExportedBag(file); };
-  const bool all_exported = std::all_of(files.captures.begin(), files.captures.end(), isExport);
-  if (!all_exported || !files.rawlogs.empty())
-    putAside(files.captures, isExport, "written by 'scanloom edit --to-mcap'", files.unused);
+  RecordingFiles others = files;
+  putAside(others.captures, isExport, "written by 'scanloom edit --to-mcap'", others.unused);
+  if (!others.captures.empty() || !others.rawlogs.empty()) files = std::move(others);  // else an export is all there is
   if (files.captures.empty()) return files;
   putAside(
       files.rawlogs, [&](const std::filesystem::path& file) { return !wasGiven(file) && isOfRecord(file); },

@@ -1,5 +1,5 @@
-#include "base/core/FindingLimits.h"
 #include "diagnosis/DoctorFindings.h"
+#include "diagnosis/internal/FindingLimits.h"
 
 #include <fmt/format.h>
 

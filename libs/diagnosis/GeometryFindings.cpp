@@ -1,6 +1,6 @@
 #include "base/core/Angle.h"
-#include "base/core/FindingLimits.h"
 #include "diagnosis/DoctorFindings.h"
+#include "diagnosis/internal/FindingLimits.h"
 #include "diagnosis/internal/GroundFinding.h"
 
 #include <fmt/format.h>

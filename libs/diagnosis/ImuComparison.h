@@ -1,7 +1,7 @@
 /** The IMUs of one body beside each other: all must turn alike in its frame. */
 #pragma once
 #include "base/core/Finding.h"
-#include "base/core/FindingLimits.h"
+#include "diagnosis/internal/FindingLimits.h"
 #include "estimation/imu/GyroAgreement.h"
 
 #include <optional>

@@ -1,11 +1,11 @@
 #include "diagnosis/RawlogCheck.h"
 
-#include "base/core/FindingLimits.h"
 #include "base/core/Statistics.h"
 #include "base/core/jsonText.h"
 #include "diagnosis/DoctorFindings.h"
 #include "diagnosis/DoctorJson.h"
 #include "diagnosis/ScanEvidence.h"
+#include "diagnosis/internal/FindingLimits.h"
 #include "diagnosis/internal/Gaps.h"
 #include "input/rawlogs/Conversions.h"
 #include "mrpt/edit/CloudObservation.h"

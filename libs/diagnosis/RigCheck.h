@@ -83,13 +83,14 @@ class RigCheck
    */
   RigCheck(std::vector<MountedLidar> lidars, std::map<int, RigImu> imus, std::optional<int> in_use, const Warn& warn);
 
-  /** Of any IMU. */
+  /** Takes a sample of any IMU of the rig; those of others, and those that are not finite or out of order, are left
+   * out. */
   void add(int sensor, const ImuSample&);
 
-  /** In the order of time. Starts what is due, and tells what is ready. */
+  /** Takes a scan; they must come in the order of time. Starts the examination that is due, and tells what is ready. */
   void add(const LocalisedScan&);
 
-  /** All once more. */
+  /** Examines everything once more, at the end of a run. */
   void finish();
 
   /** The IMU in use is another one from here on. */
@@ -97,7 +98,7 @@ class RigCheck
 
   bool warned() const { return !blamed_.empty(); }
 
-  /** As told last. */
+  /** The findings that were told last. */
   const Findings& lidars() const { return lidars_told_; }
   const std::optional<GyroAgreement>& imu() const { return imu_told_; }
 

@@ -1,7 +1,7 @@
 #include "diagnosis/internal/GroundFinding.h"
 
 #include "base/core/Angle.h"
-#include "base/core/FindingLimits.h"
+#include "diagnosis/internal/FindingLimits.h"
 #include "diagnosis/internal/ImuSoundness.h"
 #include "estimation/imu/MeanForce.h"
 

@@ -1,7 +1,7 @@
 #include "diagnosis/internal/ImuSoundness.h"
 
 #include "base/core/Angle.h"
-#include "base/core/FindingLimits.h"
+#include "diagnosis/internal/FindingLimits.h"
 #include "estimation/imu/MeanForce.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "diagnosis/internal/PoseFinding.h"
 
 #include "base/core/Angle.h"
-#include "base/core/FindingLimits.h"
+#include "diagnosis/internal/FindingLimits.h"
 
 #include <fmt/format.h>
 

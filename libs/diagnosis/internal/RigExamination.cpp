@@ -1,7 +1,7 @@
 #include "diagnosis/internal/RigExamination.h"
 
-#include "base/core/FindingLimits.h"
 #include "base/core/Statistics.h"
+#include "diagnosis/internal/FindingLimits.h"
 
 #include <algorithm>
 
@@ -120,7 +120,7 @@ std::vector<MountedLidar> mounted(const std::vector<LidarEvidence>& lidars)
   return placed;
 }
 
-/** By the points of each. */
+/** What all lidars see of the machine: shares are weighted by each lidar's number of points. */
 SelfReturns machineSeenBy(const std::vector<LidarExamination>& lidars, const std::vector<RigSnapshot>& snapshots)
 {
   std::vector<SelfReturns> parts;

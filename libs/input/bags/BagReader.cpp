@@ -92,7 +92,7 @@ bool isExportedBag(const Path& path)
 {
   // The magic, kind and length of the header's record, then profile and library, each after its length of 4 bytes.
   constexpr std::size_t kLibrary = kMcapMagic.size() + 1 + 8 + 4 + kMcapProfile.size() + 4;
-  if (std::filesystem::is_directory(path) || !isBagFile(path)) return false;
+  if (std::filesystem::is_directory(path)) return false;
   std::string bytes(kLibrary + kMcapLibrary.size(), '\0');
   CompressedFile(path).readUpTo(bytes.data(), bytes.size());
   return formatOf(bytes) == FileFormat::Mcap && bytes.substr(kLibrary) == kMcapLibrary;

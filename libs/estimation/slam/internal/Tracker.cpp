@@ -35,6 +35,7 @@ Matrix6d scaleError(const Rigid& map_T_body)
       fitted::kScaleError * fitted::kScaleError * (way * way.transpose() + up * up.transpose());
   return covariance;
 }
+
 Trajectory motionBetween(const SmootherWindow& before, const SmootherWindow& after,
                          const std::vector<ImuSample>& samples)
 {
