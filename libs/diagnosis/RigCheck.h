@@ -87,7 +87,11 @@ class RigCheck
    * out. */
   void add(int sensor, const ImuSample&);
 
-  /** Takes a scan; they must come in the order of time. Starts the examination that is due, and tells what is ready. */
+  /** Takes a scan as it was measured. */
+  void add(const Scan& scan) { lidars_.add(scan); }
+
+  /** Takes a localised scan; they must come in the order of time. Starts the examination that is due, and tells what is
+   * ready. */
   void add(const LocalisedScan&);
 
   /** Examines everything once more, at the end of a run. */

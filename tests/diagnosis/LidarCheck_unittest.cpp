@@ -103,6 +103,23 @@ TEST(LidarCheck, takesAGroundThatBothLidarsSeeTiltedForASlope)
   EXPECT_TRUE(findingsOf(sloping, 1).empty());
 }
 
+TEST(LidarCheck, comparesWhatLidarsSeeInTheSameScansBeforeThereAreThreeKeyframes)
+{
+  const auto poseOf = [](const Rig& rig)
+  {
+    LidarCheck check({{"left", rig.believed_left}, {"right", rig.believed_right}});
+    for (int k = 0; k < 6; ++k) check.add(Scan{Timestamp(k * 1s), 100ms, {}, keyframe(rig, k).points, {}, {}});
+    return check.compare().at(0);
+  };
+  EXPECT_EQ(poseOf({}).verdict, Verdict::Ok) << poseOf({}).says;
+  Rig turned;
+  turned.believed_right = at(0.3, -1, 0.5, -27, 15, 25);
+  const Finding turn = poseOf(turned);
+  EXPECT_EQ(turn.about, "right");
+  EXPECT_GE(turn.verdict, Verdict::Warning);
+  EXPECT_THAT(turn.mend, testing::HasSubstr("-3.0) deg"));
+}
+
 TEST(LidarCheck, judgesByThreeKeyframesBecauseTwoDoNotTellHowSureTheyAre)
 {
   EXPECT_TRUE(findingsOf({}, 2).empty());

@@ -60,6 +60,14 @@ void LidarCheck::add(const Keyframe& keyframe)
   if (keyframes_.size() == kMost) keyframes_.erase(keyframes_.begin());
   keyframes_.push_back(
       std::make_shared<const Seen>(Seen{keyframe.map_T_body, splitByLidar(keyframe.points, lidars_.size())}));
+  if (keyframes_.size() >= kFewest) scans_ = {};
+}
+
+void LidarCheck::add(const Scan& scan)
+{
+  if (keyframes_.size() >= kFewest || scan.points.empty()) return;
+  if (auto* const selected = scans_.at(scans_seen_++))
+    *selected = std::make_shared<const PointsByLidar>(splitByLidar(scan.points, lidars_.size()));
 }
 
 std::vector<SeenPoints> LidarCheck::seenBy(std::size_t lidar) const
@@ -123,9 +131,33 @@ Findings LidarCheck::compareGrounds() const
   return contradict ? tilted : Findings{};
 }
 
+std::vector<SeenPoints> LidarCheck::seenInScans(std::size_t lidar) const
+{
+  const std::vector<std::shared_ptr<const PointsByLidar>> scans = EvenSelection(scans_).taken();
+  std::vector<const PointCloud*> clouds;
+  for (const auto& scan : scans) clouds.push_back(&(*scan)[lidar]);
+  const SelfReturns own = selfReturns(clouds, groundPlane(clouds, lidars_[lidar].body_T_sensor.translation));
+  std::vector<SeenPoints> seen;
+  for (std::size_t k = 0; k < clouds.size(); ++k)
+    seen.push_back({*clouds[k], own.known ? own.marks[k] : std::vector<std::uint8_t>{}});
+  return seen;
+}
+
+Findings LidarCheck::compareScans() const
+{
+  Findings findings = compareGrounds();
+  if (!findings.empty() || scans_seen_ == 0) return findings;
+  const std::vector<SeenPoints> by_first = seenInScans(0);
+  for (std::size_t i = 1; i < lidars_.size(); ++i)
+    findings.push_back(poseFinding(
+        lidars_[i].name, lidars_[0].name,
+        cloudAgreement(pairsOf(seenInScans(i), by_first), lidars_[i].body_T_sensor, lidars_[0].body_T_sensor)));
+  return findings;
+}
+
 Findings LidarCheck::compare() const
 {
-  if (keyframes_.size() < kFewest) return compareGrounds();
+  if (keyframes_.size() < kFewest) return compareScans();
   Findings findings;
   const std::vector<SeenPoints> by_first = seenAround(0, true);
   for (std::size_t i = 0; i < lidars_.size(); ++i)

@@ -2,7 +2,9 @@
 #include "base/core/Keyframe.h"
 #include "base/core/MountedLidar.h"
 #include "calibration/GroundPlane.h"
+#include "diagnosis/internal/EvenSelection.h"
 #include "diagnosis/internal/PoseFinding.h"
+#include "input/batching/Scan.h"
 
 #include <memory>
 #include <utility>
@@ -13,9 +15,9 @@ namespace scanloom
 /**
  * Whether the lidars' poses in the body fit what they see, by the last eight keyframes: what each lidar sees must stay
  * in place while the machine drives, and be where the first lidar sees it at the same keyframe or its neighbours.
- * Before the machine has driven, a lidar is named if its ground is tilted and is not the ground that another lidar
- * sees: lidars that contradict each other so much keep a run from making keyframes. A ground that all see alike may be
- * a slope. With two lidars exchanged both are named.
+ * Before there are three keyframes, what the lidars see in the same scans is compared, and a lidar is named if its
+ * ground is tilted and is not the ground that another lidar sees: lidars that contradict each other so much keep a run
+ * from making keyframes. A ground that all see alike may be a slope. With two lidars exchanged both are named.
  */
 class LidarCheck
 {
@@ -25,19 +27,26 @@ class LidarCheck
 
   void add(const Keyframe&);
 
-  /** In the order of the lidars; of grounds alone before there are three keyframes. */
+  /** A few scans of the drive are kept until there are three keyframes. Those of lidars in the order of time. */
+  void add(const Scan&);
+
+  /** In the order of the lidars; without steadiness before there are three keyframes. */
   Findings compare() const;
 
   /** What of the machine is in the keyframes, and so in the map. */
   Finding crop() const;
 
  private:
+  using PointsByLidar = std::vector<PointCloud>;
+
   struct Seen
   {
     Rigid map_T_body;
-    std::vector<PointCloud> points;  // by sensor id, in the body frame
+    PointsByLidar points;  // in the body frame
   };
 
+  Findings compareScans() const;
+  std::vector<SeenPoints> seenInScans(std::size_t lidar) const;
   Findings compareGrounds() const;
   std::vector<const PointCloud*> cloudsOf(std::size_t lidar) const;
   std::optional<GroundPlane> groundOf(std::size_t lidar) const;
@@ -50,5 +59,7 @@ class LidarCheck
 
   std::vector<MountedLidar> lidars_;
   std::vector<std::shared_ptr<const Seen>> keyframes_;  // a copy of the check shares them
+  EvenSelection<std::shared_ptr<const PointsByLidar>> scans_;
+  std::int64_t scans_seen_ = 0;
 };
 }  // namespace scanloom

@@ -218,6 +218,7 @@ class SlamRun
     if (motion_ || mayGoWithoutImu()) uncovered_.push_back(scan.end());
     if (mayGoWithoutImu() && (!imu_ || scan.end() - *first_scan_ > kImuIsHeard)) goOnWithoutImu();
     if (!motion_) chooseImu(scan.end());
+    times_.measure("rig_check", [&] { check_.add(scan); });
     keep(slam_.addScan(std::move(scan)));
     coverScans();
   }
