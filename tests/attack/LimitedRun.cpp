@@ -35,7 +35,7 @@ void limit(int resource, std::uint64_t most)
   dup2(open(kErrors, O_WRONLY | O_CREAT | O_TRUNC, 0666), STDERR_FILENO);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, static_cast<std::uint64_t>(std::ceil(limits.cpu_seconds)));
-  limit(RLIMIT_AS, limits.address_space);
+  if (limits.address_space > 0) limit(RLIMIT_AS, limits.address_space);
   std::vector<char*> arguments;
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);

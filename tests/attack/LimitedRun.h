@@ -11,7 +11,7 @@ struct RunLimits
 {
   double cpu_seconds = 0;
   double wall_seconds = 0;
-  std::uint64_t address_space = 0;  // bytes; beyond it the program is refused memory
+  std::uint64_t address_space = 0;  // bytes, beyond which the program is refused memory; 0: no limit
 };
 
 struct RunResult

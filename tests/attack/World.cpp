@@ -5,6 +5,7 @@
 #include "support/HandmadeBag.h"
 #include "support/HandmadeMessages.h"
 #include "support/TemporaryFolder.h"
+#include "support/TestData.h"
 
 #include <fmt/format.h>
 
@@ -123,7 +124,7 @@ void writeBags(const fs::path& folder)
   writeDb3(folder / "drive.db3", cdr);
 }
 
-constexpr RunLimits kPatient{600, 600, std::uint64_t{8} << 30};
+constexpr RunLimits kPatient{600, 600, 0};
 
 class Maker
 {
@@ -214,8 +215,34 @@ std::vector<Target> targetsOfBags()
          {"info {} --json", "doctor {} --json",
           "record {} --set lidars.extrinsics=drive/extrinsics.txt -o out/a.rawlog",
           "slam {} --set lidars.extrinsics=drive/extrinsics.txt --set output.maps=false --out-dir out/slam",
-          "evaluate --trajectory true.tum --reference {}"})
+          "evaluate --trajectory true.tum --reference {}", "config --for {}",
+          "calibrate {} --set lidars.extrinsics=drive/extrinsics.txt --out-dir out/calibration",
+          "view {} --png out/a.png"})
       targets.push_back({bag, Content::Binary, verb});
+  return targets;
+}
+
+/** Recordings that others made, as far as they lie beside the project; ours have never seen what is in them. */
+std::vector<Target> targetsOfOthersRecordings()
+{
+  constexpr std::uintmax_t kLargest = 1'200'000;  // bytes
+  std::vector<Target> targets;
+  const std::optional<fs::path> data = testData("");
+  if (!data) return targets;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(*data))
+    if (entry.is_regular_file() && entry.file_size() < kLargest) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files)
+  {
+    const std::string extension = file.extension().string();
+    if (extension != ".bag" && extension != ".mcap" && extension != ".db3" && extension != ".pcap" &&
+        extension != ".rawlog")
+      continue;
+    for (const char* verb : {"info {} --json", "doctor {} --json", "record {} -o out/a.rawlog",
+                             "slam {} --set output.maps=false --out-dir out/slam"})
+      targets.push_back({file.string(), extension == ".rawlog" ? Content::Packed : Content::Binary, verb});
+  }
   return targets;
 }
 }  // namespace
@@ -282,6 +309,9 @@ const std::vector<Target>& targets()
       {"true.tum", C::Text, "edit -q -i short.rawlog -o out/a.rawlog --deskew {}"},
       {"true.tum", C::Text, "map -q -i short.rawlog --trajectory {} --preset preview -o out/a.bt"},
       {"true.tum", C::Text, "map -q -i {} -o out/a.csv"},
+      {"short.rawlog", C::Packed, "edit -q -i {} --to-mcap out/a.mcap"},
+      {"drive.pcap", C::Binary, "config --for {}"},
+      {"drive.pcap", C::Binary, "calibrate -c rig.ini --set lidars.pcap_input={} --out-dir out/calibration"},
       {"map.bt", C::Binary, "map -q -i {} -o out/a.ply"},
       {"map.ot", C::Binary, "map -q -i {} -o out/a.bt -o out/a.ply --cubes"},
       {"map.ot", C::Binary, "view {} --png out/a.png"},
@@ -290,8 +320,9 @@ const std::vector<Target>& targets()
   };
   static const std::vector<Target> kTargets = [&]
   {
-    std::vector<Target> all = kOthers, bags = targetsOfBags();
-    all.insert(all.end(), bags.begin(), bags.end());
+    std::vector<Target> all = kOthers;
+    for (const std::vector<Target>& more : {targetsOfBags(), targetsOfOthersRecordings()})
+      all.insert(all.end(), more.begin(), more.end());
     return all;
   }();
   return kTargets;

@@ -1,7 +1,9 @@
 /**
  * Damages one sound file at a time and gives it to a verb: `scanloom_attack SCANLOOM --seconds 30`. No verb may crash,
  * hang, take more memory than ten times the file and what it takes for a sound one (at least 200 MB), or fail without
- * a word. The same seed gives the same damage. Status 1 if there are findings; their files are kept.
+ * a word, or send control characters to the terminal. The same seed gives the same damage. Status 1 if there are
+ * findings; their files are kept. Of a program with sanitizers, whose shadow takes terabytes of addresses, memory is
+ * not limited.
  */
 #include "LimitedRun.h"
 #include "World.h"
@@ -26,7 +28,13 @@ namespace fs = std::filesystem;
 namespace
 {
 constexpr std::uint64_t kMegabyte = 1'000'000;
-constexpr RunLimits kForSound{120, 600, std::uint64_t{8} << 30};
+#ifdef SCANLOOM_SANITIZED
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+constexpr RunLimits kForSound{120, 600, kSanitized ? 0 : std::uint64_t{8} << 30};
+constexpr std::uint64_t kMostAddresses = kSanitized ? 0 : std::uint64_t{6} << 30;
 
 struct Arguments
 {
@@ -82,7 +90,7 @@ class Attack
     const fs::path file = world_ / "hit" / fs::path(target.file).filename();
     std::ofstream(file, std::ios::binary) << damaged;
 
-    const RunLimits limits{10 + 10 * sound.run.cpu_seconds, 300, std::uint64_t{6} << 30};
+    const RunLimits limits{10 + 10 * sound.run.cpu_seconds, 300, kMostAddresses};
     const RunResult result = runOn(target, file, limits);
     const std::optional<std::string> fault = faultOf(result, sound, damaged.size());
     if (!fault) return false;
@@ -123,13 +131,19 @@ class Attack
       return fmt::format("does not end within {:.0f} s ({:.0f} s of a core), {:.1f} s for a sound file", run.seconds,
                          run.cpu_seconds, sound.run.cpu_seconds);
     if (run.signal != 0) return fmt::format("crashes with signal {}: {}", run.signal, run.errors);
-    if (run.peak_bytes > most || run.errors.find("bad_alloc") != std::string::npos)
+    if (run.errors.find("Sanitizer") != std::string::npos || run.errors.find("runtime error:") != std::string::npos)
+      return run.errors;
+    if ((!kSanitized && run.peak_bytes > most) || run.errors.find("bad_alloc") != std::string::npos)
       return fmt::format("takes {} MB for a file of {:.1f} MB, {} MB for a sound one", run.peak_bytes / kMegabyte,
                          1e-6 * static_cast<double>(size), sound.run.peak_bytes / kMegabyte);
     constexpr std::array kStatus{0, 1, 2, 3};
     if (std::find(kStatus.begin(), kStatus.end(), run.status) == kStatus.end())
       return fmt::format("ends with status {}", run.status);
     if ((run.status == 1 || run.status == 2) && run.errors.empty()) return "fails without a word";
+    const auto is_control = [](unsigned char c)
+    { return (c < ' ' && c != '\n' && c != '\t' && c != '\r') || c == 0x7F; };
+    if (std::any_of(run.errors.begin(), run.errors.end(), is_control))
+      return "sends control characters to the terminal";
     return std::nullopt;
   }
 

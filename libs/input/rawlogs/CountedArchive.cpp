@@ -22,6 +22,7 @@ constexpr const char* kMovement = "CActionRobotMovement2D";
 constexpr const char* kMovement3d = "CActionRobotMovement3D";
 
 constexpr const char* kGeneric = "CGenericPointsMap";
+constexpr const char* kRotatingScan = "CObservationRotatingScan";
 
 /** Since MRPT 2.15 the class is MRPT's own; before it is ours, which reads in pieces and takes no memory in advance. */
 constexpr int kArraysOfGeneric = MRPT_VERSION < 0x20f00 ? 0 : 3;
@@ -39,7 +40,8 @@ constexpr std::array kCountedClasses{
     CountedClass{"CObservationPointCloud", 1, 1, kEach},  // its label, and a file's name
     CountedClass{"CObservationComment", 1, 1, kEach},
     CountedClass{"CObservationVelodyneScan", 1, 1, kEach, 0, 1206},  // its label, its packets
-    CountedClass{"CObservationIMU", 8, 1, kEach},                    // before version 4: numbers of doubles
+    CountedClass{kRotatingScan, 1},
+    CountedClass{"CObservationIMU", 8, 1, kEach},  // before version 4: numbers of doubles
     CountedClass{"CObservationRobotPose", 1},
     CountedClass{"CObservationOdometry", 1},
     CountedClass{"CPose2D", 0, 0, 0, 1},
@@ -143,6 +145,8 @@ void CountedArchive::follow(const char* bytes, std::size_t count)
     next_ = --arrays_ > 0 ? Next::Items : afterItems();
   else if (const CountedClass* begun = classNamed({bytes, count}))
     begin(*begun);
+  else if (now == Next::Images)
+    followImages(bytes, count);
 }
 
 /** Of its name and, as the last, its values. Up to version 2 the names of two types are between, but for floats. */
@@ -172,6 +176,24 @@ void CountedArchive::followLists(const char* bytes, std::size_t count)
   if (std::any_of(bytes, bytes + count, [](char byte) { return byte != 0; }))
     refuse(fmt::format("holds a {} with lists of points by laser, which are not read", class_->name));
   next_ = Next::Anything;
+}
+
+/**
+ * In a CObservationRotatingScan, whose counts have no fixed order: numbers of two bytes, one behind the other, are the
+ * width and the height of an image, and in its first version those of four bytes the length of a name.
+ */
+void CountedArchive::followImages(const char* bytes, std::size_t count)
+{
+  std::uint32_t number = 0;
+  if (count <= sizeof number) std::memcpy(&number, bytes, count);
+  if (count == sizeof number && version_ == 0) requireToFollow(number, "characters");
+  if (count != sizeof(std::uint16_t))
+  {
+    numbers_.clear();
+    return;
+  }
+  numbers_.push_back(number);
+  if (numbers_.size() >= 2) requireToFollow(std::uint64_t{numbers_[numbers_.size() - 2]} * number, "pixels");
 }
 
 /** MRPT writes the length of the name with the highest bit set, the name, the data, and an end flag. */
@@ -229,7 +251,10 @@ void CountedArchive::followVersion(unsigned version)
     refuse(
         fmt::format("holds a {} of version {}: {} or later can be read", class_->name, version, class_->least_version));
   numbers_.clear();
-  next_ = class_->name == kMovement ? Next::Movement : class_->name == kFrame && version < 2 ? Next::Id : Next::Count;
+  next_ = class_->name == kMovement               ? Next::Movement
+          : class_->name == kRotatingScan         ? Next::Images
+          : class_->name == kFrame && version < 2 ? Next::Id
+                                                  : Next::Count;
 }
 
 void CountedArchive::followMovement(const char* bytes, std::size_t count)
@@ -268,8 +293,7 @@ void CountedArchive::followCount(std::uint32_t items)
                               : counts_before == 0                             ? class_->least_bytes
                               : counts_before == 1 && class_->second_bytes > 0 ? class_->second_bytes
                                                                                : std::min(class_->least_bytes, kFloat);
-  if (!follows(items * least))
-    refuse(fmt::format("is damaged: a {} of {} items, but only {} bytes follow", class_->name, items, ahead_.size()));
+  requireToFollow(items, "items", least);
   next_ = items > 0 && arrays_ > 0 ? Next::Items : afterItems();
 }
 
@@ -278,6 +302,13 @@ CountedArchive::Next CountedArchive::afterItems()
   arrays_ = 1;
   if (more_-- > 0) return Next::Count;
   return class_->name == kGeneric && kArraysOfGeneric > 0 ? Next::Fields : Next::Anything;
+}
+
+void CountedArchive::requireToFollow(std::uint64_t items, const char* what, std::uint64_t least_bytes)
+{
+  if (!follows(items * least_bytes))
+    refuse(
+        fmt::format("is damaged: a {} of {} {}, but only {} bytes follow", class_->name, items, what, ahead_.size()));
 }
 
 bool CountedArchive::follows(std::uint64_t bytes)

@@ -63,6 +63,7 @@ class CountedArchive : public mrpt::serialization::CArchive
     NoLists,  // a number of lists, of which there must be none
     Fields,   // a number of fields of a CGenericPointsMap, or its options
     Items,    // of array after array: no count, although they may be 4 bytes
+    Images,   // of a CObservationRotatingScan, and names
   };
 
   void follow(const char* bytes, std::size_t count);
@@ -74,8 +75,10 @@ class CountedArchive : public mrpt::serialization::CArchive
   void followFields(const char* bytes, std::size_t count);
   void followLists(const char* bytes, std::size_t count);
   void followMovement(const char* bytes, std::size_t count);
+  void followImages(const char* bytes, std::size_t count);
   int countsPerField() const;
   Next afterItems();
+  void requireToFollow(std::uint64_t items, const char* what, std::uint64_t least_bytes = 1);
   bool follows(std::uint64_t bytes);
   [[noreturn]] void refuseLargeObject();
   [[noreturn]] void refuse(const std::string& why);
@@ -92,7 +95,7 @@ class CountedArchive : public mrpt::serialization::CArchive
   int arrays_ = 0, more_ = 0;           // that are still to come
   std::vector<std::string> within_;     // names of the objects that are being read, the outermost first
   std::size_t name_length_ = 0;         // of a name that may come next
-  std::vector<std::uint32_t> numbers_;  // of a CActionRobotMovement2D, so far
+  std::vector<std::uint32_t> numbers_;  // of a CActionRobotMovement2D so far, or sizes of a CObservationRotatingScan
   unsigned version_ = 0;                // of class_
   std::uint32_t points_ = 0;            // of a CGenericPointsMap
   int field_types_ = 0;                 // of a CGenericPointsMap: lists of fields, one for each type, that have begun

@@ -67,6 +67,6 @@ void RawlogObservations::endBecause(const std::string& why)
 {
   ended_ = true;
   waiting_.clear();
-  damage_ = fmt::format("after {} objects: {}", objects_, why);
+  damage_ = fmt::format("after {} objects: {}", objects_, printable(why));  // it may quote the file
 }
 }  // namespace scanloom
