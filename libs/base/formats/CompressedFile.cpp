@@ -24,29 +24,33 @@ constexpr std::size_t kLargestCall = 1 << 30;  // zlib counts in int
 constexpr std::array<char, 4> kZstdMagic{'\x28', '\xB5', '\x2F', '\xFD'};
 
 bool isGzip(const std::array<char, 4>& bytes) { return bytes[0] == '\x1F' && bytes[1] == '\x8B'; }
-}  // namespace
 
-/** A file and its first bytes, which were read to see what it is; what is read from a pipe is gone. */
-struct CompressedFile::OpenFile
+/** Throws std::runtime_error if it cannot be opened, or is no file. Opening a pipe would wait for its writer. */
+std::ifstream opened(const std::filesystem::path& path)
 {
-  /** Throws std::runtime_error if it cannot be opened. */
-  explicit OpenFile(const std::filesystem::path& path) : stream(path, std::ios::binary)
-  {
-    if (!stream) throw std::runtime_error(fmt::format("{}: {}", path.string(), std::strerror(errno)));
-    if (std::filesystem::is_directory(path)) throw std::runtime_error(path.string() + ": is a directory");
-    stream.read(first.data(), first.size());
-    held = static_cast<std::size_t>(stream.gcount());
-  }
+  if (std::filesystem::is_directory(path)) throw std::runtime_error(path.string() + ": is a directory");
+  if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
+    throw std::runtime_error(path.string() + ": a pipe or a device can be read only once: write it to a file first");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(fmt::format("{}: {}", path.string(), std::strerror(errno)));
+  return file;
+}
 
-  std::ifstream stream;
+/** Zeros behind its end. The file is at its begin afterwards. */
+std::array<char, 4> firstBytesOf(std::ifstream& file)
+{
   std::array<char, 4> first{};
-  std::size_t held = 0, taken = 0;  // of the first bytes: those that are there, those that were given on
-};
+  file.read(first.data(), first.size());
+  file.clear();
+  file.seekg(0);
+  return first;
+}
+}  // namespace
 
 class CompressedFile::Source
 {
  public:
-  explicit Source(OpenFile file) : file_(std::move(file)) {}
+  explicit Source(std::ifstream file) : file_(std::move(file)) {}
   virtual ~Source() = default;
 
   /** Some of the bytes that are asked for; 0 at the end; nothing if the data are damaged. */
@@ -59,18 +63,14 @@ class CompressedFile::Source
   /** Bytes of the file as they are, fewer than `count` at its end. */
   std::size_t readFile(void* bytes, std::size_t count)
   {
-    auto* const to = static_cast<char*>(bytes);
-    const std::size_t ahead = std::min(count, file_.held - file_.taken);
-    std::copy_n(file_.first.begin() + file_.taken, ahead, to);
-    file_.taken += ahead;
-    file_.stream.read(to + ahead, static_cast<std::streamsize>(count - ahead));
-    const std::size_t got = ahead + static_cast<std::size_t>(file_.stream.gcount());
+    file_.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count));
+    const auto got = static_cast<std::size_t>(file_.gcount());
     bytes_read_ += got;
     return got;
   }
 
  private:
-  OpenFile file_;
+  std::ifstream file_;
   std::uint64_t bytes_read_ = 0;
 };
 
@@ -86,7 +86,7 @@ class CompressedFile::Plain : public Source
 class CompressedFile::Gzip : public Source
 {
  public:
-  explicit Gzip(OpenFile file) : Source(std::move(file)), packed_(kBuffer)
+  explicit Gzip(std::ifstream file) : Source(std::move(file)), packed_(kBuffer)
   {
     if (inflateInit2(&stream_, kGzipOnly) != Z_OK) throw std::bad_alloc();
   }
@@ -139,7 +139,7 @@ class CompressedFile::Gzip : public Source
 class CompressedFile::Zstd : public Source
 {
  public:
-  explicit Zstd(OpenFile file)
+  explicit Zstd(std::ifstream file)
     : Source(std::move(file)), stream_(ZSTD_createDStream(), &ZSTD_freeDStream), packed_(kBuffer)
   {
   }
@@ -176,10 +176,11 @@ class CompressedFile::Zstd : public Source
 
 CompressedFile::CompressedFile(const std::filesystem::path& path) : path_(path)
 {
-  OpenFile file(path);
-  if (file.first == kZstdMagic)
+  std::ifstream file = opened(path);
+  const std::array<char, 4> first = firstBytesOf(file);
+  if (first == kZstdMagic)
     source_ = std::make_unique<Zstd>(std::move(file));
-  else if (isGzip(file.first))
+  else if (isGzip(first))
     source_ = std::make_unique<Gzip>(std::move(file));
   else
     source_ = std::make_unique<Plain>(std::move(file));

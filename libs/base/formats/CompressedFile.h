@@ -8,14 +8,14 @@
 namespace scanloom
 {
 /**
- * Reads a file or pipe that is plain, gzip or zstd, as its first bytes say; several members or frames are one stream.
+ * Reads a file that is plain, gzip or zstd, as its first bytes say; several members or frames are one stream.
  * One that unpacks to more than 64 MiB and 64 times its size counts as damaged from there on: clouds shrink to a third,
  * text of round numbers to a twentieth, zeros to a thousandth and less.
  */
 class CompressedFile
 {
  public:
-  /** Throws std::runtime_error with the file's name if it cannot be opened. */
+  /** Throws std::runtime_error with the file's name if it cannot be opened, or is a pipe or a device. */
   explicit CompressedFile(const std::filesystem::path&);
   ~CompressedFile();
 
@@ -32,7 +32,6 @@ class CompressedFile
   std::uint64_t bytesRead() const;
 
  private:
-  struct OpenFile;
   class Source;
   class Plain;
   class Gzip;

@@ -76,6 +76,7 @@ std::string describeFile(const std::filesystem::path& path)
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return "no such file";
   if (std::filesystem::is_directory(path, ignored)) return "a folder";
+  if (!std::filesystem::is_regular_file(path, ignored)) return "a pipe or a device";  // opening it may wait for ever
   std::ifstream file(path, std::ios::binary);
   if (!file) return std::string("cannot be opened: ") + std::strerror(errno);
 

@@ -44,9 +44,7 @@ CaptureReader::CaptureReader(const std::filesystem::path& path) : path_(path)
     throw std::runtime_error(fmt::format("{}: {}; a pcap or pcapng capture of UDP packets is needed ({})",
                                          path.string(), describeFile(path), error.what()));
   }
-  std::error_code not_a_file;  // a pipe has no size: its progress stays 0
-  const auto size = std::filesystem::file_size(path, not_a_file);
-  if (!not_a_file) file_size_ = static_cast<double>(size);
+  file_size_ = static_cast<double>(std::filesystem::file_size(path));
 }
 
 CaptureReader::CaptureReader(CaptureReader&&) noexcept = default;

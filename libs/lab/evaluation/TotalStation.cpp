@@ -2,6 +2,7 @@
 
 #include "base/config/Names.h"
 #include "base/config/Values.h"
+#include "base/core/printable.h"
 #include "base/formats/SecondsText.h"
 #include "base/formats/TrajectoryReader.h"
 #include "lab/evaluation/internal/StationColumns.h"
@@ -64,7 +65,7 @@ class StationLines
         throw std::invalid_argument(
             fmt::format("expected time, x, y and z in the order of the header (without one: "
                         "t,x,y,z in s and m), found '{}'",
-                        line));
+                        printable(line.substr(0, 80))));
       measured.position[axis] = *value * columns_.position_unit[a];
     }
     return measured;
