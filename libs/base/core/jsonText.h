@@ -13,4 +13,12 @@ inline std::string jsonText(const nlohmann::json& json, int indentation = 2)
 {
   return json.dump(indentation, ' ', false, nlohmann::json::error_handler_t::replace);
 }
+
+/** What is wrong with a text or a value, as nlohmann says it behind its own name and number of the error. */
+inline std::string reasonOf(const nlohmann::json::exception& error)
+{
+  const std::string what = error.what();
+  const std::size_t prefix = what.find("] ");
+  return prefix == std::string::npos ? what : what.substr(prefix + 2);
+}
 }  // namespace scanloom

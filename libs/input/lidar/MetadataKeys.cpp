@@ -1,5 +1,6 @@
 #include "input/lidar/MetadataKeys.h"
 
+#include "base/core/jsonText.h"
 #include "base/core/printable.h"
 
 #include <fmt/format.h>
@@ -47,7 +48,7 @@ MetadataKeys::MetadataKeys(const std::string& text, std::string name) : name_(st
   catch (const nlohmann::json::exception& e)
   {
     throw std::invalid_argument(
-        fmt::format("{}: not a metadata file, its text is no valid JSON ({})", name_, printable(e.what())));
+        fmt::format("{}: not a metadata file, its text is no valid JSON ({})", name_, printable(reasonOf(e))));
   }
   if (!root_->is_object())
     throw std::invalid_argument(fmt::format("{}: not a metadata file, expected a JSON object with keys", name_));

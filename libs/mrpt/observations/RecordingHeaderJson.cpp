@@ -111,7 +111,7 @@ std::optional<RecordingHeader> recordingHeaderFromJson(const std::string& text)
   }
   catch (const json::exception& e)
   {
-    refuse(e.what());
+    refuse(reasonOf(e));
   }
 }
 }  // namespace scanloom

@@ -3,6 +3,7 @@
 #include "base/config/Names.h"
 #include "base/core/OutputFile.h"
 #include "base/core/jsonText.h"
+#include "base/core/printable.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -64,8 +65,15 @@ Study readStudy(const std::filesystem::path& folder)
   if (!file)
     throw std::runtime_error(
         fmt::format("{} has no results.json: is it the folder of an experiment?", folder.string()));
-  const auto json = nlohmann::json::parse(file);
-  return {json.at("command"), json.at("machine"), json.at("runs").get<std::vector<RunRecord>>()};
+  try
+  {
+    const auto json = nlohmann::json::parse(file);
+    return {json.at("command"), json.at("machine"), json.at("runs").get<std::vector<RunRecord>>()};
+  }
+  catch (const nlohmann::json::exception& e)
+  {
+    throw std::runtime_error(fmt::format("{}: {}", (folder / "results.json").string(), printable(reasonOf(e))));
+  }
 }
 
 void pointLatestTo(const std::filesystem::path& folder)
