@@ -314,6 +314,19 @@ void addBuiltInModels(const std::vector<SampledStream>& streams, std::vector<Met
   for (MetadataCandidate& candidate : candidatesFrom(models)) candidates.push_back(std::move(candidate));
 }
 
+/** The file that describes packets for the stream's port, but not these; empty if there is none. */
+std::string otherDescription(const SampledStream& stream, const std::vector<MetadataCandidate>& unheard)
+{
+  const auto names_port = [&](const MetadataCandidate& candidate)
+  { return stream.port != 0 && candidate.decoder->description().lidar_port == stream.port; };
+  const auto found = std::find_if(unheard.begin(), unheard.end(), names_port);
+  if (found == unheard.end()) return "";
+  return fmt::format(
+      "; {} describes packets to this port, but of another size or format (Ouster: udp_profile_lidar): "
+      "fetch the sensor's metadata again",
+      found->file.string());
+}
+
 /** Its measurements, or what else its sensor sends: positions, state. */
 bool isOfALidar(const SampledStream& stream, const std::vector<FoundLidar>& lidars,
                 const std::vector<MetadataCandidate>& candidates)
@@ -391,8 +404,8 @@ LidarsFound findLidars(const std::vector<SampledStream>& streams, std::vector<Me
     if (stream.datagrams >= kWorthANote && !isOfALidar(stream, found.lidars, candidates))
     {
       found.left_streams_out = true;
-      found.notes.push_back(
-          fmt::format("{} are of no lidar with known metadata: left out{}", describe(stream), wayOut(stream)));
+      found.notes.push_back(fmt::format("{} are of no lidar with known metadata: left out{}{}", describe(stream),
+                                        wayOut(stream), otherDescription(stream, found.unheard)));
     }
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(found.faulty),
                [](const MetadataCandidate& candidate) { return !candidate.decoder; });

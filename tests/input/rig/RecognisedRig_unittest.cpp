@@ -141,6 +141,19 @@ TEST(RecognisedRig, ofAnotherSensorsMetadataNamesBothSerialNumbers)
   EXPECT_THAT(refusalOf({wrong / "drive.pcap"}), AllOf(HasSubstr("122322000615"), HasSubstr("122150000151")));
 }
 
+TEST(RecognisedRig, metadataOfAnotherProfileAreNamedWithThePortWhosePacketsTheyDoNotDescribe)
+{
+  SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
+  const TemporaryFolder changed;
+  writeSome(folder / "recording.pcap", changed / "drive.pcap", [](const Datagram&) { return true; });
+  std::filesystem::copy(folder / "right.json", changed / "right.json");
+  const std::string left = contentOf(folder / "left.json"), profile = "RNG15_RFL8_NIR8";
+  std::ofstream(changed / "left.json") << std::string(left).replace(left.find(profile), profile.size(), "LEGACY");
+  EXPECT_THAT(recogniseRig(filesOf({changed.path()})).notes,
+              Contains(AllOf(HasSubstr("to port 7502"), HasSubstr("left.json describes packets to this port"),
+                             HasSubstr("fetch the sensor's metadata again"))));
+}
+
 TEST(RecognisedRig, keepsALidarThatSentNothingIfItsPoseIsGiven)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");

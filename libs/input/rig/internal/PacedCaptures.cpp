@@ -14,6 +14,7 @@ namespace
 {
 constexpr std::size_t kEnough = 50;           // pairs of packets
 constexpr Duration kLongestGap = 500ms;       // of stamps: over a longer one a lidar may have restarted
+constexpr Duration kLongestPause = 20s;       // of all sensors; captures that are written in turn follow at once
 constexpr double kThousand = 3, kNear = 0.3;  // decades: a factor of two is no power of 1000
 
 struct Times
@@ -48,7 +49,8 @@ double receivePace(const std::vector<RoutedLidar>& lidars, const std::deque<Data
   return std::isfinite(decades) && std::abs(decades - whole) < kNear ? std::pow(10, whole) : 1;
 }
 
-PacedCaptures::PacedCaptures(const Rig& rig) : captures_(datagramsOf(rig.captures)), notes_(rig.notes)
+PacedCaptures::PacedCaptures(const Rig& rig)
+  : captures_(datagramsOf(rig.captures)), of_several_(rig.captures.size() > 1), notes_(rig.notes)
 {
   constexpr std::size_t kLookedAt = 500, kBytes = 16'000'000;  // datagrams; those of a bag's clouds are large
   std::size_t bytes = 0;
@@ -77,7 +79,18 @@ bool PacedCaptures::next(Datagram& datagram)
   else if (!captures_.next(datagram))
     return false;
   if (pace_ != 1) datagram.received = begin_ + fromSeconds(seconds(datagram.received - begin_) / pace_);
+  noteLongPause(datagram.received);
   return true;
+}
+
+void PacedCaptures::noteLongPause(Timestamp received)
+{
+  const Timestamp last = std::exchange(last_, received);
+  if (of_several_ && last != Timestamp{} && received - last > kLongestPause)
+    notes_.push_back(
+        fmt::format("no packet for {:.0f} s between two captures: if they are of two drives, each needs a run of its "
+                    "own, with its capture named",
+                    seconds(received - last)));
 }
 
 std::vector<std::string> PacedCaptures::takeWarnings()

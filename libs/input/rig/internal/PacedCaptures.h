@@ -29,7 +29,11 @@ class PacedCaptures
   std::vector<std::string> takeWarnings();
 
  private:
+  void noteLongPause(Timestamp received);
+
   MergedCaptures captures_;
+  bool of_several_;
+  Timestamp last_;              // time of reception of the last datagram given
   std::deque<Datagram> first_;  // that were read to tell the pace, until they are given
   double pace_ = 1;             // of times of reception
   Timestamp begin_;             // the first of these times
