@@ -8,6 +8,7 @@
 #include "base/core/OutputFolder.h"
 #include "base/core/Progress.h"
 #include "base/core/jsonText.h"
+#include "base/formats/FileFormat.h"
 #include "mrpt/edit/EditOperations.h"
 #include "mrpt/edit/namesOfExport.h"
 
@@ -39,6 +40,14 @@ void requireOne(const std::vector<EditOperation>& operations)
   if (names.size() > 1)
     throw UsageError(fmt::format("one operation a call, not {}: use the output of one as the input of the next",
                                  fmt::join(names, ", ")));
+}
+
+/** MRPT would call them damaged rawlogs. */
+void refuseCaptures(const std::filesystem::path& input)
+{
+  if (formatOfFile(input) != FileFormat::Other)
+    throw UsageError(
+        fmt::format("{}: is a capture or a bag, not a rawlog: 'scanloom record' makes one of it", input.string()));
 }
 
 void refuseExistingOutputs(const EditArguments& arguments, const EditOperation& operation)
@@ -121,6 +130,7 @@ int edit(const EditArguments& arguments, const std::vector<EditOperation>& opera
   if (to_rawlog) refuseExisting({arguments.output}, arguments.overwrite);
   for (const EditOperation& operation : operations) refuseExistingOutputs(arguments, operation);
   refuseToReplaceInputs(arguments, operations);
+  refuseCaptures(arguments.input);
 
   catchInterruption();
   const RawlogEdited edited = to_rawlog ? editRawlog(arguments.input, chained(operations, arguments.input, {}),

@@ -214,6 +214,7 @@ std::filesystem::path defaultRawlog(const RecordingArguments& recording)
 
 int run(RecordArguments arguments)
 {
+  if (arguments.web.given()) webAddress(arguments.web);  // it may have swallowed the recording
   const RecordingFiles recording = recordingOf(arguments.recording);
   if (arguments.output.empty()) arguments.output = defaultRawlog(arguments.recording);
   const Loaded<RecordSettings> loaded = load<RecordSettings>(arguments.configuration, recording);

@@ -194,6 +194,7 @@ SlamInput inputOf(const RecordingFiles& recording, const SlamArguments& argument
 
 int run(SlamArguments arguments)
 {
+  if (arguments.web.given()) webAddress(arguments.web);  // it may have swallowed the recording
   if (arguments.every_nth > 0)
     arguments.configuration.assignments.push_back(fmt::format("slam.every_nth={}", arguments.every_nth));
   const RecordingFiles recording =
@@ -211,7 +212,6 @@ int run(SlamArguments arguments)
     std::cout << toIni(loaded);
     return kDone;
   }
-  if (!arguments.web.address.empty()) webAddress(arguments.web);
   catchInterruption();
   return process(input, arguments, loaded, names);
 }

@@ -119,6 +119,15 @@ TEST_F(Edit, anInputThatIsMissingIsStatus1)
   EXPECT_EQ(edit("-i nowhere.rawlog -o " + out + " --keep-every 2").status, 1);
 }
 
+TEST_F(Edit, aCaptureIsStatus2WithTheVerbThatMakesARawlogOfIt)
+{
+  std::ofstream(folder / "drive.pcap") << "\xd4\xc3\xb2\xa1 and packets";
+  const Ended run = edit("-i " + (folder / "drive.pcap").string() + " -o " + out + " --keep-every 2");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.output, testing::HasSubstr("'scanloom record' makes one of it"));
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST_F(Edit, exportsIntoAFolderThatIsEmptyOrOverwritten)
 {
   const std::string folder_of_clouds = " --export pcd=" + (folder / "clouds").string();

@@ -40,7 +40,15 @@ TEST(Web, saysSoIfOtherComputersReachIt)
   EXPECT_THAT(announced("127.0.0.1"), testing::Not(testing::HasSubstr("warning")));
 }
 
-TEST(Web, takesNoRecordingForAnAddress) { EXPECT_THROW(webAddress({"drive.pcap"}), UsageError); }
+TEST(Web, takesNoRecordingForAnAddress)
+{
+  for (const char* verb : {"slam", "record"})
+  {
+    const Ended ended = runProgram(std::string(SCANLOOM_BIN_DIR "/scanloom ") + verb + " --web drive.pcap 2>&1");
+    EXPECT_EQ(ended.status, 2) << verb;
+    EXPECT_THAT(ended.output, testing::HasSubstr("write --web last")) << verb;
+  }
+}
 
 TEST(Web, changesNoBitOfTheTrajectory)
 {
