@@ -13,7 +13,9 @@ namespace
 {
 constexpr std::size_t kFewestStations = 10;
 constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
-constexpr double kFarthestApart = 0.25;  // m, surfaceDistance: twice that of a dense stand; 0.45 m the wrong way round
+// Of surfaces (surfaceDistance): 1.1 to 1.25 times distanceWithinReference where the pose is right; in a hall that is
+// mm.
+constexpr double kFarthestApart = 1.6, kAlwaysAllowed = 0.02;  // of distanceWithinReference; m
 constexpr int kRounds = 15;
 constexpr double kFarthest = 1;      // m, from the start: so far off a level finds nothing any more
 constexpr double kNextLevel = 1e-2;  // m, a round's correction: enough for the next level
@@ -157,28 +159,35 @@ MountEstimate told(MountEstimate estimate, const Mount& mount, const Matrix7d& c
   return estimate;
 }
 
-MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& given, const Mount& start,
-                            const Trajectory& trajectory, Clock clock)
+MountEstimate estimateMount(const std::vector<Station>& stations, const Mount& given, const MountStart& start,
+                            const Trajectory& trajectory, Clock clock, const RotationByImus& imus)
 {
   MountEstimate estimate;
   estimate.mount = given;
   estimate.stations = stations.size();
   if (stations.size() < kFewestStations) return estimate;
 
-  const Approach approach = approachFrom(start, stations, trajectory, clock);
+  const Approach approach = approachFrom(start.mount, stations, trajectory, clock);
   Mount mount = approach.mount;
   const LevelOfDrive fine(stations, trajectory, kFinestLevel, Clock::Kept);
   const bool settled = fine.improve(mount, kSettled) < kNearlySettled && approach.settled;
   const MountFit before = mountFit(stations, given, trajectory), after = mountFit(stations, mount, trajectory);
   estimate.shared_before = before.shared, estimate.distance_before = before.distance;
   estimate.shared_after = after.shared, estimate.distance_after = after.distance;
+  estimate.distance_of_reference = distanceWithinReference(stations);
 
   estimate.outcome = MountOutcome::NothingShared;
   if (after.shared < kLeastShared) return estimate;
   estimate.outcome = MountOutcome::Unstable;
-  const bool fits = after.shared >= before.shared - kMostShareLost && after.distance < kFarthestApart;
+  const bool fits = after.shared >= before.shared - kMostShareLost &&
+                    after.distance < kFarthestApart * estimate.distance_of_reference + kAlwaysAllowed;
   if (!settled || !fits) return estimate;
-  return told(std::move(estimate), mount, fine.covarianceOf(mount, approach.clock_deviation, after.distance), given);
+  estimate.outcome = MountOutcome::Contradicted;
+  if (contradicts(imus, mount.body_T_sensor.rotation)) return estimate;
+  estimate =
+      told(std::move(estimate), mount, fine.covarianceOf(mount, approach.clock_deviation, after.distance), given);
+  const bool ambiguous = start.rival && fitsAsWell(mountFit(stations, *start.rival, trajectory), after);
+  return ambiguous ? doubted(std::move(estimate), *start.rival, given) : estimate;
 }
 
 MountEstimate doubted(MountEstimate estimate, const Mount& by, const Mount& given)

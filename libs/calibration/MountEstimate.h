@@ -1,5 +1,6 @@
 /** Pose and clock of a lidar on the body by what a reference lidar saw at the same places of a drive. */
 #pragma once
+#include "calibration/MountSearch.h"
 #include "calibration/internal/MountCovariance.h"
 #include "calibration/internal/StationMaps.h"
 
@@ -13,7 +14,8 @@ enum class MountOutcome
   Open,           // but for some directions, which keep the given values
   StoodStill,     // fewer than ten stations: no covariance, so no number is trusted
   NothingShared,  // less than a tenth of its points are where the reference saw something
-  Unstable,       // it did not settle
+  Unstable,       // it did not settle, or does not fit
+  Contradicted,   // the IMUs in the lidars feel another rotation between them
 };
 
 /** The mount is the given one, unless Estimated or Open. */
@@ -23,6 +25,7 @@ struct MountEstimate : ToldMount
   std::size_t stations = 0;
   double shared_before = 0, shared_after = 0;      // share of points that are where the reference saw something
   double distance_before = 0, distance_after = 0;  // m, surfaceDistance
+  double distance_of_reference = 0;                // m, distanceWithinReference
 };
 
 /** Estimated or Open, by the covariance (in metres, see toldMount). */
@@ -30,10 +33,10 @@ MountEstimate told(MountEstimate, const Mount& estimate, const Matrix7d& covaria
 
 /**
  * D2D NDT (ndt/Registration.h) from `start` (findStart), with cells of 2 m, then 1 m; scans are deskewed anew with each
- * better mount. `given` is what is known without the drive: open directions keep it.
+ * better mount. `given` is what is known without the drive: open directions keep it. The start's rival doubts it.
  */
-MountEstimate estimateMount(const std::vector<Station>&, const Mount& given, const Mount& start, const Trajectory&,
-                            Clock);
+MountEstimate estimateMount(const std::vector<Station>&, const Mount& given, const MountStart& start, const Trajectory&,
+                            Clock, const RotationByImus&);
 
 /**
  * An estimate that another one, by other scans, contradicts: what lies between the two is added to its covariance as

@@ -25,6 +25,8 @@ const char* toString(MountOutcome outcome)
       return "NOTHING SHARED";
     case MountOutcome::Unstable:
       return "UNSTABLE";
+    case MountOutcome::Contradicted:
+      return "CONTRADICTED";
   }
   return "";
 }
@@ -43,7 +45,15 @@ std::string reasonOf(const std::string& reference, const MountEstimate& e)
           "deg or 0.5 m, or both see no place in common (a drive: within 7 m of it)",
           100 * e.shared_after, reference);
     case MountOutcome::Unstable:
-      return "the estimate did not settle, or does not fit: drive where there are stems or walls on all sides";
+      return fmt::format(
+          "the estimate did not settle, or does not fit (surfaces {:.3f} m apart, {:.3f} m within the scans of '{}'): "
+          "drive where there are stems or walls on all sides",
+          e.distance_after, e.distance_of_reference, reference);
+    case MountOutcome::Contradicted:
+      return fmt::format(
+          "where it fits best, the IMUs inside it and '{}' feel another rotation between them: drive where there are "
+          "stems or walls on all sides, with turns, and see that the metadata are those of these lidars",
+          reference);
     default:
       return "";
   }
@@ -66,8 +76,11 @@ std::string inWords(const std::string& lidar, const std::string& reference, cons
   const std::string places = e.stations > 1 ? fmt::format("at {} places, ", e.stations) : "";
   words += fmt::format(
       "{}: {}{:.0f} % of its points (before: {:.0f} %) are where '{}' saw something; surfaces {:.3f} m apart (before: "
-      "{:.3f} m)\n",
-      lidar, places, 100 * e.shared_after, 100 * e.shared_before, reference, e.distance_after, e.distance_before);
+      "{:.3f} m){}\n",
+      lidar, places, 100 * e.shared_after, 100 * e.shared_before, reference, e.distance_after, e.distance_before,
+      e.distance_of_reference > 0
+          ? fmt::format("; {:.3f} m within the scans of '{}'", e.distance_of_reference, reference)
+          : "");
   return words + openInWords(lidar, e.open);
 }
 
@@ -81,6 +94,7 @@ nlohmann::json toJson(const std::string& lidar, const MountEstimate& e)
   json["shared_after"] = e.shared_after;
   json["surface_distance_before"] = e.distance_before;
   json["surface_distance_after"] = e.distance_after;
+  json["surface_distance_of_reference"] = e.distance_of_reference;
   return json;
 }
 }  // namespace scanloom

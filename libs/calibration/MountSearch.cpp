@@ -1,11 +1,14 @@
 #include "calibration/MountSearch.h"
 
 #include "base/core/Angle.h"
-#include "calibration/GroundPlane.h"
+#include "base/core/So3.h"
+#include "calibration/OwnParts.h"
+#include "calibration/internal/MountCovariance.h"
 #include "calibration/internal/MountEquations.h"
 #include "calibration/internal/StationMaps.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace scanloom
 {
@@ -64,92 +67,122 @@ class LevelOfSearch
   std::vector<Vector6d> at_rest_ = std::vector<Vector6d>(stations_.size(), Vector6d::Zero());
 };
 
+struct Candidate
+{
+  Mount mount;
+  double score;  // points that are where the reference saw something
+};
+
 /**
- * Of the starts, as they are and refined, within `farthest` (m) of the guess: lidars that look apart have the more in
- * common the farther one is moved along the drive.
+ * From each start as it is and refined, most points first. Lidars that look apart have the more in common the farther
+ * one is moved along the drive: what cannot be is left out.
  */
-Mount bestFrom(const std::vector<Mount>& starts, const Mount& guess, double farthest, const std::vector<Station>& all,
-               const Trajectory& trajectory)
+std::vector<Candidate> candidatesFrom(const std::vector<Mount>& starts, const std::vector<Station>& all,
+                                      const Trajectory& trajectory,
+                                      const std::function<bool(const Mount&)>& isImpossible)
 {
   const std::vector<Station> stations = someOf(all, kCompared);
   const LevelOfSearch wide(kWideLevel, stations, trajectory), narrow(kNarrowLevel, stations, trajectory),
       fine(kFineLevel, stations, trajectory), scored(scoredLevel(), stations, trajectory);
-  Mount best = guess;
-  double best_score = -1;
+  std::vector<Candidate> candidates;
   for (const Mount& start : starts)
     for (const Mount& near : {start, narrow.refined(start), narrow.refined(wide.refined(start))})
     {
-      const Mount candidate = fine.refined(fine.refined(near));
-      const Eigen::Vector3d moved = candidate.body_T_sensor.translation - guess.body_T_sensor.translation;
-      const double score = moved.norm() < farthest ? scored.scoreOf(candidate) : -1;
-      if (score <= best_score) continue;
-      best = candidate;
-      best_score = score;
+      const Mount mount = fine.refined(fine.refined(near));
+      if (!isImpossible(mount)) candidates.push_back({mount, scored.scoreOf(mount)});
     }
-  return best;
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  return candidates;
 }
 
-std::optional<GroundPlane> groundOf(const std::vector<LidarScan>& scans, const Rigid& body_T_sensor)
+/** The best, and the next best elsewhere if it is nearly as good; the guess if there is none. */
+MountStart chosenFrom(const std::vector<Candidate>& best_first, const Mount& guess)
 {
-  constexpr std::size_t kScans = 10;
-  std::vector<PointCloud> clouds;
-  for (std::size_t i = 0; i < std::min(kScans, scans.size()); ++i)
+  constexpr double kElsewhere = 0.3;  // m (changeInMetres): farther than refinement leaves starts of one place apart
+  constexpr double kNearlyAsGood = 0.8;
+  if (best_first.empty()) return {guess, std::nullopt};
+  const Candidate& best = best_first.front();
+  const auto isRival = [&](const Candidate& candidate)
   {
-    const LidarScan& scan = scans[i * scans.size() / kScans % scans.size()];
-    PointCloud cloud;
-    cloud.resize(scan.points.size());
-    for (std::size_t k = 0; k < scan.points.size(); ++k)
-    {
-      const Eigen::Vector3f p = (body_T_sensor * scan.points[k].cast<double>()).cast<float>();
-      cloud.x[k] = p.x(), cloud.y[k] = p.y(), cloud.z[k] = p.z();
-    }
-    clouds.push_back(std::move(cloud));
-  }
-  std::vector<const PointCloud*> pointers;
-  for (const PointCloud& cloud : clouds) pointers.push_back(&cloud);
-  return groundPlane(pointers, body_T_sensor.translation);
+    return candidate.score > kNearlyAsGood * best.score &&
+           changeInMetres(best.mount, candidate.mount).norm() > kElsewhere;
+  };
+  const auto rival = std::find_if(best_first.begin(), best_first.end(), isRival);
+  return {best.mount, rival == best_first.end() ? std::nullopt : std::optional<Mount>(rival->mount)};
 }
 
-/** Turned so that the lidar sees the ground in the plane in which the reference sees it; the same without a ground. */
-Mount levelled(Mount mount, const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
-               const Rigid& body_T_reference)
+/** Turned so that the lidar sees the ground in the plane in which the reference sees it. */
+Mount levelled(Mount mount, const std::optional<GroundPlane>& ground, const GroundPlane& of_reference)
 {
-  const std::optional<GroundPlane> ours = groundOf(of_lidar, mount.body_T_sensor);
-  const std::optional<GroundPlane> reference = groundOf(of_reference, body_T_reference);
-  if (!ours || !reference) return mount;
+  if (!ground) return mount;
   Rigid& pose = mount.body_T_sensor;
-  pose.rotation = (rotationBetween(ours->up, reference->up) * pose.rotation).normalized();
-  const double height = reference->up.dot(pose.translation) + reference->body_height;
-  pose.translation += (ours->sensor_height - height) * reference->up;
+  pose.rotation = (rotationBetween(ground->up, of_reference.up) * pose.rotation).normalized();
+  const double height = of_reference.up.dot(pose.translation) + of_reference.body_height;
+  pose.translation += (ground->sensor_height - height) * of_reference.up;
   return mount;
 }
 
-/** The mount, and the same turned about the body's z by multiples of `step`. */
-std::vector<Mount> headingsAround(const Mount& mount, int to_each_side, double step)
+/** The mount, and the same turned about `up` by multiples of `step`. */
+std::vector<Mount> headingsAround(const Mount& mount, const Eigen::Vector3d& up, int to_each_side, double step)
 {
   std::vector<Mount> headings;
   for (int i = -to_each_side; i <= to_each_side; ++i)
   {
     Mount turned = mount;
-    turned.body_T_sensor.rotation =
-        Eigen::AngleAxisd(i * step, Eigen::Vector3d::UnitZ()) * mount.body_T_sensor.rotation;
+    turned.body_T_sensor.rotation = Eigen::AngleAxisd(i * step, up) * mount.body_T_sensor.rotation;
     headings.push_back(turned);
   }
   return headings;
 }
+
+/** The mount, and the same 1.5 m away across `up` on four sides. */
+std::vector<Mount> placesAround(const Mount& mount, const Eigen::Vector3d& up)
+{
+  const Eigen::Vector3d x = 1.5 * up.unitOrthogonal(), y = up.cross(x);
+  std::vector<Mount> places{mount};
+  for (const Eigen::Vector3d& away : {x, y, Eigen::Vector3d(-x), Eigen::Vector3d(-y)})
+  {
+    places.push_back(mount);
+    places.back().body_T_sensor.translation += away;
+  }
+  return places;
+}
+
+/** Upright by the accelerometers at the reference's place. */
+Mount guessWithoutPose(const Rigid& body_T_reference, const RotationByImus& imus)
+{
+  Mount guess{{Eigen::Quaterniond::Identity(), body_T_reference.translation}, 0};
+  if (imus.gravity) guess.body_T_sensor.rotation = rotationBetween(imus.gravity->up_in_lidar, imus.gravity->up_in_body);
+  return guess;
+}
 }  // namespace
 
-Mount findStart(const std::vector<Station>& stations, const Mount& given, PoseGiven known,
-                const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
-                const Rigid& body_T_reference, const Trajectory& trajectory)
+MountStart findStart(const std::vector<Station>& stations, const Mount& given, PoseGiven known,
+                     const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
+                     const Rigid& body_T_reference, const Trajectory& trajectory, const RotationByImus& imus)
 {
-  Mount start = given;
-  if (known == PoseGiven::No) start.body_T_sensor = {Eigen::Quaterniond::Identity(), body_T_reference.translation};
-  const Mount level = levelled(start, of_lidar, of_reference, body_T_reference);
-  std::vector<Mount> starts =
-      known == PoseGiven::No ? headingsAround(level, 6, 30 * kDegree) : headingsAround(level, 2, 10 * kDegree);
-  starts.push_back(start);
-  const double farthest = known == PoseGiven::No ? 5 : 0.7;  // m
-  return bestFrom(starts, start, farthest, stations, trajectory);
+  const bool unknown = known == PoseGiven::No;
+  const Mount guess = unknown ? guessWithoutPose(body_T_reference, imus) : given;
+  const Eigen::Vector3d up = unknown && imus.gravity ? imus.gravity->up_in_body : Eigen::Vector3d::UnitZ();
+  const std::optional<GroundPlane> ground = groundOf(of_reference, body_T_reference, up);
+  const auto level = [&](const Mount& mount)
+  { return ground ? levelled(mount, groundOf(of_lidar, mount.body_T_sensor, up), *ground) : mount; };
+
+  const Eigen::Vector3d axis = ground ? ground->up : up;
+  std::vector<Mount> starts;
+  if (unknown && imus.turns)
+    starts = placesAround(level({{imus.turns->body_R_lidar, guess.body_T_sensor.translation}, 0}), axis);
+  else
+    starts = headingsAround(level(guess), axis, unknown ? 6 : 2, (unknown ? 30 : 10) * kDegree);
+  starts.push_back(guess);
+
+  const double farthest = unknown ? 5 : 0.7;  // m
+  const auto isImpossible = [&](const Mount& mount)
+  {
+    const Eigen::Vector3d moved = mount.body_T_sensor.translation - guess.body_T_sensor.translation;
+    return moved.norm() > farthest || contradicts(imus, mount.body_T_sensor.rotation);
+  };
+  return chosenFrom(candidatesFrom(starts, stations, trajectory, isImpossible), guess);
 }
 }  // namespace scanloom

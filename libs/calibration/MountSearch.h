@@ -1,7 +1,9 @@
 /** A start for estimateMount() from a pose that may be far off. */
 #pragma once
+#include "calibration/RotationByImus.h"
 #include "calibration/internal/Stations.h"
 
+#include <optional>
 #include <vector>
 
 namespace scanloom
@@ -12,11 +14,20 @@ enum class PoseGiven
   No,               // somewhere near the reference lidar
 };
 
+struct MountStart
+{
+  Mount mount;
+  std::optional<Mount> rival;  // another place, with nearly as many points where the reference saw something
+};
+
 /**
- * Roll, pitch and height such that both lidars see the ground in the same plane; then headings, 10 deg apart within 20
- * deg or 30 deg apart all around, as they are and refined with cells of 4 m and 2 m at eight stations. The one with
- * most points where the reference saw something.
+ * Roll, pitch and height such that both lidars see the ground in the same plane; then headings about the ground's
+ * normal, as they are and refined with cells of 4 m and 2 m at eight stations. Within 20 deg of a given pose they are
+ * 10 deg apart. Without a pose they are 30 deg apart, all around; where the gyroscopes in the lidars tell the rotation,
+ * it is taken, with five places 1.5 m apart. The one with most points where the reference saw something, of those that
+ * the IMUs do not contradict.
  */
-Mount findStart(const std::vector<Station>&, const Mount& given, PoseGiven, const std::vector<LidarScan>& of_lidar,
-                const std::vector<LidarScan>& of_reference, const Rigid& body_T_reference, const Trajectory&);
+MountStart findStart(const std::vector<Station>&, const Mount& given, PoseGiven, const std::vector<LidarScan>& of_lidar,
+                     const std::vector<LidarScan>& of_reference, const Rigid& body_T_reference, const Trajectory&,
+                     const RotationByImus&);
 }  // namespace scanloom

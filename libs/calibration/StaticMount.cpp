@@ -89,9 +89,9 @@ MountEstimate estimateFrom(const StaticLidar& lidar, const StaticLidar& referenc
   estimate.stations = 1;
   estimate.outcome = MountOutcome::NothingShared;
   if (instant.cells() < kFewestCells) return estimate;
-  const Mount start =
-      findStart(instant.stations(), given, pose_given, {scan}, {scanOf(reference)}, reference.body_T_sensor, atRest());
-  Mount mount = instant.improved(start);
+  const MountStart start = findStart(instant.stations(), given, pose_given, {scan}, {scanOf(reference)},
+                                     reference.body_T_sensor, atRest(), {});
+  Mount mount = instant.improved(start.mount);
   const RegistrationResult result = instant.registered(mount);
   mount.body_T_sensor = result.target_T_source * mount.body_T_sensor;
 
@@ -104,7 +104,9 @@ MountEstimate estimateFrom(const StaticLidar& lidar, const StaticLidar& referenc
 
   const Matrix7d covariance =
       mountCovariance(result.covariance, result.target_T_source, mount.body_T_sensor.translation, after.distance);
-  return told(std::move(estimate), mount, covariance, given);
+  estimate = told(std::move(estimate), mount, covariance, given);
+  const bool ambiguous = start.rival && fitsAsWell(instant.fitOf(*start.rival), after);
+  return ambiguous ? doubted(std::move(estimate), *start.rival, given) : estimate;
 }
 }  // namespace
 

@@ -4,7 +4,7 @@
 #include "calibration/FieldOfViewOverlap.h"
 #include "calibration/MountReport.h"
 #include "calibration/MountSearch.h"
-#include "calibration/seenInWorld.h"
+#include "calibration/driveOfTwo.h"
 
 #include <gtest/gtest.h>
 
@@ -14,42 +14,7 @@ namespace scanloom::mount_estimate_unittest
 {
 namespace
 {
-const Rigid kLeft = at(1.5, 1.2, 2.5, 30, 15, -25), kRight = at(1.5, -1.2, 2.5, -30, 15, 25);
 constexpr double kLate = 0.02;  // s
-
-/** A winding path at 1 m/s, turning by up to 0.3 rad/s; at rest with speed 0. */
-Rigid bodyAt(double t, double speed)
-{
-  return at(speed * t, speed * std::sin(0.3 * t), 0, speed * 20 * std::sin(t), 0, 0);
-}
-
-struct DriveOfTwo
-{
-  Trajectory trajectory;
-  std::vector<LidarScan> left, right;
-};
-
-LidarScan scanAt(double t, double late, double speed, const Rigid& body_T_sensor, std::uint64_t seed)
-{
-  LidarScan scan;
-  scan.start = Timestamp{fromSeconds(t + late)};
-  scan.points = scanFrom(forest(1), bodyAt(t, speed) * body_T_sensor, seed, lidar());
-  scan.t.assign(scan.points.size(), 0);
-  return scan;
-}
-
-DriveOfTwo driven(double speed, double late = 0)
-{
-  DriveOfTwo drive;
-  for (int i = 0; i <= 1600; ++i) drive.trajectory.push_back({Timestamp{i * 10ms}, bodyAt(0.01 * i, speed)});
-  for (int i = 1; i <= 15; ++i)
-  {
-    const auto seed = static_cast<std::uint64_t>(i);
-    drive.left.push_back(scanAt(i, 0, speed, kLeft, seed));
-    drive.right.push_back(scanAt(i, late, speed, kRight, 100 + seed));
-  }
-  return drive;
-}
 
 /** Only what is on the body's side of `forward` (1 or -1). */
 void look(int forward, const Rigid& body_T_sensor, std::vector<LidarScan>& scans)
@@ -64,11 +29,12 @@ void look(int forward, const Rigid& body_T_sensor, std::vector<LidarScan>& scans
 }
 
 MountEstimate calibrated(const DriveOfTwo& drive, const Rigid& given, Clock clock, PoseGiven known,
-                         const Surroundings& around = {5})
+                         const Surroundings& around = {5}, const RotationByImus& imus = {})
 {
   const std::vector<Station> stations = stationsOf(drive.right, drive.left, {kLeft, 0}, drive.trajectory, around);
-  const Mount start = findStart(stations, {given, 0}, known, drive.right, drive.left, kLeft, drive.trajectory);
-  return estimateMount(stations, {given, 0}, start, drive.trajectory, clock);
+  const MountStart start =
+      findStart(stations, {given, 0}, known, drive.right, drive.left, kLeft, drive.trajectory, imus);
+  return estimateMount(stations, {given, 0}, start, drive.trajectory, clock, imus);
 }
 
 void expectRight(const MountEstimate& estimate)
@@ -151,7 +117,8 @@ TEST(MountSearch, keepsTheGivenPoseRatherThanOneAMetreOff)
   look(-1, kRight, drive.right);
   const std::vector<Station> stations = stationsOf(drive.right, drive.left, {kLeft, 0}, drive.trajectory, {7});
   const Mount start =
-      findStart(stations, {kRight, 0}, PoseGiven::Within20Degrees, drive.right, drive.left, kLeft, drive.trajectory);
+      findStart(stations, {kRight, 0}, PoseGiven::Within20Degrees, drive.right, drive.left, kLeft, drive.trajectory, {})
+          .mount;
   EXPECT_LT((start.body_T_sensor.translation - kRight.translation).norm(), 1);
 }
 

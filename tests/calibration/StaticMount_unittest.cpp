@@ -51,6 +51,22 @@ TEST(StaticMounts, ofThreeLidarsThatAreTenDegreesOffAreTheirPoses)
   EXPECT_GT(estimates[1].shared_after, estimates[1].shared_before);
 }
 
+TEST(StaticMounts, withoutAnyPoseInASquareRoomAreOpen)
+{
+  const RayWorld room{{{Eigen::Vector3d::UnitZ(), 0},
+                       {Eigen::Vector3d::UnitX(), 10},
+                       {-Eigen::Vector3d::UnitX(), 10},
+                       {Eigen::Vector3d::UnitY(), 10},
+                       {-Eigen::Vector3d::UnitY(), 10}},
+                      {}};
+  const auto seenAt = [&](const Rigid& pose, std::uint64_t seed) {
+    return StaticLidar{scanFrom(room, pose, seed, lidar()), Rigid::identity()};
+  };
+  const std::vector<MountEstimate> estimates =
+      estimateStaticMounts({seenAt(at(0, 0, 3), 1), seenAt(at(0, 0.6, 2.6, 40), 2)}, 0, PoseGiven::No);
+  EXPECT_EQ(estimates[1].outcome, MountOutcome::Open);
+}
+
 TEST(StaticMounts, withoutAnyPoseAreFoundInTheFrameOfTheReference)
 {
   const std::vector<MountEstimate> estimates = estimateStaticMounts(

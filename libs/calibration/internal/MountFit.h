@@ -12,4 +12,14 @@ struct MountFit
 
 /** With cells of 1 m, whatever they hold. */
 MountFit mountFit(const std::vector<Station>&, const Mount&, const Trajectory&);
+
+/** Whether another mount is as likely by what the lidars saw: 80 % of the share, and 1.5 times the distance, or better.
+ */
+bool fitsAsWell(const MountFit& other, const MountFit& best);
+
+/**
+ * surfaceDistance between every second view of the reference and the others (m): by the noise, the size of the cells,
+ * the error of the path and leaves alone. 0 where no station has two views.
+ */
+double distanceWithinReference(const std::vector<Station>&);
 }  // namespace scanloom

@@ -68,6 +68,13 @@ std::vector<View> viewsOf(const std::vector<const LidarScan*>& scans, const Moun
 }
 }  // namespace
 
+std::vector<const LidarScan*> scansApart(const std::vector<LidarScan>& scans, const Trajectory& trajectory)
+{
+  std::vector<const LidarScan*> apart;
+  for (const Placed& place : placesOf(scans, trajectory, kViewStep)) apart.push_back(place.scan);
+  return apart;
+}
+
 std::vector<Station> stationsOf(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
                                 const Mount& reference, const Trajectory& trajectory, const Surroundings& around)
 {

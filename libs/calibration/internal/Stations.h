@@ -32,4 +32,7 @@ struct Surroundings
  */
 std::vector<Station> stationsOf(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
                                 const Mount& reference, const Trajectory&, const Surroundings&);
+
+/** Those at least 1 m or 10 deg apart. */
+std::vector<const LidarScan*> scansApart(const std::vector<LidarScan>&, const Trajectory&);
 }  // namespace scanloom

@@ -53,13 +53,16 @@ LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLida
   calibration.estimate.mount = given;
   calibration.estimate.outcome = MountOutcome::NothingShared;
   if (isCovered(own, others)) return calibration;
+  const RotationByImus imus =
+      rotationByImus(drive.lidar_imus[lidar], drive.lidar_imus[reference], of_reference.body_T_sensor);
   std::optional<Mount> near;  // by the scans from near around, stems as seen
   for (const Surroundings& around : {kNear, kFar})
   {
     const std::vector<Station> stations = stationsOf(own, others, of_reference, drive.trajectory, around);
     if (stations.empty()) return calibration;
-    const Mount start = findStart(stations, given, known, own, others, of_reference.body_T_sensor, drive.trajectory);
-    MountEstimate estimate = estimateMount(stations, given, start, drive.trajectory, clock);
+    const MountStart start =
+        findStart(stations, given, known, own, others, of_reference.body_T_sensor, drive.trajectory, imus);
+    MountEstimate estimate = estimateMount(stations, given, start, drive.trajectory, clock, imus);
     if (estimate.outcome == MountOutcome::StoodStill) return {estimate, {}};
     if (near && tellsPose(estimate)) estimate = doubted(std::move(estimate), *near, given);
     calibration = {estimate, mountScenes(stations, given, estimate.mount, drive.trajectory)};

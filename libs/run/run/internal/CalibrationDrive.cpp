@@ -1,5 +1,7 @@
 #include "run/run/internal/CalibrationDrive.h"
 
+#include "base/core/Interruption.h"
+#include "calibration/OwnParts.h"
 #include "estimation/imu/ImuScreening.h"
 
 #include <algorithm>
@@ -54,8 +56,11 @@ class OneLidarInput final : public SensorInput
       scans_.add(cropOut(scan, crop_).scan);
       return SensorEvent(onlyOf(lidar_, scan));
     }
-    if (const auto* read = event ? std::get_if<SensorImu>(&*event) : nullptr; read && read->sensor == SensorImu::kBody)
-      for (const ImuSample& sample : screening_.pass(read->sample)) imu_.push_back(sample);
+    if (const auto* read = event ? std::get_if<SensorImu>(&*event) : nullptr)
+    {
+      ScreenedImu& imu = imus_[read->sensor];
+      for (const ImuSample& sample : imu.screening.pass(read->sample)) imu.samples.push_back(sample);
+    }
     return event;
   }
   bool ended() const override { return input_.ended(); }
@@ -72,17 +77,38 @@ class OneLidarInput final : public SensorInput
   std::vector<std::string> takeWarnings() override { return input_.takeWarnings(); }
 
   const std::vector<std::vector<LidarScan>>& scans() const { return scans_.byLidar(); }
-  const std::vector<ImuSample>& imu() const { return imu_; }
+  /** Of an IMU, by SensorImu::sensor, without what it cannot have read. */
+  std::vector<ImuSample> imu(int sensor) const
+  {
+    const auto imu = imus_.find(sensor);
+    return imu == imus_.end() ? std::vector<ImuSample>{} : imu->second.samples;
+  }
 
  private:
+  struct ScreenedImu
+  {
+    ImuScreening screening;
+    std::vector<ImuSample> samples;
+  };
+
   SensorInput& input_;
   std::uint8_t lidar_;
   Crop crop_;
   std::optional<Mount> body_imu_;
   LidarScans scans_;
-  ImuScreening screening_;
-  std::vector<ImuSample> imu_;
+  std::map<int, ScreenedImu> imus_;
 };
+
+std::vector<LidarImu> imusIn(const OneLidarInput& input)
+{
+  const SensorSetup setup = input.setup();
+  const std::vector<MountedLidar> lidars = mountedLidars(setup.header.lidars);
+  std::vector<LidarImu> imus(lidars.size());
+  for (std::size_t i = 0; i < lidars.size(); ++i)
+    if (const auto body_T_imu = setup.body_T_imu.find(static_cast<int>(i)); body_T_imu != setup.body_T_imu.end())
+      imus[i] = {lidars[i].body_T_sensor.inverse() * body_T_imu->second, input.imu(static_cast<int>(i))};
+  return imus;
+}
 }  // namespace
 
 CalibrationDrive driveForCalibration(SensorInput& input, std::size_t reference, const SlamSettings& settings,
@@ -105,14 +131,23 @@ CalibrationDrive driveForCalibration(SensorInput& input, std::size_t reference, 
       drive.registered.push_back({estimate.stamp, estimate.registration->target_T_source});
   };
   drive.run = runSlam(one, in_use, see, keepGoing, warn);
+  throwIfInterrupted();
   drive.scans = one.scans();
-  drive.imu = one.imu();
+  drive.imu = one.imu(SensorImu::kBody);
   // Without an IMU the motion within a scan is not seen: the pose fits its middle.
   const std::vector<LidarScan>& own = drive.scans[reference];
   if (!drive.run.with_imu && !own.empty())
   {
     for (StampedPose& pose : drive.registered) pose.stamp -= own.front().period / 2;
     drive.trajectory = drive.registered;
+  }
+  drive.lidar_imus = imusIn(one);
+  const std::vector<MountedLidar> lidars = mountedLidars(one.setup().header.lidars);
+  for (std::size_t i = 0; i < drive.scans.size(); ++i)
+  {
+    const Eigen::Vector3d up_as_given = lidars[i].body_T_sensor.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+    drive.scans[i] =
+        withoutOwnParts(std::move(drive.scans[i]), drive.trajectory, upIn(drive.lidar_imus[i]).value_or(up_as_given));
   }
   return drive;
 }

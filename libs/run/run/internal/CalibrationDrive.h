@@ -2,6 +2,7 @@
 #pragma once
 #include "base/core/StampedPose.h"
 #include "calibration/Mount.h"
+#include "calibration/RotationByImus.h"
 #include "run/run/SlamRun.h"
 
 namespace scanloom
@@ -13,7 +14,8 @@ struct CalibrationDrive
   Trajectory registered;  // of the body in the local map, by registration alone: at the ends of scans; without an IMU,
                           // at their middles
   std::vector<ImuSample> imu;                 // of the body's IMU, as it stamped them
-  std::vector<std::vector<LidarScan>> scans;  // by sensor id
+  std::vector<LidarImu> lidar_imus;           // by sensor id; without samples where a lidar has none
+  std::vector<std::vector<LidarScan>> scans;  // by sensor id, withoutOwnParts
   SlamRunResult run;
 };
 
