@@ -188,13 +188,14 @@ int runDrive(const CalibrateArguments& arguments)
     return kDone;
   }
   calibration.reference = indexOf(arguments.reference, calibration.lidars);
-  const CalibrationDrive drive = driven(source, loaded.settings, calibration);
+  CalibrationDrive drive = driven(source, loaded.settings, calibration);
   if (calibration.imu && calibration.imu->outcome == ImuMountOutcome::Contradicted)
     return contradicted(*calibration.imu);
   if (!isPath(drive)) return noPath(calibration, drive.run.summary.outcome);
 
   const PoseGiven known =
       arguments.poses_unknown || !loaded.sensors.poses_known ? PoseGiven::No : PoseGiven::Within20Degrees;
+  if (known == PoseGiven::No) drive = withoutOwnParts(std::move(drive), calibration.lidars);
   const Clock clock = arguments.clocks ? Clock::Estimated : Clock::Kept;
   std::vector<std::vector<MountScene>> scenes(calibration.lidars.size());
   for (std::size_t i = 0; i < calibration.lidars.size(); ++i)

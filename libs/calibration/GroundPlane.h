@@ -15,6 +15,9 @@ struct GroundPlane
   double sensor_height = 0;  // m above the plane
   double body_height = 0;    // m of the body's origin above the plane
   double share = 0;          // of the points used: within 0.15 m of the plane
+
+  /** Of a point in the body frame above the plane (m). */
+  double heightOf(const Eigen::Vector3d& p) const { return up.dot(p) + body_height; }
 };
 
 /**

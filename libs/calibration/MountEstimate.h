@@ -15,7 +15,7 @@ enum class MountOutcome
   StoodStill,     // fewer than ten stations: no covariance, so no number is trusted
   NothingShared,  // less than a tenth of its points are where the reference saw something
   Unstable,       // it did not settle, or does not fit
-  Contradicted,   // the IMUs in the lidars feel another rotation between them
+  Contradicted,   // the IMUs in the lidars measure another rotation between them
 };
 
 /** The mount is the given one, unless Estimated or Open. */

@@ -1,6 +1,6 @@
 #include "calibration/MountScene.h"
 
-#include <algorithm>
+#include "calibration/internal/someOf.h"
 
 namespace scanloom
 {
@@ -31,10 +31,8 @@ std::vector<MountScene> mountScenes(const std::vector<Station>& stations, const 
                                     const Trajectory& trajectory)
 {
   constexpr std::size_t kMost = 6;
-  const std::size_t count = std::min(kMost, stations.size());
   std::vector<MountScene> scenes;
-  for (std::size_t i = 0; i < count; ++i)
-    scenes.push_back(sceneOf(stations[i * stations.size() / count], before, after, trajectory));
+  for (const Station& station : someOf(stations, kMost)) scenes.push_back(sceneOf(station, before, after, trajectory));
   return scenes;
 }
 }  // namespace scanloom

@@ -2,10 +2,11 @@
 
 #include "base/core/Angle.h"
 #include "base/core/So3.h"
-#include "calibration/OwnParts.h"
+#include "calibration/ScansOfDrive.h"
 #include "calibration/internal/MountCovariance.h"
 #include "calibration/internal/MountEquations.h"
 #include "calibration/internal/StationMaps.h"
+#include "calibration/internal/someOf.h"
 
 #include <algorithm>
 #include <functional>
@@ -25,13 +26,6 @@ constexpr MountLevel scoredLevel()
   MountLevel level = kFinestLevel;
   level.scans = kScansAtStart;
   return level;
-}
-
-std::vector<Station> someOf(const std::vector<Station>& all, std::size_t count)
-{
-  std::vector<Station> some;
-  for (std::size_t i = 0; i < std::min(count, all.size()); ++i) some.push_back(all[i * all.size() / count]);
-  return some;
 }
 
 /** At some stations. */
@@ -96,20 +90,17 @@ std::vector<Candidate> candidatesFrom(const std::vector<Mount>& starts, const st
   return candidates;
 }
 
-/** The best, and the next best elsewhere if it is nearly as good; the guess if there is none. */
+/** The best, and the next best elsewhere; the guess if there is none. */
 MountStart chosenFrom(const std::vector<Candidate>& best_first, const Mount& guess)
 {
   constexpr double kElsewhere = 0.3;  // m (changeInMetres): farther than refinement leaves starts of one place apart
-  constexpr double kNearlyAsGood = 0.8;
   if (best_first.empty()) return {guess, std::nullopt};
-  const Candidate& best = best_first.front();
-  const auto isRival = [&](const Candidate& candidate)
-  {
-    return candidate.score > kNearlyAsGood * best.score &&
-           changeInMetres(best.mount, candidate.mount).norm() > kElsewhere;
-  };
-  const auto rival = std::find_if(best_first.begin(), best_first.end(), isRival);
-  return {best.mount, rival == best_first.end() ? std::nullopt : std::optional<Mount>(rival->mount)};
+  MountStart start{best_first.front().mount, std::nullopt};
+  const auto rival = std::find_if(best_first.begin(), best_first.end(),
+                                  [&](const Candidate& candidate)
+                                  { return changeInMetres(start.mount, candidate.mount).norm() > kElsewhere; });
+  if (rival != best_first.end()) start.rival = rival->mount;
+  return start;
 }
 
 /** Turned so that the lidar sees the ground in the plane in which the reference sees it. */
@@ -123,16 +114,12 @@ Mount levelled(Mount mount, const std::optional<GroundPlane>& ground, const Grou
   return mount;
 }
 
-/** The mount, and the same turned about `up` by multiples of `step`. */
-std::vector<Mount> headingsAround(const Mount& mount, const Eigen::Vector3d& up, int to_each_side, double step)
+/** The mount turned about `up` by `count` multiples of `step`, the same to both sides. */
+std::vector<Mount> headingsAround(const Mount& mount, const Eigen::Vector3d& up, int count, double step)
 {
-  std::vector<Mount> headings;
-  for (int i = -to_each_side; i <= to_each_side; ++i)
-  {
-    Mount turned = mount;
-    turned.body_T_sensor.rotation = Eigen::AngleAxisd(i * step, up) * mount.body_T_sensor.rotation;
-    headings.push_back(turned);
-  }
+  std::vector<Mount> headings(static_cast<std::size_t>(count), mount);
+  for (int i = 0; i < count; ++i)
+    headings[i].body_T_sensor.rotation = Eigen::AngleAxisd((i - count / 2) * step, up) * mount.body_T_sensor.rotation;
   return headings;
 }
 
@@ -140,21 +127,30 @@ std::vector<Mount> headingsAround(const Mount& mount, const Eigen::Vector3d& up,
 std::vector<Mount> placesAround(const Mount& mount, const Eigen::Vector3d& up)
 {
   const Eigen::Vector3d x = 1.5 * up.unitOrthogonal(), y = up.cross(x);
-  std::vector<Mount> places{mount};
-  for (const Eigen::Vector3d& away : {x, y, Eigen::Vector3d(-x), Eigen::Vector3d(-y)})
-  {
-    places.push_back(mount);
-    places.back().body_T_sensor.translation += away;
-  }
+  std::vector<Mount> places(5, mount);
+  places[1].body_T_sensor.translation += x;
+  places[2].body_T_sensor.translation -= x;
+  places[3].body_T_sensor.translation += y;
+  places[4].body_T_sensor.translation -= y;
   return places;
 }
 
-/** Upright by the accelerometers at the reference's place. */
+/** At the reference's place, as the IMUs tell its rotation, or upright by them. */
 Mount guessWithoutPose(const Rigid& body_T_reference, const RotationByImus& imus)
 {
   Mount guess{{Eigen::Quaterniond::Identity(), body_T_reference.translation}, 0};
-  if (imus.gravity) guess.body_T_sensor.rotation = rotationBetween(imus.gravity->up_in_lidar, imus.gravity->up_in_body);
+  if (imus.turns)
+    guess.body_T_sensor.rotation = imus.turns->body_R_lidar;
+  else if (imus.gravity)
+    guess.body_T_sensor.rotation = rotationBetween(imus.gravity->up_in_lidar, imus.gravity->up_in_body);
   return guess;
+}
+
+std::vector<Mount> startsAround(const Mount& guess, const Eigen::Vector3d& up, PoseGiven known,
+                                const RotationByImus& imus)
+{
+  if (known == PoseGiven::Within20Degrees) return headingsAround(guess, up, 5, 10 * kDegree);
+  return imus.turns ? placesAround(guess, up) : headingsAround(guess, up, 12, 30 * kDegree);
 }
 }  // namespace
 
@@ -166,15 +162,8 @@ MountStart findStart(const std::vector<Station>& stations, const Mount& given, P
   const Mount guess = unknown ? guessWithoutPose(body_T_reference, imus) : given;
   const Eigen::Vector3d up = unknown && imus.gravity ? imus.gravity->up_in_body : Eigen::Vector3d::UnitZ();
   const std::optional<GroundPlane> ground = groundOf(of_reference, body_T_reference, up);
-  const auto level = [&](const Mount& mount)
-  { return ground ? levelled(mount, groundOf(of_lidar, mount.body_T_sensor, up), *ground) : mount; };
-
-  const Eigen::Vector3d axis = ground ? ground->up : up;
-  std::vector<Mount> starts;
-  if (unknown && imus.turns)
-    starts = placesAround(level({{imus.turns->body_R_lidar, guess.body_T_sensor.translation}, 0}), axis);
-  else
-    starts = headingsAround(level(guess), axis, unknown ? 6 : 2, (unknown ? 30 : 10) * kDegree);
+  const Mount level = ground ? levelled(guess, groundOf(of_lidar, guess.body_T_sensor, up), *ground) : guess;
+  std::vector<Mount> starts = startsAround(level, ground ? ground->up : up, known, imus);
   starts.push_back(guess);
 
   const double farthest = unknown ? 5 : 0.7;  // m

@@ -17,7 +17,7 @@ enum class PoseGiven
 struct MountStart
 {
   Mount mount;
-  std::optional<Mount> rival;  // another place, with nearly as many points where the reference saw something
+  std::optional<Mount> rival;  // the best start elsewhere
 };
 
 /**

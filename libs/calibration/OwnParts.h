@@ -1,23 +1,40 @@
-/** The ground, and the parts of the machine, in the scans of one lidar. */
+/** The parts of the machine that a lidar sees: they stay in place in its frame, and the body's, while it drives. */
 #pragma once
-#include "base/core/StampedPose.h"
 #include "calibration/GroundPlane.h"
-#include "calibration/internal/LidarScans.h"
 
-#include <vector>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
 
 namespace scanloom
 {
-/** By ten scans, in the frame of `body_T_sensor`; planes near level by `up` (unit, in that frame) are preferred. */
-std::optional<GroundPlane> groundOf(const std::vector<LidarScan>&, const Rigid& body_T_sensor,
-                                    const Eigen::Vector3d& up_in_body);
+/** Cubes of 0.25 m that hold points at most places where the machine was. */
+class OwnParts
+{
+ public:
+  /** `reach`: m from the frame's origin. */
+  OwnParts(const std::optional<GroundPlane>& ground, double reach) : ground_(ground), reach_(reach) {}
 
-/**
- * The scans without what stays in place in the lidar's frame while the machine drives: cubes of 0.25 m within 5 m that
- * hold points at three quarters of the places, farther than 0.4 m from the ground, which stays in place where it is
- * flat. Both lidars see such parts at every place, wherever it is, so that they fit best where they were seen and not
- * where they are. Farther away a wall along the way would stay in place as well. Nothing is left out of fewer than
- * eight places 1 m apart. Scans of which nothing is left are left out.
- */
-std::vector<LidarScan> withoutOwnParts(std::vector<LidarScan>, const Trajectory&, const Eigen::Vector3d& up_in_lidar);
+  /** Takes what was seen at another place than before. */
+  void addPlace(const PointCloud&);
+
+  /** Whether a point is within reach and farther than 0.4 m from the ground, which stays in place where it is flat. */
+  bool mayHold(const Eigen::Vector3f&) const;
+
+  /** Share of the places at which the point's cube held points. */
+  double shareOfPlaces(const Eigen::Vector3f&) const;
+
+  /** Whether the cube of a point that it may hold was not empty at three quarters of the places. */
+  bool holds(const Eigen::Vector3f&) const;
+
+ private:
+  struct Cube
+  {
+    int places = 0, last = 0;
+  };
+  std::optional<GroundPlane> ground_;
+  double reach_;
+  int places_ = 0;
+  std::unordered_map<std::uint64_t, Cube> cubes_;  // never iterated: its order is not defined
+};
 }  // namespace scanloom

@@ -11,17 +11,14 @@ namespace
 {
 constexpr double kSigmas = 4, kMostTurn = 2 * kDegree, kMostTilt = 4 * kDegree;
 
-/** None where the gyroscopes measure other turns: by that nothing is known of the rotation. */
 std::optional<RotationByImus::ByGyroscopes> byGyroscopes(const LidarImu& of_lidar, const LidarImu& of_reference,
                                                          const Rigid& body_T_reference)
 {
-  constexpr double kLeastScale = 0.8;
   const std::optional<GyroAgreement> turns = gyroAgreement(
       {of_reference.samples, body_T_reference * of_reference.lidar_T_imu}, {of_lidar.samples, of_lidar.lidar_T_imu});
-  if (!turns || turns->mirrored || turns->scale < kLeastScale || turns->scale > 1 / kLeastScale) return std::nullopt;
+  if (!turns || turns->mirrored) return std::nullopt;
   return RotationByImus::ByGyroscopes{expSo3(turns->rotation), turns->sigma};
 }
-
 }  // namespace
 
 std::optional<Eigen::Vector3d> upIn(const LidarImu& imu)

@@ -1,4 +1,4 @@
-/** The rotation between two lidars by the IMUs in them: a rigid body turns, and feels gravity, once. */
+/** The rotation between two lidars by the IMUs in them, which measure the same turn rate and the same gravity. */
 #pragma once
 #include "base/core/ImuSample.h"
 #include "base/core/Rigid.h"
@@ -30,7 +30,7 @@ struct RotationByImus
   {
     Eigen::Vector3d up_in_body, up_in_lidar;  // unit
   };
-  std::optional<ByGyroscopes> turns;  // none: no gyroscopes, or too few turns, or turns about one axis only
+  std::optional<ByGyroscopes> turns;  // none: no gyroscopes, too few turns, or about one axis only, or left-handed
   std::optional<ByGravity> gravity;   // none: no accelerometers
 };
 

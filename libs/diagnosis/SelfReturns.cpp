@@ -1,6 +1,7 @@
 #include "diagnosis/SelfReturns.h"
 
 #include "base/core/VoxelKey.h"
+#include "calibration/OwnParts.h"
 
 #include <fmt/format.h>
 
@@ -13,11 +14,8 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kPartCube = 0.25;      // m
-constexpr double kFarCube = 1;          // m: beams far apart hit a stem or a wall at other heights in every turn
-constexpr double kFarFromGround = 0.4;  // m
-constexpr double kLongestBoom = 12;     // m from the body's origin: longer than a harvester's boom
-constexpr double kAlmostAlways = 0.75;  // of the places
+constexpr double kFarCube = 1;       // m: beams far apart hit a stem or a wall at other heights in every turn
+constexpr double kLongestBoom = 12;  // m from the body's origin: longer than a harvester's boom
 constexpr std::size_t kPlacesNeeded = 4;
 constexpr double kMostStanding = 0.8;  // share of the points above the ground; a machine has fewer
 constexpr double kFarAbove = 2;        // m above the ground: its rings stay at their distance on a drive, too
@@ -25,49 +23,13 @@ constexpr double kFewestFar = 50;      // points in a turn, to tell by them
 constexpr double kSamePlace = 0.5;     // of what is far
 constexpr double kMuch = 0.05;         // of the points on the machine: less is hardly seen in a map
 
-/** Counts the places in which each cube holds a point. The map is never iterated: its order is not defined. */
-class Occupancy
-{
- public:
-  void add(const PointCloud& points)
-  {
-    ++places_;
-    for (std::size_t i = 0; i < points.size(); ++i)
-    {
-      Cube& cube = cubes_[voxelKey(points.position(i), kPartCube)];
-      if (cube.last != places_) ++cube.places;
-      cube.last = places_;
-    }
-  }
-
-  /** Of the places. */
-  double shareWith(const Eigen::Vector3f& p) const
-  {
-    const auto cube = cubes_.find(voxelKey(p, kPartCube));
-    return cube == cubes_.end() ? 0 : static_cast<double>(cube->second.places) / places_;
-  }
-
- private:
-  struct Cube
-  {
-    int places = 0, last = 0;
-  };
-  int places_ = 0;
-  std::unordered_map<std::uint64_t, Cube> cubes_;
-};
-
-double heightOf(const Eigen::Vector3f& p, const GroundPlane& ground)
-{
-  return ground.up.dot(p.cast<double>()) + ground.body_height;
-}
-
 std::vector<std::uint64_t> farCubes(const PointCloud& points, const std::optional<GroundPlane>& ground)
 {
   std::vector<std::uint64_t> cubes;
   for (std::size_t i = 0; i < points.size(); ++i)
   {
     const Eigen::Vector3f p = points.position(i);
-    if (p.norm() > kLongestBoom && (!ground || heightOf(p, *ground) > kFarAbove))
+    if (p.norm() > kLongestBoom && (!ground || ground->heightOf(p.cast<double>()) > kFarAbove))
       cubes.push_back(voxelKey(p, kFarCube));
   }
   return cubes;
@@ -121,8 +83,8 @@ SelfReturns selfReturns(const std::vector<const PointCloud*>& turns, const std::
   if (!far_tells) far.assign(turns.size(), {});
   const std::vector<std::size_t> places = differentPlaces(far);
   if (places.size() < kPlacesNeeded) return {};
-  Occupancy occupancy;
-  for (const std::size_t k : places) occupancy.add(*turns[k]);
+  OwnParts machine(ground, kLongestBoom);
+  for (const std::size_t k : places) machine.addPlace(*turns[k]);
 
   SelfReturns parts;
   double own = 0, standing = 0, all = 0, uncropped = 0;
@@ -134,13 +96,12 @@ SelfReturns selfReturns(const std::vector<const PointCloud*>& turns, const std::
     for (std::size_t i = 0; i < turn->size(); ++i)
     {
       const Eigen::Vector3f p = turn->position(i);
-      if (p.norm() > kLongestBoom || (ground && std::abs(heightOf(p, *ground)) < kFarFromGround)) continue;
+      if (!machine.mayHold(p)) continue;
       ++standing;
-      const double share = occupancy.shareWith(p);
-      if (share < kAlmostAlways) continue;
+      if (!machine.holds(p)) continue;
       ++own;
       parts.marks.back()[i] = 1;
-      if (share < 1) continue;
+      if (machine.shareOfPlaces(p) < 1) continue;
       always.push_back(p);
       uncropped += removes(crop, *turn, i) ? 0 : 1;
     }

@@ -3,6 +3,7 @@
 #include "base/core/Decompositions.h"
 #include "base/core/Interruption.h"
 #include "base/core/Statistics.h"
+#include "calibration/internal/someOf.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -88,10 +89,8 @@ StationCells cellsOfLidar(const std::vector<Station>& stations, const Mount& mou
   {
     throwIfInterrupted();
     std::vector<View> views;
-    const std::size_t count = std::min(level.scans, station.scans.size());
-    for (std::size_t i = 0; i < count; ++i)
-      if (std::optional<View> view =
-              viewFrom(*station.scans[i * station.scans.size() / count], mount, trajectory, station.at, station.stems))
+    for (const LidarScan* scan : someOf(station.scans, level.scans))
+      if (std::optional<View> view = viewFrom(*scan, mount, trajectory, station.at, station.stems))
         views.push_back(std::move(*view));
     cells.push_back(thinMap(views, level).cells());
   }

@@ -1,8 +1,8 @@
 #include "calibration/internal/Stations.h"
 
 #include "base/core/Angle.h"
+#include "calibration/internal/someOf.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace scanloom
@@ -81,11 +81,9 @@ std::vector<Station> stationsOf(const std::vector<LidarScan>& of_lidar, const st
   const std::vector<Placed> all = placesOf(of_lidar, trajectory, kStationStep);
   const std::vector<Placed> own = placesOf(of_lidar, trajectory, kViewStep);
   const std::vector<Placed> others = placesOf(of_reference, trajectory, kViewStep);
-  const std::size_t count = std::min(all.size(), kMostStations);
   std::vector<Station> stations;
-  for (std::size_t i = 0; i < count; ++i)
+  for (const Placed& here : someOf(all, kMostStations))
   {
-    const Placed& here = all[i * all.size() / count];
     const Timestamp at = here.scan->middle();
     const std::vector<const LidarScan*> of_others = scansAround(here, of_reference, others, around.reach);
     stations.push_back({at, scansAround(here, of_lidar, own, around.reach),

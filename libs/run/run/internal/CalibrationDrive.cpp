@@ -1,10 +1,12 @@
 #include "run/run/internal/CalibrationDrive.h"
 
 #include "base/core/Interruption.h"
-#include "calibration/OwnParts.h"
+#include "calibration/ScansOfDrive.h"
 #include "estimation/imu/ImuScreening.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace scanloom
 {
@@ -34,7 +36,7 @@ Scan onlyOf(std::uint8_t lidar, const Scan& scan)
   return only;
 }
 
-/** Hands on the scans of one lidar, and keeps those of all. */
+/** Hands on the scans of one lidar, with its IMU and the body's, and keeps those of all. */
 class OneLidarInput final : public SensorInput
 {
  public:
@@ -68,6 +70,8 @@ class OneLidarInput final : public SensorInput
   SensorSetup setup() const override
   {
     SensorSetup setup = input_.setup();
+    for (std::size_t i = 0; i < setup.header.lidars.size(); ++i)
+      if (i != lidar_) setup.body_T_imu.erase(static_cast<int>(i));
     if (body_imu_) setup.body_T_imu[SensorImu::kBody] = body_imu_->body_T_sensor;
     return setup;
   }
@@ -99,9 +103,8 @@ class OneLidarInput final : public SensorInput
   std::map<int, ScreenedImu> imus_;
 };
 
-std::vector<LidarImu> imusIn(const OneLidarInput& input)
+std::vector<LidarImu> lidarImus(const SensorSetup& setup, const OneLidarInput& input)
 {
-  const SensorSetup setup = input.setup();
   const std::vector<MountedLidar> lidars = mountedLidars(setup.header.lidars);
   std::vector<LidarImu> imus(lidars.size());
   for (std::size_t i = 0; i < lidars.size(); ++i)
@@ -116,6 +119,7 @@ CalibrationDrive driveForCalibration(SensorInput& input, std::size_t reference, 
 {
   OneLidarInput one(input, reference, cropOf(settings.crop, mountedLidars(input.setup().header.lidars)), body_imu);
   SlamSettings in_use = settings;
+  if (in_use.slam.imu != "none" && in_use.slam.imu != "body") in_use.slam.imu = "auto";  // another lidar's is not there
   if (body_imu) in_use.slam.imu_delay_ms = 1e3 * body_imu->clock_offset;
   CalibrationDrive drive;
   const SeeEstimate see = [&drive](const StateEstimate& estimate)
@@ -141,9 +145,13 @@ CalibrationDrive driveForCalibration(SensorInput& input, std::size_t reference, 
     for (StampedPose& pose : drive.registered) pose.stamp -= own.front().period / 2;
     drive.trajectory = drive.registered;
   }
-  drive.lidar_imus = imusIn(one);
-  const std::vector<MountedLidar> lidars = mountedLidars(one.setup().header.lidars);
-  for (std::size_t i = 0; i < drive.scans.size(); ++i)
+  drive.lidar_imus = lidarImus(input.setup(), one);
+  return drive;
+}
+
+CalibrationDrive withoutOwnParts(CalibrationDrive drive, const std::vector<MountedLidar>& lidars)
+{
+  for (std::size_t i = 0; i < lidars.size(); ++i)
   {
     const Eigen::Vector3d up_as_given = lidars[i].body_T_sensor.rotation.conjugate() * Eigen::Vector3d::UnitZ();
     drive.scans[i] =

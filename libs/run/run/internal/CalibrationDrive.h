@@ -15,16 +15,20 @@ struct CalibrationDrive
                           // at their middles
   std::vector<ImuSample> imu;                 // of the body's IMU, as it stamped them
   std::vector<LidarImu> lidar_imus;           // by sensor id; without samples where a lidar has none
-  std::vector<std::vector<LidarScan>> scans;  // by sensor id, withoutOwnParts
+  std::vector<std::vector<LidarScan>> scans;  // by sensor id
   SlamRunResult run;
 };
 
 /**
  * Localises with the lidar `reference` (a sensor id) alone, so that the path does not depend on the poses of the
- * others, and with the body's IMU, if there is one, where `body_imu` says. Throws as runSlam does.
+ * others, and with the body's IMU, if there is one, where `body_imu` says, else that of the reference. Throws as
+ * runSlam does.
  */
 CalibrationDrive driveForCalibration(SensorInput&, std::size_t reference, const SlamSettings&,
                                      const std::optional<Mount>& body_imu, const KeepGoing&, const Warn&);
+
+/** For lidars without given poses (calibration/ScansOfDrive.h). */
+CalibrationDrive withoutOwnParts(CalibrationDrive, const std::vector<MountedLidar>&);
 
 /** A few bad poses do no harm, but a path with breaks fits nothing. */
 bool isPath(const CalibrationDrive&);

@@ -1,5 +1,5 @@
 /** The parts of the machine in a lidar's scans, among walls and ground that are known. */
-#include "calibration/OwnParts.h"
+#include "calibration/ScansOfDrive.h"
 
 #include "calibration/seenInWorld.h"
 
@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace scanloom::own_parts_unittest
+namespace scanloom::scans_of_drive_unittest
 {
 namespace
 {
@@ -80,4 +80,4 @@ TEST(OwnParts, leaveOutTheScansOfALidarThatSeesNothingElse)
   }
   EXPECT_EQ(withoutParts(drive).size(), drive.scans.size() / 2);
 }
-}  // namespace scanloom::own_parts_unittest
+}  // namespace scanloom::scans_of_drive_unittest
