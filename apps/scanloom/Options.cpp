@@ -63,7 +63,7 @@ struct NumberIn<std::optional<Value>>
 
 /** CLI11 takes nan for a number, and -1 for the largest whole number without a sign. Empty if the text is a number. */
 template <typename Number>
-std::string complaintAboutNumber(const std::string& text)
+std::string invalidNumberText(const std::string& text)
 {
   Number number{};
   const bool parsed = CLI::detail::lexical_cast(text, number);
@@ -81,7 +81,7 @@ Option addOption(CLI::App& app, const std::string& name, Value& value, const std
 {
   CLI::Option* option = app.add_option(name, value, help);
   using Number = typename NumberIn<Value>::Type;
-  if constexpr (std::is_arithmetic_v<Number>) option->check(&complaintAboutNumber<Number>);
+  if constexpr (std::is_arithmetic_v<Number>) option->check(&invalidNumberText<Number>);
   return Option(option);
 }
 template Option addOption(CLI::App&, const std::string&, std::string&, const std::string&);

@@ -151,12 +151,12 @@ std::string Configuration::text(const std::string& section, const std::string& k
 
 Place Configuration::place(const std::string& section, const std::string& key) const { return at(section, key).place; }
 
-ConfigError Configuration::complaint(const std::string& section, const std::string& key,
-                                     const std::string& constraint) const
+ConfigError Configuration::invalidValue(const std::string& section, const std::string& key,
+                                        const std::string& constraint) const
 {
   const IniEntry* entry = find(section, key);
   if (!entry) return ConfigError(fmt::format("[{}] {} is not set: {}", section, key, constraint));
-  return ConfigError(complaintAbout(*entry, Field{key, "", ""}, constraint));
+  return ConfigError(invalidValueText(*entry, Field{key, "", ""}, constraint));
 }
 
 std::string Configuration::misordered(const std::string& section, const std::string& low_key, double low,
@@ -247,7 +247,7 @@ std::string toIni(const std::string& section, const Configuration& configuration
   return text;
 }
 
-std::string complaintAbout(const IniEntry& entry, const Field& field, const std::string& constraint)
+std::string invalidValueText(const IniEntry& entry, const Field& field, const std::string& constraint)
 {
   return fmt::format("{}: [{}] {} = {}{}{}: {}{}", toString(entry.place), entry.section, entry.key,
                      entry.value.empty() ? "(nothing)" : entry.value, field.unit.empty() ? "" : " ", field.unit,

@@ -76,7 +76,7 @@ class Configuration
   Place place(const std::string& section, const std::string& key) const;
 
   /** To be thrown by a check of a verb: `harvester.ini:12: [ndt] cell_size = 3: must be smaller than ...`. */
-  ConfigError complaint(const std::string& section, const std::string& key, const std::string& constraint) const;
+  ConfigError invalidValue(const std::string& section, const std::string& key, const std::string& constraint) const;
 
   /** The section has a `driver`: it configures an MRPT sensor, and the sensor checks its keys. */
   bool isSensor(std::string_view section) const { return has(section, "driver"); }
@@ -124,7 +124,7 @@ std::string toIni(const Schema& in_effect, const Configuration&);
 std::string toIni(const std::string& section, const Configuration&);
 
 /** `harvester.ini:12: [ndt] cell_size = -1 m: must be > 0 (edge of a cell)` */
-std::string complaintAbout(const IniEntry&, const Field&, const std::string& constraint);
+std::string invalidValueText(const IniEntry&, const Field&, const std::string& constraint);
 
 template <typename Options>
 Options Configuration::read(const std::string& section, Options options, const std::string& prefix) const
@@ -136,7 +136,7 @@ Options Configuration::read(const std::string& section, Options options, const s
                     const IniEntry* entry = find(section, prefix + field.name);
                     if (!entry) return;
                     if (const auto constraint = assign(member, entry->value, field))
-                      problems.push_back(complaintAbout(*entry, field, *constraint));
+                      problems.push_back(invalidValueText(*entry, field, *constraint));
                   });
   if constexpr (HasOrder<Options>::value)
     Options::order(options,

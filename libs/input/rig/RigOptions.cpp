@@ -115,7 +115,8 @@ RigSettings readRigSettings(const Configuration& configuration, const std::strin
     for (std::size_t j = 0; j < i; ++j)
       if (sameName(settings.lidars[i].name, settings.lidars[j].name))
         problems.push_back(
-            configuration.complaint(section, numbered("lidar", i) + "name", "must differ from the other lidars' names")
+            configuration
+                .invalidValue(section, numbered("lidar", i) + "name", "must differ from the other lidars' names")
                 .what());
   refuse(problems);
   return settings;

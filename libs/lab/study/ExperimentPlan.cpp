@@ -36,7 +36,7 @@ std::vector<std::filesystem::path> pathsOf(const std::string& key, const std::st
     if (!std::filesystem::exists(paths.back()))
       missing += fmt::format("{}'{}' does not exist", missing.empty() ? "" : ", ", paths.back().string());
   }
-  if (!missing.empty()) throw configuration.complaint(kSection, key, missing);
+  if (!missing.empty()) throw configuration.invalidValue(kSection, key, missing);
   return paths;
 }
 
@@ -104,7 +104,7 @@ ExperimentPlan filesNamedIn(const ExperimentOptions& options, const Configuratio
   plan.references = pathsOf("references", options.references, configuration, kNoReference);
   plan.configurations = pathsOf("configurations", options.configurations, configuration);
   if (!plan.references.empty() && plan.references.size() != plan.recordings.size())
-    throw configuration.complaint(
+    throw configuration.invalidValue(
         kSection, "references",
         fmt::format("must name a file or none for each of the {} recordings, in their order", plan.recordings.size()));
   return plan;
@@ -180,7 +180,7 @@ ExperimentPlan planOf(const ExperimentSettings& settings, const Configuration& c
 {
   const ExperimentOptions& options = settings.experiment;
   const auto complain = [&](const std::string& key, const std::string& constraint)
-  { return configuration.complaint(kSection, key, constraint); };
+  { return configuration.invalidValue(kSection, key, constraint); };
 
   ExperimentPlan plan = filesNamedIn(options, configuration);
   auto& runs = plan.runs;

@@ -373,9 +373,9 @@ TEST(Configuration, lendsItsWordsToTheChecksOfAVerb)
 {
   const Configuration configuration = from("[ndt]\ncell_size = 3\n");
 
-  EXPECT_STREQ(configuration.complaint("ndt", "cell_size", "must divide 10").what(),
+  EXPECT_STREQ(configuration.invalidValue("ndt", "cell_size", "must divide 10").what(),
                "harvester.ini:2: [ndt] cell_size = 3: must divide 10");
-  EXPECT_STREQ(configuration.complaint("ndt", "overlap", "must divide 10").what(),
+  EXPECT_STREQ(configuration.invalidValue("ndt", "overlap", "must divide 10").what(),
                "[ndt] overlap is not set: must divide 10");
 }
 }  // namespace

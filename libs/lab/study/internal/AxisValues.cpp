@@ -38,7 +38,7 @@ std::vector<std::uint64_t> seedsOf(const std::string& text, const Configuration&
 {
   constexpr std::uint64_t kMost = 100000;
   const auto refuse = [&]
-  { return configuration.complaint("experiment", "seeds", "must be whole numbers from 1 on, or first:last"); };
+  { return configuration.invalidValue("experiment", "seeds", "must be whole numbers from 1 on, or first:last"); };
   std::vector<std::uint64_t> seeds;
   for (const std::string& word : wordsOf(text))
   {
@@ -58,10 +58,10 @@ std::vector<int> countsOf(const std::string& text, const Configuration& configur
   for (const std::string& word : wordsOf(text))
   {
     const auto count = positive<int>(word);
-    if (!count) throw configuration.complaint("experiment", "every_nth", "must be whole numbers from 1 on");
+    if (!count) throw configuration.invalidValue("experiment", "every_nth", "must be whole numbers from 1 on");
     counts.push_back(*count);
   }
-  if (counts.empty()) throw configuration.complaint("experiment", "every_nth", "must have at least one number");
+  if (counts.empty()) throw configuration.invalidValue("experiment", "every_nth", "must have at least one number");
   return counts;
 }
 }  // namespace scanloom
