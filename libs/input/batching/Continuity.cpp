@@ -84,7 +84,8 @@ std::optional<Duration> Continuity::ahead(Timestamp stamp, Timestamp received) c
   return (stamp - *latest_->stamp) - (received - latest_->received);
 }
 
-/** Whether the stream's next packet should have come by now: one that still goes on was not broken by two strangers. */
+/** Whether the stream's next packet should have come by now: one that still goes on was not broken by two packets of an
+ * unknown sender. */
 bool Continuity::isOverdue(Timestamp received) const
 {
   return received - latest_->received >=
@@ -109,7 +110,7 @@ std::optional<std::int64_t> Continuity::byIds(const Seen& known, const PacketPla
   { return std::abs(elapsed - secondsOf(block - known.block)) <= kStepTolerance + kRateTolerance * std::abs(elapsed); };
   const double waited = seconds(received - known.received);
   if (std::abs(near - known.block) <= kTurnsToReorder * blocks_per_turn_ && agrees(near))
-    // Nobody can have measured what is still to come: a stranger's copy would move this lidar's clock ahead.
+    // Nobody can have measured what is still to come: an unknown sender's copy would move this lidar's clock ahead.
     return elapsed - waited <= kSoonerTolerance + kPacketsSooner * secondsOf(blocks_per_packet_) +
                                    kSilenceTolerance * std::abs(elapsed)
                ? std::optional(near)

@@ -5,7 +5,7 @@ namespace scanloom
 {
 /**
  * Decides whether samples of a lidar's IMU are of that IMU: by the lidar's clock, which stamps both, or while the lidar
- * is not heard by the samples before, as for lidar packets without ids.
+ * is not seen in the samples before, as for lidar packets without ids.
  */
 class ImuContinuity
 {

@@ -150,7 +150,7 @@ std::optional<Duration> TimeBatcher::ahead(LidarIndex lidar, Timestamp stamp, Ti
   return stream ? stream->ahead(stamp, received) : std::nullopt;
 }
 
-/** Nothing that was heard of the lidar before is continued. */
+/** Nothing that was received from the lidar before is continued. */
 void TimeBatcher::beginAnew(LidarIndex lidar)
 {
   follow(lidar);
@@ -180,12 +180,12 @@ void TimeBatcher::refreshFront(LidarIndex lidar)
 }
 
 /**
- * Whose stamps tell what time it is; none while that can't be said of a lidar that is heard. What is silent again was
+ * Whose stamps tell what time it is; none while that can't be said of a lidar that sends. What is silent again was
  * another sender or a damaged packet, and is forgotten; what stays thin is not waited for.
  */
-std::optional<std::vector<bool>> TimeBatcher::believedLidars()
+std::optional<std::vector<bool>> TimeBatcher::lidarsWithClock()
 {
-  std::vector<bool> believed(inputs_.size(), true);
+  std::vector<bool> accepted(inputs_.size(), true);
   for (LidarIndex i = 0; i < inputs_.size() && !finished_; ++i)
   {
     const Input& input = inputs_[i];
@@ -195,16 +195,16 @@ std::optional<std::vector<bool>> TimeBatcher::believedLidars()
     else if (input.presence->isStarting(now_))
       return std::nullopt;
     else
-      believed[i] = false;
+      accepted[i] = false;
   }
-  return believed;
+  return accepted;
 }
 
 void TimeBatcher::startScans()
 {
-  const std::optional<std::vector<bool>> believed = believedLidars();
-  if (!believed) return;
-  const auto skews = clocks_.skewsAtStart(*believed);
+  const std::optional<std::vector<bool>> accepted = lidarsWithClock();
+  if (!accepted) return;
+  const auto skews = clocks_.skewsAtStart(*accepted);
   std::vector<LidarBeforeStart> lidars;
   for (LidarIndex i = 0; i < inputs_.size(); ++i)
   {
@@ -217,7 +217,7 @@ void TimeBatcher::startScans()
   const auto latest = latestFirstStamp(lidars, period_, finished_ ? std::nullopt : std::optional(now_));
   if (!latest) return;
 
-  settleClocksAtStart(*believed);
+  settleClocksAtStart(*accepted);
   scan_.emplace(firstStart(*latest), period_, options_.slices, inputs_.size());
 }
 
@@ -240,11 +240,11 @@ Timestamp TimeBatcher::firstStart(Timestamp latest_first_stamp) const
   return startOfWholeScan(latest_first_stamp, period_, fromSeconds(1e-3 * options_.scan_phase_ms), room);
 }
 
-void TimeBatcher::settleClocksAtStart(const std::vector<bool>& believed)
+void TimeBatcher::settleClocksAtStart(const std::vector<bool>& accepted)
 {
   for (LidarIndex i = 0; i < inputs_.size(); ++i)
-    if (!believed[i]) beginAnew(i);
-  for (const LidarClocks::Change& change : clocks_.settleAtStart(believed, now_))
+    if (!accepted[i]) beginAnew(i);
+  for (const LidarClocks::Change& change : clocks_.settleAtStart(accepted, now_))
   {
     const LidarIndex lidar = change.lidar;
     Input& input = inputs_[lidar];
@@ -265,7 +265,7 @@ void TimeBatcher::raiseHorizon()
     {
       Input& input = inputs_[i];
       if (input.stream) input.stream->giveUpGaps(now_, input.counters);
-      // A lidar that was not heard yet is expected to be as quick as the quickest one.
+      // A lidar that has not sent yet is expected to be as quick as the quickest one.
       const Duration delay = clocks_[i].isUsed() ? clocks_[i].leastDelay().value_or(*quickest) : *quickest;
       input.deadline_mark = std::max(input.deadline_mark, now_ - delay - input.patience);
     }

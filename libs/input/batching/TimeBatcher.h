@@ -57,7 +57,7 @@ class TimeBatcher
 
   /**
    * How far ahead a stamp of this lidar's own clock, say of its IMU, is of what the clock showed when it was received.
-   * None while the lidar was not heard.
+   * None while nothing was received from the lidar.
    */
   std::optional<Duration> ahead(LidarIndex, Timestamp stamp, Timestamp received) const;
 
@@ -92,8 +92,8 @@ class TimeBatcher
   std::vector<Scan> merge();
   void startScans();
   Timestamp firstStart(Timestamp latest_first_stamp) const;
-  std::optional<std::vector<bool>> believedLidars();
-  void settleClocksAtStart(const std::vector<bool>& believed);
+  std::optional<std::vector<bool>> lidarsWithClock();
+  void settleClocksAtStart(const std::vector<bool>& accepted);
   void raiseHorizon();
   Timestamp watermark(LidarIndex) const;
   Timestamp sequenceMark(LidarIndex) const;

@@ -10,7 +10,7 @@ namespace scanloom
 /** A lidar before the first scan. */
 struct LidarBeforeStart
 {
-  std::optional<Timestamp> first_stamp;  // t_0 of eq. (1), on the common clock; none if it was not heard or is left out
+  std::optional<Timestamp> first_stamp;  // t_0 of eq. (1), on the common clock; none if it has not sent or is left out
   Duration delay{0};                     // of its quickest packets, on the common clock; with first_stamp
   Duration patience{0};                  // how much later than its quickest packets a block may come
 };

@@ -24,7 +24,7 @@ std::optional<Duration> LidarClock::configuredDelay() const
   return delay ? std::optional(*delay - configured_) : std::nullopt;
 }
 
-bool LidarClock::heardSince(Timestamp when) const { return !delays_.empty() && delays_.newest() >= when; }
+bool LidarClock::hasSentSince(Timestamp when) const { return !delays_.empty() && delays_.newest() >= when; }
 
 void LidarClock::setCommon()
 {
@@ -80,10 +80,10 @@ std::optional<Duration> LidarClock::drift(Duration others_delay, Duration alarm,
 
 std::vector<std::optional<Duration>> clockSkews(const std::vector<std::optional<Duration>>& delays, Duration max_skew)
 {
-  std::vector<Duration> heard;
+  std::vector<Duration> known;
   for (const auto& delay : delays)
-    if (delay) heard.push_back(*delay);
-  std::sort(heard.begin(), heard.end());
+    if (delay) known.push_back(*delay);
+  std::sort(known.begin(), known.end());
 
   struct Group
   {
@@ -91,10 +91,10 @@ std::vector<std::optional<Duration>> clockSkews(const std::vector<std::optional<
     Duration least{0}, greatest{0};
   };
   Group best;
-  for (auto first = heard.begin(); first != heard.end();)
+  for (auto first = known.begin(); first != known.end();)
   {
     auto last = first + 1;
-    while (last != heard.end() && *last - *(last - 1) <= max_skew) ++last;
+    while (last != known.end() && *last - *(last - 1) <= max_skew) ++last;
     const Group group{last - first, *first, *(last - 1)};
     const auto farFromHost = [](const Group& g) { return std::abs(seconds(g.least)); };
     if (group.size > best.size || (group.size == best.size && farFromHost(group) < farFromHost(best))) best = group;

@@ -46,7 +46,7 @@ class LidarClock
   /** Least delay on the common clock before the latest step or restart; none if there was none, or it was not used. */
   std::optional<Duration> delayBeforeBreak() const { return delay_before_break_; }
 
-  bool heardSince(Timestamp) const;
+  bool hasSentSince(Timestamp) const;
   bool isUsed() const { return state_ == State::Common || state_ == State::Own; }
 
   void setCommon();

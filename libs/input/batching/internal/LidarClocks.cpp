@@ -18,8 +18,8 @@ constexpr Duration kSameDelay = 2ms;
 // F13: a person should know of a drift before it shows in the map.
 constexpr Duration kDriftAlarm = 5ms;
 
-// Others are compared with a lidar only if it was heard within this time.
-constexpr Duration kHeardLately = 2s;
+// Others are compared with a lidar only if it has sent within this time.
+constexpr Duration kActiveWithin = 2s;
 
 /** Whether a clock that has just stepped was nearer to the others before: then the step is undone in its stamps. */
 bool isNearerWithout(Duration step, const LidarClock& clock, Duration skew, Duration expected)
@@ -39,27 +39,27 @@ LidarClocks::LidarClocks(const std::vector<BatchedLidar>& lidars, const BatcherO
   }
 }
 
-std::vector<std::optional<Duration>> LidarClocks::configuredDelays(const std::vector<bool>& believed) const
+std::vector<std::optional<Duration>> LidarClocks::configuredDelays(const std::vector<bool>& accepted) const
 {
   std::vector<std::optional<Duration>> delays;
   for (LidarIndex i = 0; i < clocks_.size(); ++i)
-    delays.push_back(believed[i] ? clocks_[i].configuredDelay() : std::nullopt);
+    delays.push_back(accepted[i] ? clocks_[i].configuredDelay() : std::nullopt);
   return delays;
 }
 
-std::vector<std::optional<Duration>> LidarClocks::skewsAtStart(const std::vector<bool>& believed) const
+std::vector<std::optional<Duration>> LidarClocks::skewsAtStart(const std::vector<bool>& accepted) const
 {
-  std::vector<std::optional<Duration>> skews = clockSkews(configuredDelays(believed), kMaxSkew);
+  std::vector<std::optional<Duration>> skews = clockSkews(configuredDelays(accepted), kMaxSkew);
   if (other_clock_ == OtherClock::Quarantine)
     for (auto& skew : skews)
       if (skew && *skew != Duration{0}) skew.reset();
   return skews;
 }
 
-std::vector<LidarClocks::Change> LidarClocks::settleAtStart(const std::vector<bool>& believed, Timestamp now)
+std::vector<LidarClocks::Change> LidarClocks::settleAtStart(const std::vector<bool>& accepted, Timestamp now)
 {
   std::vector<Change> changes;
-  const auto skews = clockSkews(configuredDelays(believed), kMaxSkew);
+  const auto skews = clockSkews(configuredDelays(accepted), kMaxSkew);
   for (LidarIndex i = 0; i < clocks_.size(); ++i)
   {
     if (!skews[i]) continue;
@@ -130,17 +130,17 @@ std::optional<Duration> LidarClocks::leastDelay() const
   return least;
 }
 
-/** The lidar that another one is compared with: the first one heard lately, of the common clock if there is one. */
+/** The lidar that another one is compared with: the first that has sent lately, of the common clock if there is one. */
 std::optional<LidarIndex> LidarClocks::reference(LidarIndex other_than, Timestamp now) const
 {
   for (const LidarClock::State state : {LidarClock::State::Common, LidarClock::State::Own})
     for (LidarIndex i = 0; i < clocks_.size(); ++i)
-      if (i != other_than && clocks_[i].state() == state && clocks_[i].heardSince(now - kHeardLately)) return i;
+      if (i != other_than && clocks_[i].state() == state && clocks_[i].hasSentSince(now - kActiveWithin)) return i;
   return std::nullopt;
 }
 
 /**
- * The least delay of packets stamped by the common clock: now, or when that clock was last known. A lidar that is heard
+ * The least delay of packets stamped by the common clock: now, or when that clock was last known. A lidar that sends
  * first after all others were left out or fell silent must not begin another time. None if no clock was ever common.
  */
 std::optional<Duration> LidarClocks::commonDelay(LidarIndex lidar, Timestamp now) const

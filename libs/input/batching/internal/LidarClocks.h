@@ -23,10 +23,10 @@ class LidarClocks
   const LidarClock& operator[](LidarIndex lidar) const { return clocks_[lidar]; }
 
   /**
-   * How far each lidar heard so far is behind the common clock, as clockSkews says; none for those not heard, and for
-   * those whose clock will be quarantined or that are not `believed`.
+   * How far each lidar received so far is behind the common clock, as clockSkews says; none for those not received, and
+   * for those whose clock will be quarantined or that are not `accepted`.
    */
-  std::vector<std::optional<Duration>> skewsAtStart(const std::vector<bool>& believed) const;
+  std::vector<std::optional<Duration>> skewsAtStart(const std::vector<bool>& accepted) const;
 
   struct Change
   {
@@ -36,13 +36,13 @@ class LidarClocks
   };
 
   /**
-   * Decides for each lidar that is heard and believed; returns those that are not on the common clock. Throws
+   * Decides for each lidar that sends and is accepted; returns those that are not on the common clock. Throws
    * std::runtime_error for the first of them with other_clock = refuse.
    */
-  std::vector<Change> settleAtStart(const std::vector<bool>& believed, Timestamp now);
+  std::vector<Change> settleAtStart(const std::vector<bool>& accepted, Timestamp now);
 
   /**
-   * Decides for a lidar that was first heard after the start, that has restarted, or whose clock has stepped by `step`
+   * Decides for a lidar that first sent after the start, that has restarted, or whose clock has stepped by `step`
    * with this packet. Does nothing for one that is settled.
    */
   std::optional<Change> settle(LidarIndex, std::optional<Duration> step, Timestamp now);
@@ -53,11 +53,11 @@ class LidarClocks
    */
   std::optional<Duration> watch(LidarIndex, Timestamp now);
 
-  /** Of the lidar whose packets are quickest; none if none is heard and used. */
+  /** Of the lidar whose packets are quickest; none if none sends and is used. */
   std::optional<Duration> leastDelay() const;
 
  private:
-  std::vector<std::optional<Duration>> configuredDelays(const std::vector<bool>& believed) const;
+  std::vector<std::optional<Duration>> configuredDelays(const std::vector<bool>& accepted) const;
   std::optional<LidarIndex> reference(LidarIndex other_than, Timestamp now) const;
   std::optional<Duration> commonDelay(LidarIndex, Timestamp now) const;
 

@@ -9,10 +9,10 @@ namespace scanloom
 {
 namespace
 {
-// Longer than bursts of strangers.
+// Longer than bursts of unknown senders.
 constexpr Duration kWhile = 25ms;
 
-// A lidar of which few packets arrive is believed only after a longer while.
+// A lidar of which few packets arrive is accepted only after a longer while.
 constexpr Duration kLongWhile = 1s, kLongestWhile = 10s;
 
 // Longer than the pause of a lidar at 5 Hz with a narrow azimuth window.
@@ -37,24 +37,24 @@ StreamPresence::StreamPresence(const LidarDescription& lidar, Duration scan_peri
 bool StreamPresence::note(Timestamp stamp, Timestamp received)
 {
   const Duration delay = received - stamp;
-  const bool contradicts = heard_ && std::chrono::abs(delay - heard_->delay) > kDelaysDiffer;
-  if (!heard_ || contradicts) heard_ = Heard{received, received, delay, 0};
-  heard_->latest = std::max(heard_->latest, received);
-  heard_->delay = delay;
-  ++heard_->packets;
+  const bool contradicts = stream_ && std::chrono::abs(delay - stream_->delay) > kDelaysDiffer;
+  if (!stream_ || contradicts) stream_ = Stream{received, received, delay, 0};
+  stream_->latest = std::max(stream_->latest, received);
+  stream_->delay = delay;
+  ++stream_->packets;
   return !contradicts;
 }
 
 bool StreamPresence::isEstablished() const
 {
-  if (!heard_) return false;
-  const Duration length = heard_->latest - heard_->first;
-  const auto isDense = [&](int one_in) { return one_in * heard_->packets * packet_every_ >= length; };
+  if (!stream_) return false;
+  const Duration length = stream_->latest - stream_->first;
+  const auto isDense = [&](int one_in) { return one_in * stream_->packets * packet_every_ >= length; };
   return length >= kLongestWhile || (length >= kLongWhile && isDense(kThinnest)) ||
          (length >= while_ && isDense(kThin));
 }
 
-bool StreamPresence::isStarting(Timestamp now) const { return heard_ && now - heard_->first < kLongWhile; }
+bool StreamPresence::isStarting(Timestamp now) const { return stream_ && now - stream_->first < kLongWhile; }
 
-bool StreamPresence::isLost(Timestamp now) const { return heard_ && now - heard_->latest > kLongestPause; }
+bool StreamPresence::isLost(Timestamp now) const { return stream_ && now - stream_->latest > kLongestPause; }
 }  // namespace scanloom

@@ -6,8 +6,8 @@
 namespace scanloom
 {
 /**
- * How long and how densely a lidar has been heard. A few packets, damaged or another sender's, must not say what time
- * it is: the first scan waits until what is heard of a lidar has lasted.
+ * How long and how densely a lidar has been sending. A few packets, damaged or another sender's, must not say what time
+ * it is: the first scan waits until a lidar's stream has lasted.
  */
 class StreamPresence
 {
@@ -15,12 +15,13 @@ class StreamPresence
   /** @param scan_period at rates above 40 Hz a shorter while must do, or the first scans would come late. */
   StreamPresence(const LidarDescription&, Duration scan_period);
 
-  /** A packet with blocks for scans, by its newest stamp. False if it contradicts what was heard, which is forgotten.
+  /** A packet with blocks for scans, by its newest stamp. False if it contradicts the stream so far, which is
+   * forgotten.
    */
   bool note(Timestamp stamp, Timestamp received);
 
-  /** What was heard before counts no more. */
-  void restart() { heard_.reset(); }
+  /** What came before counts no more. */
+  void restart() { stream_.reset(); }
 
   /** Whether packets came for a while, not much thinner than this lidar sends them. False if none came. */
   bool isEstablished() const;
@@ -32,7 +33,7 @@ class StreamPresence
   bool isLost(Timestamp now) const;
 
  private:
-  struct Heard
+  struct Stream
   {
     Timestamp first, latest;
     Duration delay{0};  // of the latest packet: arrival minus stamp
@@ -41,6 +42,6 @@ class StreamPresence
 
   Duration while_;
   Duration packet_every_;  // on average over a turn
-  std::optional<Heard> heard_;
+  std::optional<Stream> stream_;
 };
 }  // namespace scanloom
