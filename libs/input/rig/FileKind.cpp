@@ -34,7 +34,7 @@ bool beginsWith(std::string_view bytes, std::string_view beginning)
   return bytes.substr(0, beginning.size()) == beginning;
 }
 
-/** KITTI's scans have nothing but points in them: they are told by their ending. */
+/** KITTI's scans have nothing but points in them: they are recognised by their ending. */
 bool isCloud(std::filesystem::path path, std::string_view bytes)
 {
   if (path.extension() == ".gz" || path.extension() == ".zst") path = path.stem();

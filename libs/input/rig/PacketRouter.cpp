@@ -12,8 +12,8 @@ namespace scanloom
 namespace
 {
 constexpr std::size_t kMostOrigins = 1000;
-constexpr std::size_t kMostStrangersTold = 20;
-constexpr int kPacketsElsewhere = 50;  // at a wrong port, until it is told: a tenth of a second
+constexpr std::size_t kMostSendersReported = 20;
+constexpr int kPacketsElsewhere = 50;  // at a wrong port, until it is reported: a tenth of a second
 constexpr std::size_t kMostPlacesWatched = 100;
 
 /** How badly a decoder understands a packet: only the candidates that understand it best are kept. */
@@ -75,7 +75,10 @@ Origin originOf(const DatagramView& datagram)
 }
 
 PacketRouter::PacketRouter(std::vector<RoutedLidar> lidars)
-  : lidars_(std::move(lidars)), senders_(lidars_.size()), of_other_senders_(lidars_.size(), 0), heard_(lidars_.size())
+  : lidars_(std::move(lidars)),
+    senders_(lidars_.size()),
+    of_other_senders_(lidars_.size(), 0),
+    received_(lidars_.size())
 {
   for (LidarIndex i = 0; i < lidars_.size(); ++i) replace(i, lidars_[i].address, lidars_[i].decoder);
 }
@@ -99,9 +102,9 @@ std::optional<RoutedPacket> PacketRouter::route(const DatagramView& datagram)
     if (!lidar) noticeOtherSensor(datagram);
     return std::nullopt;
   }
-  Heard& heard = heard_[lidar->lidar];
-  heard.lidar |= lidar->kind == PacketKind::Lidar;
-  heard.imu |= lidar->kind == PacketKind::Imu;
+  Received& received = received_[lidar->lidar];
+  received.lidar |= lidar->kind == PacketKind::Lidar;
+  received.imu |= lidar->kind == PacketKind::Imu;
   RoutedPacket packet =
       readPacket(lidar->lidar, *lidars_[lidar->lidar].decoder, lidar->kind, datagram.payload, datagram.received);
   packet.of_new_sender = sender == LidarSender::Verdict::TakesOver;
@@ -125,8 +128,9 @@ LidarSender::Verdict PacketRouter::judgeSender(const Candidate& candidate, const
 void PacketRouter::warnOfSender(LidarIndex lidar, const IpAddress& source, const IpAddress& kept,
                                 LidarSender::Verdict verdict)
 {
-  const bool is_told = strangers_.size() >= kMostStrangersTold || !strangers_.emplace(lidar, source).second;
-  if (verdict == LidarSender::Verdict::Refused && !is_told)
+  const bool is_reported =
+      reported_senders_.size() >= kMostSendersReported || !reported_senders_.emplace(lidar, source).second;
+  if (verdict == LidarSender::Verdict::Refused && !is_reported)
     warnings_.push_back(fmt::format(
         "lidar '{}': {} sends packets like those of {}, at port {}: they are left out and counted; give the lidar its "
         "key 'address' (the sensor's own IP address)",
@@ -199,24 +203,24 @@ PacketRouter::Candidates PacketRouter::fromKnownSource(const Candidates& candida
   return from_there.empty() ? candidates : from_there;
 }
 
-/** Of a lidar that is not heard where it should be, if it can be no other one's. */
+/** Of a lidar that is not received where it should be, if it can be no other one's. */
 void PacketRouter::noticeWrongPort(const DatagramView& datagram)
 {
-  Candidates unheard;
+  Candidates missing;
   for (LidarIndex i = 0; i < lidars_.size(); ++i)
   {
     const LidarAddress& address = lidars_[i].address;
     if (!lidars_[i].decoder || address.key.empty() || (address.source && *address.source != datagram.source)) continue;
     const PacketKind kind = lidars_[i].decoder->kindByHeader(datagram.payload);
-    // IMU packets tell no serial number: those of a sensor that is not there are another one's.
-    const bool is_there = heard_[i].lidar || isElsewhere(i);
-    const bool is_sought =
-        (kind == PacketKind::Lidar && !heard_[i].lidar) || (kind == PacketKind::Imu && !heard_[i].imu && is_there);
-    if (is_sought && lidars_[i].decoder->isIntact(datagram.payload)) unheard.push_back({i, kind});
+    // IMU packets hold no serial number: those of a sensor that is not there are another one's.
+    const bool is_there = received_[i].lidar || isElsewhere(i);
+    const bool is_sought = (kind == PacketKind::Lidar && !received_[i].lidar) ||
+                           (kind == PacketKind::Imu && !received_[i].imu && is_there);
+    if (is_sought && lidars_[i].decoder->isIntact(datagram.payload)) missing.push_back({i, kind});
   }
-  if (unheard.size() != 1) return;
-  const auto [lidar, kind] = unheard.front();
-  if (!isToldNow(lidar, kind, datagram)) return;
+  if (missing.size() != 1) return;
+  const auto [lidar, kind] = missing.front();
+  if (!isDueToReport(lidar, kind, datagram)) return;
   const LidarAddress& address = lidars_[lidar].address;
   const bool is_imu = kind == PacketKind::Imu;
   const std::string key = fmt::format("{}{}", address.key, is_imu ? "_imu" : "");
@@ -228,15 +232,15 @@ void PacketRouter::noticeWrongPort(const DatagramView& datagram)
                           : fmt::format("{} on topic {}: set {}_topic = {}", of, datagram.topic, key, datagram.topic));
 }
 
-/** At the port of a lidar that is not heard, by the serial number: the metadata are another sensor's. */
+/** At the port of a lidar that is not received, by the serial number: the metadata are another sensor's. */
 void PacketRouter::noticeOtherSensor(const DatagramView& datagram)
 {
   for (const Candidate& candidate : listenersTo(datagram))
   {
     const PacketDecoder& decoder = *lidars_[candidate.lidar].decoder;
-    if (candidate.kind != PacketKind::Foreign || heard_[candidate.lidar].lidar) continue;
+    if (candidate.kind != PacketKind::Foreign || received_[candidate.lidar].lidar) continue;
     const auto serial = decoder.header(datagram.payload).serial;
-    if (!serial || !decoder.isIntact(datagram.payload) || !isToldNow(candidate.lidar, candidate.kind, datagram))
+    if (!serial || !decoder.isIntact(datagram.payload) || !isDueToReport(candidate.lidar, candidate.kind, datagram))
       continue;
     warnings_.push_back(
         fmt::format("lidar '{}': packets to {} are of serial number {}, its metadata are of {}: give those of {}",
@@ -246,7 +250,7 @@ void PacketRouter::noticeOtherSensor(const DatagramView& datagram)
 }
 
 /** Once, after so many of these packets. */
-bool PacketRouter::isToldNow(LidarIndex lidar, PacketKind kind, const DatagramView& datagram)
+bool PacketRouter::isDueToReport(LidarIndex lidar, PacketKind kind, const DatagramView& datagram)
 {
   if (elsewhere_.size() >= kMostPlacesWatched) return false;
   return ++elsewhere_[{lidar, kind, placeOf(datagram.destination_port, datagram.topic)}] == kPacketsElsewhere;
@@ -262,7 +266,8 @@ bool PacketRouter::isElsewhere(LidarIndex lidar) const
                      });
 }
 
-/** One damaged packet must not end a run, and where all are ambiguous the lidars are silent: that is told at the end.
+/** One damaged packet must not end a run, and where all are ambiguous the lidars are silent: that is reported at the
+ * end.
  */
 void PacketRouter::warnOfAmbiguity(const DatagramView& datagram, const Candidates& candidates)
 {

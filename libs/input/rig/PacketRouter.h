@@ -61,8 +61,8 @@ Origin originOf(const DatagramView&);
 /**
  * Decides which lidar has sent a datagram, and classifies and reads it once. Tests go from cheap to dear: port or
  * topic, configured source address; size, type and serial number; the checksum, for the lidars that are left; and last
- * the source address: where several could have sent it, and against strangers that copy a lidar's serial number (see
- * LidarSender).
+ * the source address: where several could have sent it, and against unknown senders that copy a lidar's serial number
+ * (see LidarSender).
  */
 class PacketRouter
 {
@@ -94,7 +94,7 @@ class PacketRouter
   using Candidates = std::vector<Candidate>;
 
   /** Whether packets came to the port where they should. */
-  struct Heard
+  struct Received
   {
     bool lidar = false, imu = false;
   };
@@ -106,7 +106,7 @@ class PacketRouter
   void noticeWrongPort(const DatagramView&);
   void noticeOtherSensor(const DatagramView&);
   bool isElsewhere(LidarIndex) const;
-  bool isToldNow(LidarIndex, PacketKind, const DatagramView&);
+  bool isDueToReport(LidarIndex, PacketKind, const DatagramView&);
   LidarSender::Verdict judgeSender(const Candidate&, const DatagramView&);
   Origin countedOrigin(const DatagramView&) const;
   void warnOfAmbiguity(const DatagramView&, const Candidates&);
@@ -116,11 +116,11 @@ class PacketRouter
   std::vector<std::optional<LidarSender>> senders_;  // of each lidar; none while it is not known
   std::map<Origin, std::uint64_t> unmatched_;
   std::vector<std::uint64_t> of_other_senders_;  // of each lidar
-  std::vector<Heard> heard_;                     // of each lidar
+  std::vector<Received> received_;               // of each lidar
   std::map<std::tuple<LidarIndex, PacketKind, std::string>, int>
       elsewhere_;  // packets at another place, and those of another sensor (Foreign) at its own, up to a limit
-  std::set<std::string> ambiguous_places_;                // that were told
-  std::set<std::pair<LidarIndex, IpAddress>> strangers_;  // that were told, up to a limit
+  std::set<std::string> ambiguous_places_;                       // that were reported
+  std::set<std::pair<LidarIndex, IpAddress>> reported_senders_;  // those of other addresses, up to a limit
   std::vector<std::string> warnings_;
 };
 }  // namespace scanloom

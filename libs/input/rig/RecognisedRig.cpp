@@ -85,7 +85,7 @@ std::string onlyOne(const Paths& files, const char* what)
   return files.empty() ? "" : files.front().string();
 }
 
-bool isHeard(const FoundLidar& lidar) { return !lidar.topic.empty() || lidar.source != IpAddress{}; }
+bool isReceived(const FoundLidar& lidar) { return !lidar.topic.empty() || lidar.source != IpAddress{}; }
 
 std::string describe(const LidarDescription& lidar)
 {
@@ -325,7 +325,7 @@ RecognisedRig recogniseRig(const RecordingFiles& files, const std::filesystem::p
     const std::string key = fmt::format("lidar{}", i + 1);
     addLidar(lidar, key, names[i], ini);
     addPose(key, names[i], poses, found.lidars.size(), rig, ini);
-    if (!isHeard(lidar)) continue;
+    if (!isReceived(lidar)) continue;
     const std::string place = lidar.topic.empty() ? fmt::format("from {} to port {}", lidar.source.text(), lidar.port)
                                                   : "on topic " + lidar.topic;
     rig.found.push_back(

@@ -16,9 +16,9 @@ std::map<std::string, std::uint64_t> countsOf(const RigAccount& account)
                  { counts[fmt::format("{}.{}", lidar.name, name)] = count; });
     counts[fmt::format("{}.packets_of_other_senders", lidar.name)] = lidar.of_other_senders;
   }
-  std::uint64_t strangers = 0;
-  for (const auto& [origin, datagrams] : account.unmatched) strangers += datagrams;
-  counts["datagrams_of_no_lidar"] = strangers;
+  std::uint64_t unmatched = 0;
+  for (const auto& [origin, datagrams] : account.unmatched) unmatched += datagrams;
+  counts["datagrams_of_no_lidar"] = unmatched;
   counts["imu_samples_late"] = account.late_imu_samples;
   counts["imu_samples_implausible"] = account.implausible_imu_samples;
   return counts;

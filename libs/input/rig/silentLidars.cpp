@@ -42,11 +42,10 @@ std::vector<std::string> silentLidars(const RigAccount& account)
       lines.push_back(fmt::format("lidar '{}' is in no scan: {}", lidar.name, whatBecameOf(lidar)));
   if (lines.empty()) return lines;
 
-  std::vector<std::pair<Origin, std::uint64_t>> strangers(account.unmatched.begin(), account.unmatched.end());
-  std::stable_sort(strangers.begin(), strangers.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
-  strangers.resize(std::min(strangers.size(), kSendersNamed));
-  for (const auto& [origin, datagrams] : strangers)
+  std::vector<std::pair<Origin, std::uint64_t>> senders(account.unmatched.begin(), account.unmatched.end());
+  std::stable_sort(senders.begin(), senders.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+  senders.resize(std::min(senders.size(), kSendersNamed));
+  for (const auto& [origin, datagrams] : senders)
     lines.push_back(fmt::format(
         "{} datagrams {} are of no lidar: another port, serial number, product id or format than its metadata say "
         "('scanloom info CAPTURE --metadata FILE' tells more)",

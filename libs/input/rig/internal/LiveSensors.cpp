@@ -56,21 +56,21 @@ void LiveSensors::saveMetadata(Lidar& lidar)
   }
 }
 
-void LiveSensors::doubt(LidarIndex lidar)
+void LiveSensors::recheck(LidarIndex lidar)
 {
   if (lidar >= lidars_.size() || !lidars_[lidar].sensor.sensor) return;
-  lidars_[lidar].doubted = true;
-  askDoubted();
+  lidars_[lidar].suspect = true;
+  askSuspects();
 }
 
-void LiveSensors::askDoubted()
+void LiveSensors::askSuspects()
 {
   const Clock::time_point now = Clock::now();
   for (LidarIndex i = 0; i < lidars_.size(); ++i)
   {
     Lidar& lidar = lidars_[i];
-    if (!lidar.doubted || (lidar.asked && now - *lidar.asked < kBetweenDoubts)) continue;
-    lidar.doubted = false;
+    if (!lidar.suspect || (lidar.asked && now - *lidar.asked < kBetweenQuestions)) continue;
+    lidar.suspect = false;
     lidar.asked = now;
     inquiries_.ask(i, *lidar.sensor.sensor);
   }
@@ -78,7 +78,7 @@ void LiveSensors::askDoubted()
 
 std::vector<LiveSensors::Change> LiveSensors::takeChanges(std::vector<std::string>& notices)
 {
-  askDoubted();
+  askSuspects();
   for (std::string& problem : std::exchange(problems_, {})) notices.push_back(std::move(problem));
   for (const SensorInquiries::Failure& failure : inquiries_.takeFailures())
     notices.push_back(fmt::format("lidar '{}': {}", lidars_[failure.lidar].name, failure.problem));

@@ -17,7 +17,7 @@ namespace scanloom
 class LiveSensors
 {
  public:
-  static constexpr Duration kBetweenDoubts = 2s;
+  static constexpr Duration kBetweenQuestions = 2s;
 
   /**
    * Starts to ask sensors without metadata, and to configure those that may be configured. Metadata are written beside
@@ -28,9 +28,9 @@ class LiveSensors
 
   /**
    * The lidar has restarted, or sends packets that its decoder does not understand: its metadata may have changed. Its
-   * sensor, if known, is asked now, or kBetweenDoubts after the last time.
+   * sensor, if known, is asked now, or kBetweenQuestions after the last time.
    */
-  void doubt(LidarIndex);
+  void recheck(LidarIndex);
 
   struct Change
   {
@@ -51,11 +51,11 @@ class LiveSensors
     RigSensor sensor;
     std::string name;
     int saved = 0;  // number of files beside the capture
-    bool doubted = false;
+    bool suspect = false;
     std::optional<Clock::time_point> asked;
   };
 
-  void askDoubted();
+  void askSuspects();
   void saveMetadata(Lidar&);
   std::optional<Change> changeBy(const SensorInquiries::Answer&, std::vector<std::string>& notices);
 

@@ -97,9 +97,10 @@ std::vector<std::string> PacedCaptures::takeWarnings()
 {
   std::vector<std::string> warnings = std::exchange(notes_, {});
   const CaptureCounters captures = captures_.counters();
-  if (captures.truncated && !std::exchange(told_of_cut_, true))
+  if (captures.truncated && !std::exchange(cut_is_reported_, true))
     warnings.push_back("a capture ends inside a record: everything before it was read");
-  for (; damages_told_ < captures.damages.size(); ++damages_told_) warnings.push_back(captures.damages[damages_told_]);
+  for (; damages_reported_ < captures.damages.size(); ++damages_reported_)
+    warnings.push_back(captures.damages[damages_reported_]);
   return warnings;
 }
 }  // namespace scanloom

@@ -38,7 +38,7 @@ class PacedCaptures
   double pace_ = 1;             // of times of reception
   Timestamp begin_;             // the first of these times
   std::vector<std::string> notes_;
-  bool told_of_cut_ = false;
-  std::size_t damages_told_ = 0;
+  bool cut_is_reported_ = false;
+  std::size_t damages_reported_ = 0;
 };
 }  // namespace scanloom

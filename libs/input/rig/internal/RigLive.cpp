@@ -159,7 +159,7 @@ void RigLive::publish()
 
 void RigLive::followSensors(std::vector<std::string>& warnings)
 {
-  for (const LidarIndex lidar : stream_.takeDoubted()) sensors_.doubt(lidar);
+  for (const LidarIndex lidar : stream_.takeSuspects()) sensors_.recheck(lidar);
   for (LiveSensors::Change& change : sensors_.takeChanges(warnings))
   {
     {

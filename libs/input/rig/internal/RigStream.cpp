@@ -76,7 +76,7 @@ std::vector<Scan> RigStream::onward(const std::function<std::vector<Scan>()>& st
   return scans;
 }
 
-/** What was ahead of the lidar's clock before the lidar was heard would wait until the end. */
+/** What was ahead of the lidar's clock before its first packet would wait until the end. */
 void RigStream::judgeEarlyImu(LidarIndex lidar, Timestamp received)
 {
   LidarImu& imu = lidar_imus_[lidar];
@@ -112,16 +112,16 @@ void RigStream::replace(LidarIndex lidar, std::shared_ptr<const PacketDecoder> d
   batcher_.replace(lidar, std::move(decoder));
 }
 
-std::vector<LidarIndex> RigStream::takeDoubted()
+std::vector<LidarIndex> RigStream::takeSuspects()
 {
-  std::vector<LidarIndex> doubted = std::exchange(restarted_, {});
+  std::vector<LidarIndex> suspects = std::exchange(restarted_, {});
   for (LidarIndex i = 0; i < strange_.size(); ++i)
   {
     const LidarCounters& counters = batcher_.counters(i);
     const std::uint64_t strange = counters.malformed_packets + counters.doubtful_packets;
-    if (std::exchange(strange_[i], strange) != strange) doubted.push_back(i);
+    if (std::exchange(strange_[i], strange) != strange) suspects.push_back(i);
   }
-  return doubted;
+  return suspects;
 }
 
 std::optional<SensorEvent> RigStream::next()
@@ -168,7 +168,7 @@ std::vector<std::string> RigStream::takeWarnings()
   }
   for (std::string& warning : router_.takeWarnings()) warnings.push_back(std::move(warning));
   for (LidarIndex i = 0; i < lidar_imus_.size(); ++i)
-    if (lidar_imus_[i].implausible > 0 && !std::exchange(lidar_imus_[i].told, true))
+    if (lidar_imus_[i].implausible > 0 && !std::exchange(lidar_imus_[i].reported, true))
       warnings.push_back(
           fmt::format("lidar '{}': IMU samples whose stamps its clock can't have shown are left out and counted "
                       "(imu_samples_implausible): they are damaged, or another sender's; then give the lidar its key "

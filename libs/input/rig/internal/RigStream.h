@@ -58,7 +58,7 @@ class RigStream
    * Lidars whose metadata may have changed, since the last call: those that have started again, or sent packets that
    * fit neither their decoder nor the packets before.
    */
-  std::vector<LidarIndex> takeDoubted();
+  std::vector<LidarIndex> takeSuspects();
 
   /** The next event that is ready. */
   std::optional<SensorEvent> next();
@@ -83,8 +83,8 @@ class RigStream
   {
     ImuContinuity continuity;
     std::uint64_t implausible = 0;  // samples
-    bool told = false;              // that there are such samples
-    bool by_lidar = false;          // what came before the lidar was heard is judged by its clock, too
+    bool reported = false;          // that there are such samples
+    bool by_lidar = false;          // what came before the lidar's first packet is judged by its clock, too
   };
 
   PacketRouter router_;
@@ -96,7 +96,7 @@ class RigStream
   std::vector<LidarImu> lidar_imus_;
   std::deque<ScanPart> parts_;  // from the batcher, until their scan is given out
   std::deque<SensorEvent> ready_;
-  std::vector<std::uint64_t> strange_;  // packets per lidar that fit nothing, as of takeDoubted()
-  std::vector<LidarIndex> restarted_;   // until takeDoubted()
+  std::vector<std::uint64_t> strange_;  // packets per lidar that fit nothing, as of takeSuspects()
+  std::vector<LidarIndex> restarted_;   // until takeSuspects()
 };
 }  // namespace scanloom

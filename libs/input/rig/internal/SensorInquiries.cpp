@@ -17,7 +17,7 @@ SensorInquiries::~SensorInquiries()
   for (auto& [lidar, inquiry] : inquiries_) inquiry.thread.join();
 }
 
-void SensorInquiries::ask(std::size_t lidar, const LidarSensor& sensor, const std::string& told)
+void SensorInquiries::ask(std::size_t lidar, const LidarSensor& sensor, const std::string& reported)
 {
   const std::lock_guard lock(mutex_);
   const auto known = inquiries_.find(lidar);
@@ -29,7 +29,7 @@ void SensorInquiries::ask(std::size_t lidar, const LidarSensor& sensor, const st
   }
   Inquiry& inquiry = inquiries_[lidar];
   inquiry.thread =
-      std::thread([this, lidar, sensor, told, &inquiry] { askUntilAnswered(lidar, sensor, told, inquiry); });
+      std::thread([this, lidar, sensor, reported, &inquiry] { askUntilAnswered(lidar, sensor, reported, inquiry); });
 }
 
 std::vector<SensorInquiries::Answer> SensorInquiries::take()
@@ -44,11 +44,11 @@ std::vector<SensorInquiries::Failure> SensorInquiries::takeFailures()
   return std::exchange(failures_, {});
 }
 
-void SensorInquiries::askUntilAnswered(std::size_t lidar, LidarSensor sensor, std::string told, Inquiry& inquiry)
+void SensorInquiries::askUntilAnswered(std::size_t lidar, LidarSensor sensor, std::string reported, Inquiry& inquiry)
 {
   for (Duration wait = kFirstPause;; wait = std::min(2 * wait, kLongestPause))
   {
-    if (std::optional<LidarMetadata> metadata = askOnce(lidar, sensor, told, inquiry))
+    if (std::optional<LidarMetadata> metadata = askOnce(lidar, sensor, reported, inquiry))
     {
       const std::lock_guard lock(mutex_);
       answers_.push_back({lidar, *std::move(metadata)});
@@ -59,7 +59,7 @@ void SensorInquiries::askUntilAnswered(std::size_t lidar, LidarSensor sensor, st
   }
 }
 
-std::optional<LidarMetadata> SensorInquiries::askOnce(std::size_t lidar, LidarSensor& sensor, std::string& told,
+std::optional<LidarMetadata> SensorInquiries::askOnce(std::size_t lidar, LidarSensor& sensor, std::string& reported,
                                                       Inquiry& inquiry)
 {
   SensorHttp http(sensor.address, kRigHttpLimits);
@@ -81,10 +81,10 @@ std::optional<LidarMetadata> SensorInquiries::askOnce(std::size_t lidar, LidarSe
     problem = failure.what();
   }
   announce(nullptr);
-  if (!metadata && problem != told)
+  if (!metadata && problem != reported)
   {
     const std::lock_guard lock(mutex_);
-    failures_.push_back({lidar, told = problem});
+    failures_.push_back({lidar, reported = problem});
   }
   return metadata;
 }

@@ -27,10 +27,10 @@ class SensorInquiries
   SensorInquiries& operator=(const SensorInquiries&) = delete;
 
   /**
-   * `lidar` is returned with the answer; `told` is a failure that a person already knows. Does nothing while this lidar
-   * is being asked.
+   * `lidar` is returned with the answer; `reported` is a failure that a person already knows. Does nothing while this
+   * lidar is being asked.
    */
-  void ask(std::size_t lidar, const LidarSensor&, const std::string& told = "");
+  void ask(std::size_t lidar, const LidarSensor&, const std::string& reported = "");
 
   struct Answer
   {
@@ -56,8 +56,8 @@ class SensorInquiries
     std::thread thread;
   };
 
-  void askUntilAnswered(std::size_t lidar, LidarSensor, std::string told, Inquiry&);
-  std::optional<LidarMetadata> askOnce(std::size_t lidar, LidarSensor&, std::string& told, Inquiry&);
+  void askUntilAnswered(std::size_t lidar, LidarSensor, std::string reported, Inquiry&);
+  std::optional<LidarMetadata> askOnce(std::size_t lidar, LidarSensor&, std::string& reported, Inquiry&);
   bool pause(Duration);
 
   std::mutex mutex_;
