@@ -22,7 +22,7 @@ using mrpt::obs::CObservationIMU;
 using mrpt::obs::CObservationVelodyneScan;
 using RawPacket = CObservationVelodyneScan::TVelodyneRawPacket;
 
-constexpr std::size_t kFirstObservations = 1000;  // an IMU may be heard for some seconds before the lidar
+constexpr std::size_t kFirstObservations = 1000;  // an IMU may send for some seconds before the lidar
 
 /** By its name: the class is of a lib of MRPT that this room does not need. */
 bool isPointCloud(const mrpt::obs::CObservation& observation)

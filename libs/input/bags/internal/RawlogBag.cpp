@@ -15,7 +15,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr Duration kEverySensorIsHeardWithin = 10s;
+constexpr Duration kEverySensorAppearsWithin = 10s;
 const BagTopic kStaticTransforms{"/tf_static", "tf2_msgs/TFMessage", Serialisation::Cdr};
 
 Timestamp timeOf(const RawlogMeasurement& measurement)
@@ -41,7 +41,7 @@ std::vector<BagTopic> firstTopicsOf(const std::filesystem::path& path)
   for (RawlogMeasurement measurement; rawlog.next(measurement);)
   {
     if (!first) first = timeOf(measurement);
-    if (timeOf(measurement) - *first > kEverySensorIsHeardWithin) break;
+    if (timeOf(measurement) - *first > kEverySensorAppearsWithin) break;
     const BagTopic topic = topicOf(measurement);
     if (std::none_of(topics.begin(), topics.end(), [&](const BagTopic& known) { return isSame(known, topic); }))
       topics.push_back(topic);
@@ -110,7 +110,7 @@ class RawlogBag : public BagReader
     RawlogMeasurement measurement;
     if (!rawlog_.next(measurement))
     {
-      if (!rawlog_.damage().empty() && !std::exchange(damage_is_told_, true))
+      if (!rawlog_.damage().empty() && !std::exchange(damage_is_reported_, true))
         warnings_.push_back(fmt::format("{}: {}", path_.string(), rawlog_.damage()));
       return false;
     }
@@ -121,7 +121,7 @@ class RawlogBag : public BagReader
     {
       if (late_.insert(topic.name).second)
         warnings_.push_back(fmt::format("{}: '{}' begins more than {} s after the first object: left out",
-                                        path_.string(), topic.name, kEverySensorIsHeardWithin / 1s));
+                                        path_.string(), topic.name, kEverySensorAppearsWithin / 1s));
       return true;
     }
     const Timestamp received = timeOf(measurement);
@@ -139,7 +139,7 @@ class RawlogBag : public BagReader
   std::deque<Message> waiting_;
   Message current_;
   std::set<std::string> placed_, late_;  // topics whose transform was given, that were left out
-  bool damage_is_told_ = false;
+  bool damage_is_reported_ = false;
   std::vector<std::string> warnings_;
 };
 }  // namespace
