@@ -178,9 +178,9 @@ std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const
   agreement.lag = (best - kMostLagSteps) * kStep +
                   fromSeconds(seconds(kStep) * peakBeside(correlations, static_cast<std::size_t>(best)));
   const Eigen::Matrix3Xd rates_b = ratesOf(turns, gyro, agreement.lag);
-  const Alignment as_told = aligned(rates_a, rates_b), reversed = aligned(rates_a, -rates_b);
-  agreement.mirrored = isFarBetter(reversed, as_told);
-  const Alignment& alignment = agreement.mirrored ? reversed : as_told;
+  const Alignment as_given = aligned(rates_a, rates_b), reversed = aligned(rates_a, -rates_b);
+  agreement.mirrored = isFarBetter(reversed, as_given);
+  const Alignment& alignment = agreement.mirrored ? reversed : as_given;
   agreement.rotation = logSo3(Eigen::Quaterniond(alignment.trace.rotation));
   agreement.scale = rates_b.norm() / rates_a.norm();
   const double noise = alignment.noise, unexplained = std::pow(alignment.residual / rates_a.norm(), 2);

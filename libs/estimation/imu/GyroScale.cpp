@@ -59,7 +59,7 @@ std::vector<Window> windowsOf(const std::vector<ImuSample>& samples)
 using Unknowns = Eigen::Matrix<double, 4, 1>;  // scale, scale * r
 struct Row3
 {
-  Eigen::Matrix<double, 3, 4> told;
+  Eigen::Matrix<double, 3, 4> regressors;
   Eigen::Vector3d seen;
 };
 
@@ -72,7 +72,8 @@ std::vector<Row3> rowsOf(const std::vector<Window>& windows)
     Eigen::Vector3d turned = kWindow / 2 * (from.rate + to.rate);
     for (std::size_t i = k + 1; i < k + kWindowsApart; ++i) turned += kWindow * windows[i].rate;
     Row3 row;
-    row.told << -turned.cross(0.5 * (from.force + to.force)), skew(to.angular_acceleration - from.angular_acceleration);
+    row.regressors << -turned.cross(0.5 * (from.force + to.force)),
+        skew(to.angular_acceleration - from.angular_acceleration);
     row.seen = to.force - from.force;
     rows.push_back(row);
   }
@@ -85,12 +86,12 @@ Row3 centre(std::vector<Row3>& rows)
   Row3 mean{Eigen::Matrix<double, 3, 4>::Zero(), Eigen::Vector3d::Zero()};
   for (const Row3& row : rows)
   {
-    mean.told += row.told / static_cast<double>(rows.size());
+    mean.regressors += row.regressors / static_cast<double>(rows.size());
     mean.seen += row.seen / static_cast<double>(rows.size());
   }
   for (Row3& row : rows)
   {
-    row.told -= mean.told;
+    row.regressors -= mean.regressors;
     row.seen -= mean.seen;
   }
   return mean;
@@ -107,21 +108,21 @@ std::optional<GyroScale> gyroScale(const std::vector<ImuSample>& samples)
   Unknowns right = Unknowns::Zero();
   for (const Row3& row : rows)
   {
-    information += row.told.transpose() * row.told;
-    right += row.told.transpose() * row.seen;
+    information += row.regressors.transpose() * row.regressors;
+    right += row.regressors.transpose() * row.seen;
   }
   const Eigen::LLT<Eigen::Matrix4d> solver(information);
   if (solver.info() != Eigen::Success) return std::nullopt;
   const Unknowns solution = solver.solve(right);
 
   double squares = 0;
-  for (const Row3& row : rows) squares += (row.seen - row.told * solution).squaredNorm();
+  for (const Row3& row : rows) squares += (row.seen - row.regressors * solution).squaredNorm();
   // Pairs overlap: only one in kWindowsApart is independent.
   const double variance = kWindowsApart * squares / (3 * static_cast<double>(rows.size()));
   GyroScale result;
   result.scale = solution[0];
   result.sigma = std::sqrt(variance * solver.solve(Unknowns::Unit(0))[0]);
-  result.tilt_rate = mean.told.col(0).norm() / (kWindowsApart * kWindow * kGravity);
+  result.tilt_rate = mean.regressors.col(0).norm() / (kWindowsApart * kWindow * kGravity);
   return result;
 }
 }  // namespace scanloom

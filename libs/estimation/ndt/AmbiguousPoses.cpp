@@ -74,7 +74,7 @@ class Scores
 };
 }  // namespace
 
-double surprise(const PoseGuess& guess, const Rigid& pose)
+double mahalanobisDistance(const PoseGuess& guess, const Rigid& pose)
 {
   const Vector6d off = boxMinus(pose, guess.target_T_source);
   return off.dot(*solvePositive(*guess.covariance, off));

@@ -15,5 +15,5 @@ std::vector<Rigid> ambiguousPoses(const RegistrationLevel&, const RegistrationRe
                                   const RegistrationOptions&);
 
 /** Squared Mahalanobis distance from a guess that has a covariance. */
-double surprise(const PoseGuess&, const Rigid& pose);
+double mahalanobisDistance(const PoseGuess&, const Rigid& pose);
 }  // namespace scanloom

@@ -52,7 +52,7 @@ constexpr double kHeadingStandsOut    = 1.04;    // 1      over the median; bare
 constexpr double kRivalCandidate      = 0.5;     // 1      of the best broad score; stems in rows            #on-two-generators
 
 // Registration of a scan, and of a lost body (ScanRegistration, Relocalisation)
-constexpr double kUsualSurprise       = 5;       // 1      deviations; 28 drives                             #large-cells-that-mislead
+constexpr double kUsualDistance       = 5;       // 1      deviations; 28 drives                             #large-cells-that-mislead
 constexpr double kScoreOfAgreement    = 0.9;     // 1      of the usual score; 28 drives                     #large-cells-that-mislead
 constexpr double kScoreOfRival        = 0.8;     // 1      of the best score; drives made to get lost        #made-to-get-lost
 constexpr double kScoreOfPlace        = 0.75;    // 1      of the last trusted score; the same               #made-to-get-lost

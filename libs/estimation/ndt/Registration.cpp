@@ -176,7 +176,8 @@ RegistrationResult weighedAgainstRivals(RegistrationResult result, const Registr
   result.rivals = ambiguousPoses(level, result, guess, options);
   if (result.rivals.empty()) return result;
   for (Rigid& rival : result.rivals)
-    if (surprise(guess, rival) < surprise(guess, result.target_T_source)) std::swap(rival, result.target_T_source);
+    if (mahalanobisDistance(guess, rival) < mahalanobisDistance(guess, result.target_T_source))
+      std::swap(rival, result.target_T_source);
   result.outcome = Outcome::Degenerate;
   for (const Rigid& rival : result.rivals)
   {

@@ -36,8 +36,8 @@ struct StateEstimate
   bool imu_complete = true;  // false: the IMU did not cover the scan in time, its last reading was held
   PointCloud cloud;          // in the body frame at `stamp`, from which its t count: cropped and deskewed
   std::optional<RegistrationResult> registration;  // none for the first scan of a map, or one without points
-  double surprise = 0;         // distance of the registration from the IMU's prediction, in standard deviations
-  bool trusted = false;        // the registration, by its outcome and its surprise
+  double mahalanobis = 0;      // distance of the registration from the IMU's prediction, in standard deviations
+  bool trusted = false;        // the registration, by its outcome and this distance
   bool recovered = false;      // found again: the pose does not continue the previous one
   bool map_restarted = false;  // a new local map begins here
   std::optional<Keyframe> keyframe;

@@ -66,9 +66,9 @@ void SlamFiles::add(const StateEstimate& e)
   const Vector6d sigma = e.since_start.diagonal().cwiseSqrt();
   fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d},{:.3e},{:.4f},{:.4f},{}\n",
              nanoseconds(e.stamp), toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap,
-             r.score, r.iterations, e.cloud.size(), e.keyframe.has_value(), e.scan_complete, e.imu_complete, e.surprise,
-             e.trusted, e.recovered, fmt::join(sigma.begin(), sigma.end(), ","), e.correction.head<3>().norm(),
-             180 / M_PI * e.correction.tail<3>().norm(), marksUntil(e.stamp));
+             r.score, r.iterations, e.cloud.size(), e.keyframe.has_value(), e.scan_complete, e.imu_complete,
+             e.mahalanobis, e.trusted, e.recovered, fmt::join(sigma.begin(), sigma.end(), ","),
+             e.correction.head<3>().norm(), 180 / M_PI * e.correction.tail<3>().norm(), marksUntil(e.stamp));
   for (TumWriter* writer : {&trajectory_, &trajectory_imu_}) writer->flush();
   csv_.flush();
   if (maps_ && e.keyframe) maps_->add(*e.keyframe);

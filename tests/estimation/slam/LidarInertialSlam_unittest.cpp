@@ -627,7 +627,7 @@ TEST(LidarInertialSlam, aScanFromElsewhereIsNotTrusted)
                               scan = stand.scanAt(scan.start, jumped);
                             });
   const StateEstimate& jump = run.at(8100ms);
-  EXPECT_GT(jump.surprise, 40);
+  EXPECT_GT(jump.mahalanobis, 40);
   EXPECT_FALSE(jump.trusted);
   EXPECT_EQ(jump.health, Health::Degenerate);
   EXPECT_EQ(run.estimates.back().health, Health::Ok);

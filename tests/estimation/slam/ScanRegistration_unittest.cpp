@@ -99,7 +99,7 @@ TEST(ScanRegistration, aPredictionThatFitsWorseThanWhatLargeCellsFindIsOverruled
   const PoseGuess guess = guessWith(truth * Rigid::fromXyzYawPitchRoll(0.9, -0.6, 0, 0, 0, 0), 0.05, 0.01);
   const RegistrationResult found =
       registerTwice(map, viewsAt(kMapPose * truth), guess, std::nullopt, SlamSettings().registration).value;
-  EXPECT_GT(surpriseOf(found, guess), 5);
+  EXPECT_GT(mahalanobisOf(found, guess), 5);
   EXPECT_LT(distance(found.target_T_source, truth), 0.02);
 }
 
@@ -107,7 +107,7 @@ TEST(ScanRegistration, aCovarianceSpoiltByRoundingMakesTheSurpriseInfiniteAndThr
 {
   RegistrationResult found;
   found.covariance(0, 0) = -1;
-  EXPECT_EQ(surpriseOf(found, guessWith(Rigid::identity(), 0.1, 0.01)), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(mahalanobisOf(found, guessWith(Rigid::identity(), 0.1, 0.01)), std::numeric_limits<double>::infinity());
 }
 
 TEST(ScanRegistration, relocalisesFromAnywhereNearby)

@@ -62,9 +62,9 @@ GatedRegistration HealthMonitor::gated(Timed<RegistrationResult> seen, const Pos
 {
   GatedRegistration gated{std::move(seen.value), 0, false, std::move(seen.times)};
   if (gated.result->outcome == Outcome::LowOverlap) return gated;
-  gated.surprise = surpriseOf(*gated.result, predicted);
+  gated.mahalanobis = mahalanobisOf(*gated.result, predicted);
   const bool usable = lost ? gated.result->outcome == Outcome::Converged : gated.result->trustworthy();
-  gated.trusted = usable && gated.surprise <= kGate;
+  gated.trusted = usable && gated.mahalanobis <= kGate;
   return gated;
 }
 

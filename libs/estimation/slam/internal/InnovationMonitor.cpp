@@ -11,17 +11,17 @@ namespace
 constexpr Duration kWindow = 10s;
 }  // namespace
 
-void InnovationMonitor::add(Timestamp stamp, double surprise)
+void InnovationMonitor::add(Timestamp stamp, double mahalanobis)
 {
-  last_.emplace_back(stamp, surprise);
+  last_.emplace_back(stamp, mahalanobis);
   while (stamp - last_[1 % last_.size()].first >= kWindow) last_.pop_front();
 }
 
 double InnovationMonitor::median() const
 {
   if (last_.size() < 5 || last_.back().first - last_.front().first < kWindow) return 0;
-  std::vector<double> surprises;
-  for (const auto& [stamp, surprise] : last_) surprises.push_back(surprise);
-  return upperMedian(std::move(surprises));
+  std::vector<double> distances;
+  for (const auto& [stamp, mahalanobis] : last_) distances.push_back(mahalanobis);
+  return upperMedian(std::move(distances));
 }
 }  // namespace scanloom

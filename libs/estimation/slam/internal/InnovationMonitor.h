@@ -14,8 +14,8 @@ namespace scanloom
 class InnovationMonitor
 {
  public:
-  /** For every registration: its distance from the prediction in standard deviations (StateEstimate::surprise). */
-  void add(Timestamp, double surprise);
+  /** For every registration: its distance from the prediction in standard deviations (StateEstimate::mahalanobis). */
+  void add(Timestamp, double mahalanobis);
 
   /** The median of the last ten seconds; 0 until they have passed, and if they hold fewer than five registrations. */
   double median() const;

@@ -81,7 +81,7 @@ class Pyramid
 
 bool agrees(const RegistrationResult& result, const PoseGuess& guess)
 {
-  return result.trustworthy() && surpriseOf(result, guess) < fitted::kUsualSurprise;
+  return result.trustworthy() && mahalanobisOf(result, guess) < fitted::kUsualDistance;
 }
 
 bool fitsAsWell(const RegistrationResult& result, double score)
@@ -162,7 +162,7 @@ Timed<RegistrationResult> registerTwice(const NdtMap& map, const std::vector<Vie
   return {agrees(*near, guess) && fitsAsWell(*near, far.score) ? *near : far, times};
 }
 
-double surpriseOf(const RegistrationResult& registration, const PoseGuess& predicted)
+double mahalanobisOf(const RegistrationResult& registration, const PoseGuess& predicted)
 {
   const Vector6d apart = boxMinus(registration.target_T_source, predicted.target_T_source);
   const std::optional<Vector6d> weighed = solvePositive(*predicted.covariance + registration.covariance, apart);

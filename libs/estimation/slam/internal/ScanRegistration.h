@@ -45,7 +45,7 @@ Timed<RegistrationResult> registerTwice(const NdtMap& map, const std::vector<Vie
 
 /** Distance of what was found from the prediction, whose covariance is known, in standard deviations of both; infinite
  * where rounding has left the sum of both covariances without an inverse. */
-double surpriseOf(const RegistrationResult&, const PoseGuess& predicted);
+double mahalanobisOf(const RegistrationResult&, const PoseGuess& predicted);
 
 /** Where a lost body is searched. */
 struct SearchArea

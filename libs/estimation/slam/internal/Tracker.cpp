@@ -83,7 +83,7 @@ StateEstimate estimateOf(DeskewedScan seen, const Prediction& predicted, const C
   estimate.scan_complete = seen.complete;
   estimate.cloud = std::move(seen.cloud);
   estimate.registration = scan.registration.result;
-  estimate.surprise = scan.registration.surprise;
+  estimate.mahalanobis = scan.registration.mahalanobis;
   estimate.trusted = scan.registration.trusted;
   estimate.recovered = scan.recovered;
   estimate.map_restarted = map.restarted;
@@ -196,7 +196,7 @@ Measurement Tracker::weigh(const GatedRegistration& registered, const TrackerSta
   if (before.trust.imu_silent)
     measured.contradiction.clear();
   else
-    measured.contradiction.add(stamp, registered.surprise);
+    measured.contradiction.add(stamp, registered.mahalanobis);
   const RegistrationResult& seen = *registered.result;
   const Rigid& local_T_body = seen.target_T_source;
   SmootherWindow& window = measured.window;

@@ -43,8 +43,8 @@ struct DeskewedScan
 struct GatedRegistration
 {
   std::optional<RegistrationResult> result;  // none for the first scan of a map, or one without points
-  double surprise = 0;                       // distance from the prediction in standard deviations
-  bool trusted = false;                      // by its outcome and its surprise
+  double mahalanobis = 0;                    // distance from the prediction in standard deviations
+  bool trusted = false;                      // by its outcome and this distance
   StageRuns times;
 };
 
