@@ -15,7 +15,7 @@ namespace
 {
 constexpr Duration kKept = 5s;  // longer than any scan waits
 
-/** Where the machine stands there is nothing to tell it by. */
+/** Where the machine stands there is nothing to recognise it by. */
 bool turnAlike(const PlacedGyro& a, const PlacedGyro& b)
 {
   constexpr double kAlike = 0.8;
@@ -46,9 +46,9 @@ std::string imuName(const SensorSetup& setup, int sensor)
 
 std::vector<ImuSample> ImuInUse::take(const SensorImu& read)
 {
-  Heard& heard = heard_[read.sensor];
-  std::deque<ImuSample>& kept = heard.kept;
-  std::vector<ImuSample> readings = heard.screening.pass(read.sample);
+  Received& received = received_[read.sensor];
+  std::deque<ImuSample>& kept = received.kept;
+  std::vector<ImuSample> readings = received.screening.pass(read.sample);
   kept.insert(kept.end(), readings.begin(), readings.end());
   while (!kept.empty() && kept.back().stamp - kept.front().stamp > kKept) kept.pop_front();
   if (read.sensor != sensor_) return {};
@@ -64,15 +64,15 @@ ImuSample ImuInUse::withoutDelay(int sensor, ImuSample sample) const
 
 bool ImuInUse::silent(int sensor, Timestamp now) const
 {
-  const auto heard = heard_.find(sensor);
-  if (heard == heard_.end() || heard->second.kept.empty()) return true;
-  const ImuSample& newest = heard->second.kept.back();
+  const auto received = received_.find(sensor);
+  if (received == received_.end() || received->second.kept.empty()) return true;
+  const ImuSample& newest = received->second.kept.back();
   return std::max(newest.stamp, withoutDelay(sensor, newest).stamp) < now - kImuSilence;
 }
 
-bool ImuInUse::heardWithoutBreak(int sensor) const
+bool ImuInUse::receivedWithoutBreak(int sensor) const
 {
-  const std::deque<ImuSample>& kept = heard_.at(sensor).kept;
+  const std::deque<ImuSample>& kept = received_.at(sensor).kept;
   const auto isBreak = [](const ImuSample& a, const ImuSample& b) { return b.stamp - a.stamp > kImuSilence; };
   return kept.back().stamp - kept.front().stamp >= kKept - kImuSilence &&
          std::adjacent_find(kept.begin(), kept.end(), isBreak) == kept.end();
@@ -104,7 +104,7 @@ bool ImuInUse::returnToBetter(Timestamp now)
   for (const auto& [sensor, body_T_imu] : setup().body_T_imu)
   {
     if (sensor == sensor_) return false;
-    if (silent(sensor, now) || !heardWithoutBreak(sensor)) continue;
+    if (silent(sensor, now) || !receivedWithoutBreak(sensor)) continue;
     const std::vector<ImuSample> better = samplesOf(sensor), in_use = samplesOf(sensor_);
     if (!turnAlike({better, body_T_imu}, {in_use, this->body_T_imu()})) continue;
     change(sensor);
@@ -116,16 +116,16 @@ bool ImuInUse::returnToBetter(Timestamp now)
 std::vector<ImuSample> ImuInUse::samplesOf(int sensor) const
 {
   std::vector<ImuSample> samples;
-  if (const auto heard = heard_.find(sensor); heard != heard_.end())
-    for (const ImuSample& sample : heard->second.kept) samples.push_back(withoutDelay(sensor, sample));
+  if (const auto received = received_.find(sensor); received != received_.end())
+    for (const ImuSample& sample : received->second.kept) samples.push_back(withoutDelay(sensor, sample));
   return samples;
 }
 
 std::map<std::string, RefusedReadings> ImuInUse::refused() const
 {
   std::map<std::string, RefusedReadings> refused;
-  for (const auto& [sensor, heard] : heard_)
-    if (const RefusedReadings of_sensor = heard.screening.refused(); of_sensor.sum() > 0)
+  for (const auto& [sensor, received] : received_)
+    if (const RefusedReadings of_sensor = received.screening.refused(); of_sensor.sum() > 0)
       refused[nameOf(sensor)] = of_sensor;
   return refused;
 }

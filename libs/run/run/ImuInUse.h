@@ -64,7 +64,7 @@ class ImuInUse
   std::map<std::string, RefusedReadings> refused() const;
 
  private:
-  struct Heard
+  struct Received
   {
     ImuScreening screening;
     std::deque<ImuSample> kept;  // with their delay
@@ -74,7 +74,7 @@ class ImuInUse
   Rigid poseOf(int sensor) const { return setup().body_T_imu.at(sensor); }
   std::string nameOf(int sensor) const { return imuName(setup(), sensor); }
   bool silent(int sensor, Timestamp now) const;
-  bool heardWithoutBreak(int sensor) const;
+  bool receivedWithoutBreak(int sensor) const;
   void change(int sensor);
   ImuSample withoutDelay(int sensor, ImuSample) const;
   std::vector<ImuSample> samplesOf(int sensor) const;
@@ -82,8 +82,8 @@ class ImuInUse
   const SensorInput& input_;
   bool may_change_;
   int first_, previous_, sensor_;
-  Duration delay_;              // of the first
-  std::map<int, Heard> heard_;  // by sensor
+  Duration delay_;                    // of the first
+  std::map<int, Received> received_;  // by sensor
 };
 
 /** As the constructor. None: `wanted` is none, or is auto and the input has no IMU. */

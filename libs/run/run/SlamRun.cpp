@@ -45,12 +45,13 @@ std::string otherClock(const TimesSeen& imu, const TimesSeen& scans)
   const double begins = seconds(imu.first - scans.first);
   const bool is_leap_seconds = std::abs(std::abs(begins) - kTaiAheadOfUtc) < 5;
   const double offset = is_leap_seconds ? std::copysign(kTaiAheadOfUtc, begins) : begins;
-  std::string told = fmt::format(
+  std::string advice = fmt::format(
       "is not used, its clock is another one: its samples begin {:.1f} s {} the scans{}. Stamp both by one clock",
       std::abs(begins), begins > 0 ? "after" : "before", is_leap_seconds ? " (37 s are between TAI and UTC)" : "");
   if (std::abs(offset) < kFarthestOffset)
-    told += fmt::format(", or set time_offset = {}{:.1f} (s) for each lidar", is_leap_seconds ? "" : "about ", offset);
-  return told;
+    advice +=
+        fmt::format(", or set time_offset = {}{:.1f} (s) for each lidar", is_leap_seconds ? "" : "about ", offset);
+  return advice;
 }
 
 std::map<int, RigImu> imusOf(const SensorSetup& setup)
@@ -197,7 +198,7 @@ class SlamRun
   {
     times_of_imus_[read.sensor].add(read.sample.stamp);
     if (motion_ || !imu_) return;
-    imu_heard_ = true;
+    imu_received_ = true;
     uncovered_.clear();
     if (read.sensor != imu_->sensor()) check_.add(read.sensor, read.sample);
     for (const ImuSample& sample : imu_->take(read))
@@ -210,13 +211,13 @@ class SlamRun
 
   void take(Scan scan)
   {
-    constexpr Duration kImuIsHeard = 1s;  // every IMU sends far more often
+    constexpr Duration kImuSendsWithin = 1s;  // every IMU sends far more often
     ++counts_.scans;
     times_of_scans_.add(scan.start);
     times_of_scans_.add(scan.end());
     if (!first_scan_) first_scan_ = scan.start;
     if (motion_ || mayGoWithoutImu()) uncovered_.push_back(scan.end());
-    if (mayGoWithoutImu() && (!imu_ || scan.end() - *first_scan_ > kImuIsHeard)) goOnWithoutImu();
+    if (mayGoWithoutImu() && (!imu_ || scan.end() - *first_scan_ > kImuSendsWithin)) goOnWithoutImu();
     if (!motion_) chooseImu(scan.end());
     times_.measure("rig_check", [&] { check_.add(scan); });
     keep(slam_.addScan(std::move(scan)));
@@ -231,7 +232,7 @@ class SlamRun
 
   bool mayGoWithoutImu() const
   {
-    return !motion_ && first_scan_ && !imu_heard_ && (!imu_ || settings_.slam.imu == "auto");
+    return !motion_ && first_scan_ && !imu_received_ && (!imu_ || settings_.slam.imu == "auto");
   }
 
   /** From the first scan on: none was processed so far, because that takes an IMU. */
@@ -294,7 +295,7 @@ class SlamRun
   std::optional<ConstantMotion> motion_;  // in place of an IMU
   std::optional<Timestamp> first_scan_;
   std::deque<Timestamp> uncovered_;  // ends of scans that an IMU, or what is assumed for it, does not cover yet
-  bool imu_heard_ = false;
+  bool imu_received_ = false;
   std::map<int, TimesSeen> times_of_imus_;  // by SensorImu::sensor
   TimesSeen times_of_scans_;
   bool imu_of_other_clock_ = false;

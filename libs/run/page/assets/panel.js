@@ -32,13 +32,13 @@ function lidarCard(lidar, index, played) {
   const card = make("div", undefined, "sensor"), head = make("header"), dot = make("span", "", "dot");
   dot.style.background = kLidarColours[index % kLidarColours.length];
   head.append(dot, make("b", lidar.name), make("span", lidar.model, "model"));
-  const heard = make("div"), columns = make("div"), fault = windowFault(lidar);
-  heard.append(lidar.silent ? make("span", "silent for " + timeText(lidar.silence), "fault")
+  const received = make("div"), columns = make("div"), fault = windowFault(lidar);
+  received.append(lidar.silent ? make("span", "silent for " + timeText(lidar.silence), "fault")
                             : "seen " + timeText(lidar.silence) + " ago");
-  if (!played) heard.append(", " + Math.round(lidar.rate) + " packets/s");
+  if (!played) received.append(", " + Math.round(lidar.rate) + " packets/s");
   columns.append(lidar.lost + " columns lost" + (lidar.left_out ? ", " + lidar.left_out + " too late" : ""));
   if (lidar.usual_returns > 0) columns.append(", " + Math.round(100 * lidar.returns) + " % return");
-  card.append(head, heard, columns);
+  card.append(head, received, columns);
   if (fault) card.append(fault);
   if (lidar.clock_offset !== null) card.append(make("div", "clock offset " + offsetText(lidar.clock_offset)));
   return card;

@@ -45,19 +45,19 @@ void LiveFeed::add(const Scan& scan, const RecordingHeader& header)
 
 void LiveFeed::watchLidars(const Scan& scan, const RecordingHeader& header)
 {
-  heard_.resize(std::max(heard_.size(), header.lidars.size()));
-  status_.lidars.resize(heard_.size());
+  received_.resize(std::max(received_.size(), header.lidars.size()));
+  status_.lidars.resize(received_.size());
   for (std::size_t i = 0; i < header.lidars.size(); ++i)
   {
     status_.lidars[i].name = header.lidars[i].name;
     status_.lidars[i].model = header.lidars[i].model;
-    heard_[i].beams = header.lidars[i].beams;
+    received_[i].beams = header.lidars[i].beams;
   }
   for (const Column& column : scan.columns)
   {
-    if (column.sensor_id >= heard_.size()) continue;
-    ++heard_[column.sensor_id].columns;
-    heard_[column.sensor_id].points += column.count;
+    if (column.sensor_id >= received_.size()) continue;
+    ++received_[column.sensor_id].columns;
+    received_[column.sensor_id].points += column.count;
     status_.lidars[column.sensor_id].seen = scan.end();
   }
 }
@@ -65,8 +65,8 @@ void LiveFeed::watchLidars(const Scan& scan, const RecordingHeader& header)
 void LiveFeed::add(const SensorImu& read, const RecordingHeader& header)
 {
   const Timestamp stamp = read.sample.stamp;
-  HeardImu& heard = heard_imus_.try_emplace(read.sensor, HeardImu{0, stamp}).first->second;
-  ++heard.samples;
+  ReceivedImu& received = received_imus_.try_emplace(read.sensor, ReceivedImu{0, stamp}).first->second;
+  ++received.samples;
   const auto of = static_cast<std::size_t>(read.sensor);
   const bool own = read.sensor >= 0 && of < header.lidars.size();
   const std::string& name = own ? header.lidars[of].name : kBodyImu;
@@ -74,10 +74,10 @@ void LiveFeed::add(const SensorImu& read, const RecordingHeader& header)
   auto shown = std::lower_bound(status_.imus.begin(), status_.imus.end(), name, before);
   if (shown == status_.imus.end() || shown->name != name) shown = status_.imus.insert(shown, {name, 0, stamp});
   shown->seen = stamp;
-  const double since = seconds(stamp - heard.since);
+  const double since = seconds(stamp - received.since);
   if (since < 1) return;
-  shown->rate = per(heard.samples, since);
-  heard = {0, stamp};
+  shown->rate = per(received.samples, since);
+  received = {0, stamp};
 }
 
 void LiveFeed::add(const StateEstimate& estimate)
@@ -134,23 +134,24 @@ void LiveFeed::addPath(const StateEstimate& estimate)
 
 void LiveFeed::rateLidars(const RigAccount& account, double since, bool packets)
 {
-  for (std::size_t i = 0; i < heard_.size(); ++i)
+  for (std::size_t i = 0; i < received_.size(); ++i)
   {
-    Heard& heard = heard_[i];
+    Received& received = received_[i];
     ViewedLidar& lidar = status_.lidars[i];
-    const std::uint64_t now = packets && i < account.lidars.size() ? account.lidars[i].counters.packets : heard.columns;
-    lidar.rate = per(now - (packets ? heard.packets : 0), since);
-    heard.packets = now;
-    heard.all_columns += heard.columns;
-    heard.all_points += heard.points;
+    const std::uint64_t now =
+        packets && i < account.lidars.size() ? account.lidars[i].counters.packets : received.columns;
+    lidar.rate = per(now - (packets ? received.packets : 0), since);
+    received.packets = now;
+    received.all_columns += received.columns;
+    received.all_points += received.points;
     const auto share = [&](std::uint64_t points, std::uint64_t columns)
-    { return static_cast<double>(points) / (heard.beams * static_cast<double>(columns)); };
-    if (heard.beams > 0 && heard.columns > 0)
+    { return static_cast<double>(points) / (received.beams * static_cast<double>(columns)); };
+    if (received.beams > 0 && received.columns > 0)
     {
-      lidar.returns = share(heard.points, heard.columns);
-      lidar.usual_returns = share(heard.all_points, heard.all_columns);
+      lidar.returns = share(received.points, received.columns);
+      lidar.usual_returns = share(received.all_points, received.all_columns);
     }
-    heard.columns = heard.points = 0;
+    received.columns = received.points = 0;
   }
 }
 
@@ -196,7 +197,7 @@ void LiveFeed::restart()
   waiting_.clear();
   last_.reset();
   last_path_.reset();
-  heard_imus_.clear();
+  received_imus_.clear();
   for (ViewedLidar& lidar : status_.lidars) lidar.seen.reset();
   status_.first = status_.newest = std::nullopt;
   status_.scans = status_.poses = status_.keyframes = status_.marks = 0;

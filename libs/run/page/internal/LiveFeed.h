@@ -56,13 +56,13 @@ class LiveFeed
   std::vector<std::string> takeCommands();
 
  private:
-  struct Heard
+  struct Received
   {
     std::uint64_t packets = 0, columns = 0, points = 0;  // at the begin of the second that is counted
     std::uint64_t all_columns = 0, all_points = 0;
     int beams = 0;
   };
-  struct HeardImu
+  struct ReceivedImu
   {
     std::uint64_t samples = 0;
     Timestamp since;
@@ -79,8 +79,8 @@ class LiveFeed
   std::deque<std::string> marks_;  // not taken yet
   std::vector<std::string> commands_;
   std::deque<PlacedCloud> waiting_;  // scans without their pose
-  std::vector<Heard> heard_;         // by sensor id
-  std::map<int, HeardImu> heard_imus_;
+  std::vector<Received> received_;   // by sensor id
+  std::map<int, ReceivedImu> received_imus_;
   std::optional<StampedPose> last_;
   std::optional<PathPoint> last_path_;
   Clock::time_point rated_{}, offered_{};
