@@ -6,7 +6,7 @@ namespace scanloom
 {
 namespace
 {
-Finding strangersFinding(const Origin& origin, std::uint64_t datagrams)
+Finding otherSendersFinding(const Origin& origin, std::uint64_t datagrams)
 {
   return {"rig", "strangers", Verdict::Warning,
           fmt::format("{} datagrams {} are from no known lidar", datagrams, origin.text()),
@@ -50,7 +50,7 @@ Findings findingsOf(const RigExamination& rig)
   for (const std::string& wrong : rig.wrong_keys)
     findings.push_back({"rig", "configuration", Verdict::Warning, wrong, ""});
   if (rig.sockets) findings.push_back(socketFinding(*rig.sockets));
-  for (const auto& [origin, datagrams] : rig.strangers) findings.push_back(strangersFinding(origin, datagrams));
+  for (const auto& [origin, datagrams] : rig.other_senders) findings.push_back(otherSendersFinding(origin, datagrams));
   return findings;
 }
 }  // namespace scanloom

@@ -183,11 +183,11 @@ std::string toJson(const RigExamination& rig, const Findings& findings)
                          {"host_clock_steps", rig.sockets->clock_steps}};
   result["pairs"] = json::array();
   for (const PairExamination& pair : rig.pairs) result["pairs"].push_back(jsonOf(pair, rig));
-  for (const auto& [origin, datagrams] : rig.strangers)
+  for (const auto& [origin, datagrams] : rig.other_senders)
   {
-    json stranger = {{"source", origin.source.text()}, {"port", origin.destination_port}, {"datagrams", datagrams}};
-    if (!origin.topic.empty()) stranger["topic"] = origin.topic;
-    result["strangers"].push_back(std::move(stranger));
+    json sender = {{"source", origin.source.text()}, {"port", origin.destination_port}, {"datagrams", datagrams}};
+    if (!origin.topic.empty()) sender["topic"] = origin.topic;
+    result["strangers"].push_back(std::move(sender));
   }
   for (const Finding& f : findings)
     result["findings"].push_back({{"about", f.about},

@@ -12,7 +12,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kSigmas = 4;  // beyond doubt
+constexpr double kSigmas = 4;  // certain
 constexpr double kUnit = 1.1;  // factor: two gyroscopes tell a unit from a wrong scale
 
 bool isScaled(const GyroAgreement& a, const TurnLimits& limits)

@@ -184,7 +184,7 @@ StampUnit unitOf(const std::vector<RawSample>& samples)
   return unitByPace(static_cast<double>(upperMedian(std::move(intervals))), 200us, 100ms).value_or(kNanoseconds);
 }
 
-/** Without names of columns: what seven numbers are is told by the accelerometer, which weighs about 1 g. */
+/** Without names of columns: what seven numbers are follows from the accelerometer, which weighs about 1 g. */
 bool isLineOfImu(const std::vector<std::string_view>& cells)
 {
   const auto raw = sampleFrom(cells, {});

@@ -89,7 +89,7 @@ RigEvidence RigListener::finish()
     if (std::any_of(addresses_.begin(), addresses_.end(),
                     [&place = origin](const LidarAddress& address)
                     { return address.receives(place.destination_port, place.topic); }))
-      evidence_.strangers[origin] = datagrams;
+      evidence_.other_senders[origin] = datagrams;
   evidence_.wrong_keys = router_.takeWarnings();
   evidence_.snapshots = snapshots_.finish();
   auto& imus = evidence_.imus;

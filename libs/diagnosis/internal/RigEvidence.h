@@ -39,12 +39,12 @@ struct SocketAccount
 /** Facts on a rig that need no measurement. */
 struct RigFacts
 {
-  std::map<Origin, std::uint64_t> strangers;  // datagrams to the lidars' ports from other senders
-  std::vector<std::string> wrong_keys;        // of the router: a port or an address that the configuration has wrong
-  std::optional<SocketAccount> sockets;       // live only
-  bool packets_known = true;                  // false for rawlogs and clouds, which hold no packets
-  bool poses_known = false;                   // false: sensor frames are used as the body frame
-  Duration deadline{0};                       // configured for the batcher
+  std::map<Origin, std::uint64_t> other_senders;  // datagrams to the lidars' ports from other senders
+  std::vector<std::string> wrong_keys;   // of the router: a port or an address that the configuration has wrong
+  std::optional<SocketAccount> sockets;  // live only
+  bool packets_known = true;             // false for rawlogs and clouds, which hold no packets
+  bool poses_known = false;              // false: sensor frames are used as the body frame
+  Duration deadline{0};                  // configured for the batcher
 };
 
 struct RigEvidence : RigFacts

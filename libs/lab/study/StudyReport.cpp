@@ -146,11 +146,11 @@ std::string table(const std::vector<StudyCell>& cells, const std::vector<Quantit
 /** Of each recording once: its runs have the same. */
 std::string marksOf(const std::vector<RunRecord>& records)
 {
-  std::set<std::string> told;
+  std::set<std::string> described;
   std::string rows;
   for (const RunRecord& record : records)
   {
-    if (record.marks.empty() || !told.insert(record.run.stand).second) continue;
+    if (record.marks.empty() || !described.insert(record.run.stand).second) continue;
     for (const RecordedMark& mark : record.marks)
       rows += fmt::format("<tr><td>{}</td><td>{:.1f}</td><td>{}</td></tr>\n", escaped(record.run.stand), mark.after,
                           escaped(mark.text));

@@ -23,7 +23,7 @@ class SimpleMapReader
   /**
    * Throws std::runtime_error with the path if it cannot be read, is damaged or has no cloud; also with the keyframe's
    * number if a pose is no rigid motion or farther than 1e8 m, or if a lidar's pose on the body changes (lidars are
-   * told apart by their labels).
+   * distinguished by their labels).
    */
   explicit SimpleMapReader(const std::filesystem::path&);
   ~SimpleMapReader();

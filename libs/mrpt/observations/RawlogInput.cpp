@@ -204,12 +204,12 @@ std::vector<std::string> RawlogInput::takeWarnings()
   std::vector<std::string> warnings;
   if (const std::string refusal = std::exchange(refusal_, ""); !refusal.empty()) warnings.push_back(refusal);
   for (const auto& [label, samples] : late_imus_)
-    if (told_late_.insert(label).second)
+    if (reported_late_.insert(label).second)
       warnings.push_back(
           fmt::format("the IMU '{}' is not used: its first sample comes more than {:g} s after the first scan", label,
                       seconds(kProbed)));
-  const std::string told = std::exchange(damage_, reader_->damage());
-  if (damage_ != told) warnings.push_back(damage_);
+  const std::string before = std::exchange(damage_, reader_->damage());
+  if (damage_ != before) warnings.push_back(damage_);
   return warnings;
 }
 }  // namespace scanloom

@@ -18,8 +18,8 @@ class RawlogReader;
 /**
  * The scans and IMU samples of a rawlog that scanloom recorded. It knows from the start what lidars and IMUs there are,
  * and holds each scan until its samples were given, as from the batcher: in the file they stand behind it, because
- * rawlog-grabber sorts by stamp and a scan's stamp is its start. Beside that it counts, and keeps to be told, what it
- * left out.
+ * rawlog-grabber sorts by stamp and a scan's stamp is its start. Beside that it counts, and keeps for a warning, what
+ * it left out.
  */
 class RawlogInput : public SensorInput
 {
@@ -56,7 +56,7 @@ class RawlogInput : public SensorInput
   std::deque<Scan> held_;  // until their IMU samples were given
   Timestamp newest_sample_ = Timestamp::min(), newest_end_ = Timestamp::min();
   std::map<std::string, std::uint64_t> late_imus_;  // by label: samples of IMUs that are not in the setup
-  std::set<std::string> told_late_;
+  std::set<std::string> reported_late_;
   std::uint64_t scans_ = 0, other_objects_ = 0;
   std::uint64_t refused_scans_ = 0;  // with points of a lidar that the header does not name
   std::string refusal_;              // of the first of them, until takeWarnings() gives it

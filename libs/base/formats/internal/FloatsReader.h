@@ -6,8 +6,8 @@
 namespace scanloom
 {
 /**
- * Of a file in memory: x y z in m first in each point of three to seven floats; how many is told by the numbers. Throws
- * std::invalid_argument if the last point is cut, or if the numbers are no coordinates.
+ * Of a file in memory: x y z in m first in each point of three to seven floats; how many follows from the numbers.
+ * Throws std::invalid_argument if the last point is cut, or if the numbers are no coordinates.
  */
 CloudPoints pointsOfFloats(Bytes file);
 }  // namespace scanloom

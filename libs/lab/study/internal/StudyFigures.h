@@ -19,7 +19,7 @@ std::vector<Bar> barsOf(const std::vector<StudyCell>& of_one_stand, const Quanti
 /** Medians as bars, with a dot per run. Lost runs are crosses at the top; the bar of a lost median is hatched. */
 std::string barsScript(const std::vector<Bar>&, const std::string& axis);
 
-/** The cells of each figure: all in one if their lines can be told apart, otherwise one figure per set of lidars. */
+/** The cells of each figure: all in one if their lines can be distinguished, otherwise one figure per set of lidars. */
 std::vector<std::vector<StudyCell>> byLines(const std::vector<StudyCell>& of_one_stand);
 
 /** The median error over the distance, one line per cell, without lost and failed runs. */
