@@ -54,15 +54,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                        "sensor_msgs/PointCloud2"};
   if (size == 0) return 0;
   const Serialisation serialisation = data[0] % 2 == 0 ? Serialisation::Cdr : Serialisation::Ros1;
-  try
-  {
+  const auto readIt = [&] {
     read({"/topic", kTypes[data[0] / 2 % std::size(kTypes)], serialisation}, {data + 1, size - 1});
-  }
-  catch (const std::out_of_range&)
-  {
-  }
-  catch (const std::invalid_argument&)
-  {
-  }
+  };
+  mayThrow<std::out_of_range>([&] { mayThrow<std::invalid_argument>(readIt); });
   return 0;
 }

@@ -59,12 +59,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   if (mayLoop(text)) return 0;
-  try
-  {
-    readAll(text);
-  }
-  catch (const ConfigError&)
-  {
-  }
+  mayThrow<ConfigError>([&] { readAll(text); });
   return 0;
 }

@@ -41,13 +41,33 @@ void decodeAll(const PacketDecoder& decoder, Bytes packet, IsChosen&& is_chosen)
 /** Whatever its bytes are, no decoder does worse than to throw std::out_of_range. */
 inline void refuse(const PacketDecoder& decoder, Bytes packet)
 {
-  try
-  {
+  mayThrow<std::out_of_range>([&] { decodeAll(decoder, packet, [](std::size_t, std::size_t) { return true; }); });
+}
+
+/** Of every model with one and with two returns, all angles 0. */
+template <typename Metadata, typename Models>
+std::vector<Metadata> everyLidar(const Models& models)
+{
+  std::vector<Metadata> lidars;
+  for (const auto& model : models)
+    for (const int returns : {1, 2})
+    {
+      Metadata& metadata = lidars.emplace_back();
+      metadata.model = &model;
+      metadata.returns = returns;
+      metadata.angles.vertical.resize(static_cast<std::size_t>(model.channels));
+      metadata.angles.azimuth = metadata.angles.vertical;
+    }
+  return lidars;
+}
+
+/** A packet that kind() accepts is decoded; one of fewer bytes than its model's is refused. */
+inline void decodeOrRefuse(const PacketDecoder& decoder, Bytes packet, std::size_t least_bytes)
+{
+  if (decoder.kind(packet) == PacketKind::Lidar)
     decodeAll(decoder, packet, [](std::size_t, std::size_t) { return true; });
-  }
-  catch (const std::out_of_range&)
-  {
-  }
+  else if (packet.size() < least_bytes)
+    refuse(decoder, packet);
 }
 
 template <typename Lidars, typename Make>

@@ -45,14 +45,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t choice = data[0] % kBeginnings.size();
   std::vector<std::uint8_t> file(kBeginnings[choice].begin(), kBeginnings[choice].end());
   file.insert(file.end(), data + 1, data + size);
-  try
-  {
-    const auto positions = (choice < kBeginnings.size() / 2 ? plyPoints(file) : pcdPoints(file)).positions;
-    constexpr std::size_t kLongestCopy = 264;  // that a byte of compressed data can stand for
-    require(positions.size() <= kLongestCopy * file.size());
-  }
-  catch (const std::invalid_argument&)
-  {
-  }
+  mayThrow<std::invalid_argument>(
+      [&]
+      {
+        const auto positions = (choice < kBeginnings.size() / 2 ? plyPoints(file) : pcdPoints(file)).positions;
+        constexpr std::size_t kLongestCopy = 264;  // that a byte of compressed data can stand for
+        require(positions.size() <= kLongestCopy * file.size());
+      });
   return 0;
 }

@@ -31,17 +31,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::size_t i = 1; i < size; ++i)
     text += data[0] & 4 ? kWords[data[i] % kWords.size()] : std::string(1, static_cast<char>(data[i]));
   beginsLikeImuCsv(text);
-  try
-  {
-    const ImuOfFile imu = readImuCsv(table.holding(text));
-    for (std::size_t i = 0; i < imu.readings.samples.size(); ++i)
-    {
-      require(imu.readings.samples[i].gyro.allFinite() && imu.readings.samples[i].accel.allFinite());
-      require(i == 0 || imu.readings.samples[i - 1].stamp < imu.readings.samples[i].stamp);
-    }
-  }
-  catch (const std::runtime_error&)
-  {
-  }
+  mayThrow<std::runtime_error>(
+      [&]
+      {
+        const ImuOfFile imu = readImuCsv(table.holding(text));
+        for (std::size_t i = 0; i < imu.readings.samples.size(); ++i)
+        {
+          require(imu.readings.samples[i].gyro.allFinite() && imu.readings.samples[i].accel.allFinite());
+          require(i == 0 || imu.readings.samples[i - 1].stamp < imu.readings.samples[i].stamp);
+        }
+      });
   return 0;
 }

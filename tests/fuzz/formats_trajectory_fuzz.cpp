@@ -98,12 +98,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t end = std::min(text.find('\0'), text.size());
   const std::string text_of_poses = text.substr(0, end);
   times.holding(end < text.size() ? text.substr(end + 1) : aStampPerLine(text_of_poses));
-  try
-  {
-    use(readTrajectory(poses.holding(text_of_poses)));
-  }
-  catch (const std::invalid_argument&)
-  {
-  }
+  mayThrow<std::invalid_argument>([&] { use(readTrajectory(poses.holding(text_of_poses))); });
   return 0;
 }

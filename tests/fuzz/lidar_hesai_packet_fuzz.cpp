@@ -2,7 +2,6 @@
  * Any bytes as a packet of every Hesai model, chosen by the input: what kind() accepts is decoded without exceptions;
  * anything else throws at most std::out_of_range. fuzz options: -max_len=1300
  */
-#include <string>
 
 #include "decodeAll.h"
 #include "input/lidar/internal/Hesai.h"
@@ -19,21 +18,6 @@ enum Mend : std::uint8_t
   kTurn = 8,     // azimuths up to 360 degrees
   kDate = 16,
 };
-
-std::vector<HesaiMetadata> everyLidar()
-{
-  std::vector<HesaiMetadata> lidars;
-  for (const HesaiModel& model : kHesaiModels)
-    for (const int returns : {1, 2})
-    {
-      HesaiMetadata& metadata = lidars.emplace_back();
-      metadata.model = &model;
-      metadata.returns = returns;
-      metadata.angles.vertical.resize(static_cast<std::size_t>(model.channels));
-      metadata.angles.azimuth = metadata.angles.vertical;
-    }
-  return lidars;
-}
 
 void mendHeader(std::vector<std::uint8_t>& packet, const HesaiModel& model)
 {
@@ -74,16 +58,13 @@ void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const HesaiMetad
 /** The first byte tells what is corrected, the second which decoder must read the rest. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  static const std::vector<HesaiMetadata> lidars = everyLidar();
+  static const auto lidars = everyLidar<HesaiMetadata>(kHesaiModels);
   static const auto decoders = decodersOf(lidars, makeHesai);
   static std::vector<std::uint8_t> packet;
   if (size < 2) return 0;
   const std::size_t chosen = data[1] % lidars.size();
   packet.assign(data + 2, data + size);
   mend(packet, data[0], lidars[chosen]);
-  if (decoders[chosen]->kind(packet) == PacketKind::Lidar)
-    decodeAll(*decoders[chosen], packet, [](std::size_t, std::size_t) { return true; });
-  else if (packet.size() < lidars[chosen].model->packetBytes())
-    refuse(*decoders[chosen], packet);
+  decodeOrRefuse(*decoders[chosen], packet, lidars[chosen].model->packetBytes());
   return 0;
 }

@@ -4,7 +4,6 @@
  * std::out_of_range.
  * fuzz options: -max_len=900
  */
-#include <memory>
 #include <stdexcept>
 
 #include "../input/lidar/simpleMetadata.h"
@@ -111,13 +110,7 @@ bool sameBits(const PointCloud& a, const PointCloud& b)
 
 void refuse(void (*decode)(const OusterDecoder&, Bytes), const OusterDecoder& decoder, Bytes packet)
 {
-  try
-  {
-    decode(decoder, packet);
-  }
-  catch (const std::out_of_range&)
-  {
-  }
+  mayThrow<std::out_of_range>([&] { decode(decoder, packet); });
 }
 }  // namespace
 

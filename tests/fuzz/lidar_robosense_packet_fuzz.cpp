@@ -2,7 +2,6 @@
  * Any bytes as a packet of every Robosense model, chosen by the input: what kind() accepts is decoded without
  * exceptions; anything else throws at most std::out_of_range. fuzz options: -max_len=1300
  */
-#include <string>
 
 #include "decodeAll.h"
 #include "input/lidar/internal/Robosense.h"
@@ -19,21 +18,6 @@ enum Mend : std::uint8_t
   kTurn = 8,  // azimuths below 360 degrees
   kTime = 16,
 };
-
-std::vector<RobosenseMetadata> everyLidar()
-{
-  std::vector<RobosenseMetadata> lidars;
-  for (const RobosenseModel& model : kRobosenseModels)
-    for (const int returns : {1, 2})
-    {
-      RobosenseMetadata& metadata = lidars.emplace_back();
-      metadata.model = &model;
-      metadata.returns = returns;
-      metadata.angles.vertical.resize(static_cast<std::size_t>(model.channels));
-      metadata.angles.azimuth = metadata.angles.vertical;
-    }
-  return lidars;
-}
 
 void mendMarker(std::vector<std::uint8_t>& packet, std::uint32_t marker)
 {
@@ -61,16 +45,13 @@ void mend(std::vector<std::uint8_t>& packet, std::uint8_t what, const RobosenseM
 /** The first byte tells what is corrected, the second which decoder must read the rest. */
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-  static const std::vector<RobosenseMetadata> lidars = everyLidar();
+  static const auto lidars = everyLidar<RobosenseMetadata>(kRobosenseModels);
   static const auto decoders = decodersOf(lidars, makeRobosense);
   static std::vector<std::uint8_t> packet;
   if (size < 2) return 0;
   const std::size_t chosen = data[1] % lidars.size();
   packet.assign(data + 2, data + size);
   mend(packet, data[0], lidars[chosen]);
-  if (decoders[chosen]->kind(packet) == PacketKind::Lidar)
-    decodeAll(*decoders[chosen], packet, [](std::size_t, std::size_t) { return true; });
-  else if (packet.size() < kRobosensePacketBytes)
-    refuse(*decoders[chosen], packet);
+  decodeOrRefuse(*decoders[chosen], packet, kRobosensePacketBytes);
   return 0;
 }

@@ -7,7 +7,6 @@
  * fuzz libs: scanloom_core octomap octomath
  */
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>

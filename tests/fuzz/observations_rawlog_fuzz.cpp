@@ -218,12 +218,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     archive.WriteBuffer(each.data(), each.size());
   archive.close();
   constexpr std::array kReaders{&readEvents, &readAsInput, &readSummary};
-  try
-  {
-    kReaders[data[1] / 4 % kReaders.size()](rawlog);
-  }
-  catch (const std::invalid_argument&)  // a damaged header
-  {
-  }
+  mayThrow<std::invalid_argument>([&] { kReaders[data[1] / 4 % kReaders.size()](rawlog); });  // a damaged header
   return 0;
 }

@@ -30,17 +30,15 @@ inline Bytes takeRecord(Bytes& input)
 inline void readCapture(const std::vector<std::uint8_t>& file)
 {
   static const MemoryFile memory;
-  try
-  {
-    CaptureReader reader(memory.holding(file));
-    std::uint64_t delivered = 0;
-    for (Datagram datagram; reader.next(datagram);) ++delivered;
-    const CaptureCounters c = reader.counters();
-    require(c.datagrams == delivered && c.datagrams + c.not_udp + c.malformed + c.cut_short <= c.records);
-    require(reader.progress() >= 0 && reader.progress() <= 1);
-  }
-  catch (const std::runtime_error&)
-  {
-  }
+  mayThrow<std::runtime_error>(
+      [&]
+      {
+        CaptureReader reader(memory.holding(file));
+        std::uint64_t delivered = 0;
+        for (Datagram datagram; reader.next(datagram);) ++delivered;
+        const CaptureCounters c = reader.counters();
+        require(c.datagrams == delivered && c.datagrams + c.not_udp + c.malformed + c.cut_short <= c.records);
+        require(reader.progress() >= 0 && reader.progress() <= 1);
+      });
 }
 }  // namespace scanloom

@@ -11,4 +11,17 @@ inline void require(bool holds, int line = __builtin_LINE())
   std::fprintf(stderr, "the assertion of line %d is broken\n", line);
   std::abort();
 }
+
+/** Any other exception ends the run as a finding. */
+template <typename Exception, typename Action>
+void mayThrow(const Action& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const Exception&)
+  {
+  }
+}
 }  // namespace scanloom
