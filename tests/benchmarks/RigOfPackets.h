@@ -2,8 +2,8 @@
 #pragma once
 #include "input/batching/TimeBatcher.h"
 #include "input/lidar/OusterDecoder.h"
-#include "input/lidar/OusterEncoder.h"
 #include "input/lidar/internal/OusterLayout.h"
+#include "input/lidar/simpleMetadata.h"
 
 #include <memory>
 #include <random>
@@ -28,22 +28,10 @@ enum class Crc
 
 inline OusterMetadata sensor(const OusterProfile& profile, int channels)
 {
-  OusterMetadata m;
+  OusterMetadata m = simpleMetadata(std::string(profile.name), channels, kColumnsPerPacket);
   m.lidar_mode = "1024x10";
-  m.lidar_profile = std::string(profile.name);
-  m.header_type = m.lidar_profile.rfind("FUSA_", 0) == 0 ? OusterHeader::Fusa : OusterHeader::Standard;
-  m.channels = channels;
-  m.columns_per_packet = kColumnsPerPacket;
   m.columns_per_frame = kColumnsPerTurn;
-  m.last_column = m.columns_per_frame - 1;
-  m.frame_rate = 10;
-  for (int i = 0; i < channels; ++i)
-  {
-    m.beam_altitude_deg.push_back(45.0 - 90.0 * i / channels);
-    m.beam_azimuth_deg.push_back(i % 2 ? -4.2 : 8.1);
-  }
-  m.beam_to_lidar_mm(0, 3) = 27.116;
-  m.lidar_to_sensor_mm.diagonal() << -1, -1, 1, 1;
+  m.last_column = kColumnsPerTurn - 1;
   return m;
 }
 

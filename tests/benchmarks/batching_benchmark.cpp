@@ -12,27 +12,18 @@
  * median over turns, `x_memcpy` its ratio to the median of a memcpy of these packets, one by one, into one buffer.
  */
 #include "RigOfPackets.h"
+#include "base/core/Statistics.h"
 #include "support/pushPacket.h"
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <algorithm>
-#include <ctime>
-
 using namespace scanloom;
 using namespace scanloom::bench;
 
 namespace
 {
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /** Processor time of this thread, with page faults, without what else the machine does. */
 Duration threadTime()
 {
@@ -87,9 +78,9 @@ void besideMemcpy(benchmark::State& state, Rig& rig, Work&& work)
     state.ResumeTiming();
   }
   const auto packets = static_cast<double>(rig.packets());
-  state.counters["us_per_packet"] = median(working) / packets;
-  state.counters["memcpy_us"] = median(copying) / packets;
-  state.counters["x_memcpy"] = median(working) / median(copying);
+  state.counters["us_per_packet"] = upperMedian(working) / packets;
+  state.counters["memcpy_us"] = upperMedian(copying) / packets;
+  state.counters["x_memcpy"] = upperMedian(working) / upperMedian(copying);
   state.counters["points"] = static_cast<double>(points) / packets;
 }
 

@@ -4,6 +4,7 @@
  * `error_mm`, `error_deg`; `success` is the share within 0.1 m and 1 deg.
  */
 #include "base/core/Angle.h"
+#include "base/core/Statistics.h"
 #include "benchmarks/FullScan.h"
 #include "benchmarks/PeerTrials.h"
 #include "estimation/ndt/Registration.h"
@@ -13,7 +14,6 @@
 #include <tbb/global_control.h>
 #include <tsl/robin_map.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -86,13 +86,6 @@ std::vector<Rigid> guessesAround(const Rigid& truth)
   return guesses;
 }
 
-double median(std::vector<double> values)
-{
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 struct Trials
 {
   std::vector<double> ms, error_mm, error_deg;
@@ -130,9 +123,9 @@ void registerFromGuesses(benchmark::State& state, const Pair& pair, const Prepar
     const auto took = Clock::now() - start;
     trials.add(std::chrono::duration<double, std::milli>(took).count(), estimate, pair.target_T_source);
   }
-  state.counters["ms"] = median(trials.ms);
-  state.counters["error_mm"] = median(trials.error_mm);
-  state.counters["error_deg"] = median(trials.error_deg);
+  state.counters["ms"] = upperMedian(trials.ms);
+  state.counters["error_mm"] = upperMedian(trials.error_mm);
+  state.counters["error_deg"] = upperMedian(trials.error_deg);
   state.counters["success"] = trials.success();
 }
 

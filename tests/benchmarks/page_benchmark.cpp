@@ -15,15 +15,6 @@ namespace
 {
 constexpr Duration kPeriod = 100ms;
 
-SlamSettings settings()
-{
-  SlamSettings settings;
-  settings.crop.min_x = -4, settings.crop.max_x = 3;
-  settings.crop.min_y = -2, settings.crop.max_y = 2;
-  settings.crop.min_z = -0.5, settings.crop.max_z = 6;
-  return settings;
-}
-
 RecordingHeader oneLidar()
 {
   RecordingHeader header;
@@ -47,7 +38,7 @@ void scanOfSlam(benchmark::State& state)
 {
   const auto shown = state.range(0) >= 0 ? std::make_unique<Shown>(static_cast<int>(state.range(0))) : nullptr;
   const RecordingHeader header = oneLidar();
-  LidarInertialSlam slam(settings(), kBodyTImu, {{"left", Rigid::fromXyzYawPitchRoll(0, 0, 3, 0, 0, 0)}});
+  LidarInertialSlam slam(withMachineBox(), kBodyTImu, {{"left", Rigid::fromXyzYawPitchRoll(0, 0, 3, 0, 0, 0)}});
   const Machine machine = gentleMachine(3s);
   const StandOfStems stand;
   Timestamp start{100ms}, imu{};

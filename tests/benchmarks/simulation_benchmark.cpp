@@ -1,15 +1,11 @@
 /** Rays per second through the stands of params/simulation/, and what an hour's world takes. */
-#include "base/config/Configuration.h"
-#include "lab/simulation/RecordingOptions.h"
-#include "lab/simulation/internal/Random.h"
-#include "lab/simulation/internal/World.h"
+#include "ForestScans.h"
 
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
-#include <memory>
 #include <string>
 #include <string_view>
 
@@ -19,25 +15,6 @@ namespace
 {
 constexpr double kMaxRange = 50;
 constexpr int kBeams = 128;
-
-SimulationSettings settingsOf(const std::string& stand)
-{
-  const auto file = std::string(SCANLOOM_SOURCE_DIR) + "/params/simulation/" + stand + ".ini";
-  return readSettings<SimulationSettings>(Configuration::fromFiles({file}), schemaOf<SimulationSettings>());
-}
-
-std::vector<Eigen::Vector2d> straightPath(double length)
-{
-  std::vector<Eigen::Vector2d> path;
-  for (double x = 0; x <= length; x += 0.25) path.emplace_back(x, 0);
-  return path;
-}
-
-World makeWorld(const std::string& stand, double length)
-{
-  const SimulationSettings settings = settingsOf(stand);
-  return World(Ground(settings.ground), settings.forest, straightPath(length), 1);
-}
 
 /** Every second column of an OS0-128: 128 beams over 90 degrees, 2.5 m above the ground, upright. */
 std::vector<Ray> fan(const World& world, double x)
@@ -58,7 +35,7 @@ std::vector<Ray> fan(const World& world, double x)
 /** A world and rays in it that all threads of a benchmark share. */
 struct Course
 {
-  explicit Course(const std::string& stand) : world(makeWorld(stand, 20))
+  explicit Course(const std::string& stand) : world(standAround(stand, 20, 1))
   {
     for (const double x : {5.0, 10.0, 15.0})
       for (const Ray& ray : fan(world, x)) rays.push_back(ray);
@@ -153,7 +130,7 @@ void grow(benchmark::State& state, const std::string& stand)
   for (auto _ : state)
   {
     const double before = residentMemory();
-    const World world = makeWorld(stand, 1000);
+    const World world = standAround(stand, 1000, 1);
     state.counters["stems"] = static_cast<double>(world.stems().size());
     state.counters["MiB"] = residentMemory() - before;
   }

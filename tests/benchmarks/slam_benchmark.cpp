@@ -38,10 +38,7 @@ class Journey
  private:
   static SlamSettings settings()
   {
-    SlamSettings settings;
-    settings.crop.min_x = -4, settings.crop.max_x = 3;
-    settings.crop.min_y = -2, settings.crop.max_y = 2;
-    settings.crop.min_z = -0.5, settings.crop.max_z = 6;
+    SlamSettings settings = withMachineBox();
     settings.slam.trust.contradiction = 0;
     settings.slam.trust.restart_after = 1000;
     return settings;

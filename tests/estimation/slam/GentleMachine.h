@@ -1,6 +1,7 @@
 /** A machine whose motion is a formula, with an IMU on it. */
 #pragma once
 #include "estimation/imu/AnalyticDrive.h"
+#include "estimation/slam/internal/SlamSettings.h"
 
 #include <algorithm>
 
@@ -43,5 +44,14 @@ inline Machine gentleMachine(Duration standstill)
   machine.drive.pitch = {0.0, 0.02, -0.02 / 1.3, 1.3, 0};
   machine.drive.roll = {0.0, -0.01, 0.01 / 1.1, 1.1, 0};
   return machine;
+}
+
+/** With a box around the machine that is cropped out. */
+inline SlamSettings withMachineBox(SlamSettings settings = {})
+{
+  settings.crop.min_x = -4, settings.crop.max_x = 3;
+  settings.crop.min_y = -2, settings.crop.max_y = 2;
+  settings.crop.min_z = -0.5, settings.crop.max_z = 6;
+  return settings;
 }
 }  // namespace scanloom
