@@ -1,6 +1,7 @@
 #include "base/formats/CloudFile.h"
 
 #include "base/core/Bytes.h"
+#include "base/core/printable.h"
 #include "base/formats/CompressedFile.h"
 #include "base/formats/internal/FloatsReader.h"
 #include "base/formats/internal/PcdReader.h"
@@ -101,7 +102,7 @@ CloudFile readCloud(const std::filesystem::path& path)
   }
   catch (const std::logic_error& error)  // of the formats, which do not know the file's name
   {
-    throw std::runtime_error(fmt::format("{}: {}", path.string(), error.what()));
+    throw std::runtime_error(fmt::format("{}: {}", path.string(), printable(error.what())));
   }
 }
 }  // namespace scanloom

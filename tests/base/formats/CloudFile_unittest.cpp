@@ -217,6 +217,7 @@ TEST_F(CloudFiles, areRefusedByNameWhenNoFormatFits)
 
 TEST_F(CloudFiles, areRefusedWhenCutShort)
 {
+  refuses("a.ply", plyHeader("ascii", "many\x1b", "float"), "its number of vertices is 'many?'");
   refuses("a.ply", plyHeader("ascii", "2", "float") + "9 1 -2 3.5\n9 1 2\n", "ends before its last");
   refuses("a.ply", plyHeader("binary_big_endian", "1", "double") + "123", "ends before its last");
   refuses("a.pcd", "FIELDS x y z\nSIZE 4 4 4\n", "no DATA");

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <sstream>
@@ -92,6 +93,15 @@ Encoding encodingOf(const std::string& format)
   throw std::invalid_argument("format '" + format + "'");
 }
 
+std::size_t vertexCount(const std::string& text)
+{
+  std::size_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (error != std::errc{} || end != text.data() + text.size())
+    throw std::invalid_argument("its number of vertices is '" + text + "'");
+  return count;
+}
+
 /** Reads up to and including "end_header". */
 PlyHeader readPlyHeader(CloudText& file)
 {
@@ -108,7 +118,7 @@ PlyHeader readPlyHeader(CloudText& file)
     if (keyword == "element")
     {
       if (element.empty() && first != "vertex") throw std::invalid_argument("its first element is '" + first + "'");
-      if (element.empty()) header.vertices = std::stoull(second);
+      if (element.empty()) header.vertices = vertexCount(second);
       element = first;
     }
     if (keyword == "property" && element == "vertex") header.properties.push_back({second, scalarType(first)});
@@ -185,7 +195,7 @@ CloudPoints plyPoints(Bytes file)
     const PlyHeader header = readPlyHeader(text);
     return pointsAfter(header, text);
   }
-  catch (const std::logic_error& error)  // ours and those of stoull
+  catch (const std::invalid_argument& error)
   {
     throw std::invalid_argument(fmt::format("is no PLY that can be read here: {}", error.what()));
   }
