@@ -19,7 +19,7 @@ class ConstantMotion
   /** The latest estimate. */
   void update(const StateEstimate&);
 
-  /** At 100 Hz, after those given before, up to `end`. */
+  /** After those given before, up to `end`: at 100 Hz, but 10,000 at most. */
   std::vector<ImuSample> samplesUntil(Timestamp end);
 
  private:

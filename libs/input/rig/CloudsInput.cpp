@@ -17,9 +17,9 @@ namespace scanloom
 namespace
 {
 constexpr Duration kIntervalOfOne = 100ms;
-constexpr Duration kLongestScan = 2s;  // the points' t has 32 bits
-constexpr double kAbsoluteFrom = 1e8;  // s: a time after 1973
-constexpr std::uint64_t kNamed = 5;    // clouds that are left out, each in a line
+constexpr Duration kLongestScan = 2s;                     // the points' t has 32 bits
+constexpr double kAbsoluteFrom = 1e8, kAbsoluteTo = 4e9;  // s: a time from 1973 to 2096
+constexpr std::uint64_t kNamed = 5;                       // clouds that are left out, each in a line
 
 Duration medianInterval(const std::vector<Timestamp>& stamps)
 {
@@ -101,6 +101,10 @@ Scan scanOfTimed(const CloudFile& cloud, Timestamp stamp, Duration interval, dou
   const Duration span = after(cloud.times[order.back()]);
   if (span > kLongestScan)
     throw std::invalid_argument(fmt::format("its points span {:.3g} s: no scan is longer than 2 s", seconds(span)));
+
+  if (first < -seconds(kLongestScan) || (first > seconds(kLongestScan) && first < kAbsoluteFrom) || first > kAbsoluteTo)
+    throw std::invalid_argument(
+        fmt::format("its times begin at {:.3g} s: neither after its stamp, nor since 1970", first));
 
   Scan scan;
   scan.start = first >= kAbsoluteFrom ? Timestamp{fromSeconds(first)} : stamp + fromSeconds(first);

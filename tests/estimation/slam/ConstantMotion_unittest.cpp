@@ -26,6 +26,11 @@ TEST(ConstantMotion, isALevelRestUntilTheFirstEstimate)
   EXPECT_EQ(motion.samplesUntil(Timestamp{1105ms}).size(), 1U);  // the rest only
 }
 
+TEST(ConstantMotion, aWrongYearTakesNoMoreSamplesThanAHundredSeconds)
+{
+  EXPECT_LE(ConstantMotion(Timestamp{1s}).samplesUntil(Timestamp{std::chrono::hours{24 * 365}}).size(), 10'001U);
+}
+
 TEST(ConstantMotion, samplesIntegrateToAStraightLineAndTheSameTurnAgain)
 {
   const Rigid first = Rigid::fromXyzYawPitchRoll(1, 2, 3, 0.3, 0.2, 0.1);
