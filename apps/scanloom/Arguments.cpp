@@ -10,11 +10,15 @@ Option addConfiguration(CLI::App& app, ConfigurationArguments& arguments)
             "set a key, instead of its value in the files, e.g. map_cells.cell_size=0.5 (repeatable)")
       .typeName("SECTION.KEY=VALUE")
       .repeatable();
-  addFlag(app, "--dry-run", arguments.dry_run, "check everything, print the values in effect, and stop");
   return addOption(app, "-c,--config", arguments.files,
                    "configuration file (INI); several files are read together (repeatable)")
       .typeName("FILE")
       .repeatable();
+}
+
+void addDryRun(CLI::App& app, ConfigurationArguments& arguments)
+{
+  addFlag(app, "--dry-run", arguments.dry_run, "check everything, print the values in effect, and stop");
 }
 
 Option addOutputFolder(CLI::App& app, OutputFolderArguments& arguments)
@@ -52,14 +56,4 @@ Option addOverwrite(CLI::App& app, bool& overwrite)
 }
 
 Option addJson(CLI::App& app, bool& json) { return addFlag(app, "--json", json, "print the results as JSON"); }
-
-Option addSeed(CLI::App& app, std::uint64_t& seed)
-{
-  return addOption(app, "--seed", seed, "seed of the random numbers").showDefault();
-}
-
-Option addJobs(CLI::App& app, int& jobs)
-{
-  return addOption(app, "--jobs", jobs, "number of threads or processes; 0: one per core").notNegative().showDefault();
-}
 }  // namespace scanloom

@@ -16,8 +16,9 @@ struct ConfigurationArguments
   std::vector<std::string> assignments;
   bool dry_run = false;
 };
-/** Adds -c/--config, --set, --dry-run. @return the option -c, for a verb that requires it. */
+/** Adds -c/--config, --set. @return the option -c, for a verb that requires it. */
 Option addConfiguration(CLI::App&, ConfigurationArguments&);
+void addDryRun(CLI::App&, ConfigurationArguments&);  // --dry-run
 
 struct OutputFolderArguments
 {
@@ -38,8 +39,6 @@ Option addSeconds(CLI::App&, double&);
 /** For an input that ends by itself. @throws UsageError if `seconds` is given. */
 void refuseSeconds(double seconds);
 
-Option addOverwrite(CLI::App&, bool&);      // -w/--overwrite
-Option addJson(CLI::App&, bool&);           // --json
-Option addSeed(CLI::App&, std::uint64_t&);  // --seed
-Option addJobs(CLI::App&, int&);            // --jobs; 0: one per core
+Option addOverwrite(CLI::App&, bool&);  // -w/--overwrite
+Option addJson(CLI::App&, bool&);       // --json
 }  // namespace scanloom

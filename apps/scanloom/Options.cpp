@@ -24,7 +24,6 @@ Option Option::optionalValue(const std::string& otherwise) const
   return Option(option_->expected(0, 1)->default_str(otherwise));
 }
 Option Option::showDefault() const { return Option(option_->capture_default_str()); }
-Option Option::needs(const Option& other) const { return Option(option_->needs(other.option_)); }
 Option Option::excludes(const Option& other) const { return Option(option_->excludes(other.option_)); }
 Option Option::existingFile() const { return Option(option_->check(CLI::ExistingFile)); }
 Option Option::existingFolder() const { return Option(option_->check(CLI::ExistingDirectory)); }

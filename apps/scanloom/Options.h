@@ -30,7 +30,6 @@ class Option
   Option optionalValue(const std::string& otherwise) const;  // may be given without its value
   Option showDefault() const;                                // shown in the help with the value that it has now
 
-  Option needs(const Option&) const;     // must be given together with the other option
   Option excludes(const Option&) const;  // must not be given together with the other option
 
   /** Checks of the value. */

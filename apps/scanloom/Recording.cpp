@@ -72,10 +72,10 @@ RecordingFiles withoutResults(RecordingFiles files, const Paths& given)
 }
 }  // namespace
 
-Option addRecording(CLI::App& app, RecordingArguments& arguments, const std::string& name)
+Option addRecording(CLI::App& app, RecordingArguments& arguments)
 {
   const Option recording = addOption(
-      app, name, arguments.paths,
+      app, "RECORDING", arguments.paths,
       "a recording: captures (pcap, pcapng; also .gz, .zst), a bag of ROS (.db3, .mcap, .bag), a rawlog, clouds "
       "(PLY, PCD, KITTI), or a folder of these; metadata and poses of the lidars and the IMU are found beside it");
   addOption(app, "--metadata", arguments.metadata, "metadata of a lidar, instead of those beside the captures")

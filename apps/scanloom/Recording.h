@@ -19,7 +19,7 @@ struct RecordingArguments
 };
 
 /** Adds the argument RECORDING and --metadata. @return the argument. */
-Option addRecording(CLI::App&, RecordingArguments&, const std::string& name = "RECORDING");
+Option addRecording(CLI::App&, RecordingArguments&);
 
 enum class Clouds
 {

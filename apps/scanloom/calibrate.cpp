@@ -182,11 +182,6 @@ int runDrive(const CalibrateArguments& arguments)
   Calibration calibration;
   calibration.lidars = mountedLidars(setupOf(rig).header.lidars);
   refuseExisting(arguments.output, resultFiles(calibration.lidars));
-  if (arguments.configuration.dry_run)
-  {
-    std::cout << toIni(loaded);
-    return kDone;
-  }
   calibration.reference = indexOf(arguments.reference, calibration.lidars);
   CalibrationDrive drive = driven(source, loaded.settings, calibration);
   if (calibration.imu && calibration.imu->outcome == ImuMountOutcome::Contradicted)

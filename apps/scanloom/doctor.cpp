@@ -116,11 +116,6 @@ int run(const DoctorArguments& arguments)
   const bool scans = !recording.rawlogs.empty() || !recording.clouds.empty();
   if (scans && arguments.seconds > 0) throw UsageError("--seconds is for captures and live lidars");
   const std::optional<Rig> rig = scans ? std::nullopt : std::optional(rigOf(loaded.configuration));
-  if (arguments.configuration.dry_run)
-  {
-    std::cout << toIni(loaded);
-    return kDone;
-  }
 
   catchInterruption();
   if (!recording.rawlogs.empty()) return examineRawlog(recording.rawlogs.front(), loaded.settings.crop, arguments);

@@ -40,9 +40,7 @@ struct EvaluateArguments
   std::string lever_arm = "0 0 0";
   Align align = Align::Yaw;
   bool apply_clock_offset = false;
-  RelativeDelta delta;
   double drift_limit = std::numeric_limits<double>::infinity();  // m
-  double least_coverage = 90;                                    // %
   std::filesystem::path plot;
   bool json = false, overwrite = false;
 };
@@ -91,12 +89,13 @@ void print(const Result& result, bool json)
 /** `covered`: share of the reference's time with poses; the error of a few poses says nothing about the whole drive. */
 int judge(double drift, double covered, const EvaluateArguments& arguments)
 {
+  constexpr double kLeastCoverage = 90;  // %
   const bool drifted = !(drift <= arguments.drift_limit);
-  const bool is_part = std::isfinite(arguments.drift_limit) && 100 * covered < arguments.least_coverage;
+  const bool is_part = std::isfinite(arguments.drift_limit) && 100 * covered < kLeastCoverage;
   if (drifted) fmt::print(stderr, "drift {:.3f} m is above the limit of {} m\n", drift, arguments.drift_limit);
   if (is_part)
-    fmt::print(stderr, "the trajectory covers {:.1f} % of the reference's time, less than {} % (--least-coverage)\n",
-               100 * covered, arguments.least_coverage);
+    fmt::print(stderr, "the trajectory covers {:.1f} % of the reference's time, less than {} %\n", 100 * covered,
+               kLeastCoverage);
   return drifted || is_part ? kQualityGate : kDone;
 }
 
@@ -143,7 +142,6 @@ int run(const EvaluateArguments& arguments)
   options.body_p_point = leverArmOf(arguments.lever_arm);
   options.alignment = arguments.align == Align::Yaw ? AlignmentKind::Yaw : AlignmentKind::Se3;
   options.apply_clock_offset = arguments.apply_clock_offset;
-  options.delta = arguments.delta;
 
   EvaluationInput input;
   input.scans = readTrajectory(arguments.trajectory, &warn);
@@ -177,13 +175,6 @@ void addComparison(CLI::App& app, EvaluateArguments& arguments)
       .showDefault();
   addFlag(app, "--apply-clock-offset", arguments.apply_clock_offset,
           "correct the stamps of the reference by the clock offset that is found");
-  addOption(app, "--rpe-delta", arguments.delta.delta, "distance between the two poses of a pair of the RPE")
-      .positive()
-      .showDefault();
-  const std::vector<std::pair<std::string, DeltaUnit>> units{{"m", DeltaUnit::Metres}, {"f", DeltaUnit::Frames}};
-  addChoice(app, "--rpe-unit", arguments.delta.unit, units,
-            "unit of --rpe-delta: m along the estimate, or f for frames [m]")
-      .typeName("m|f");
 }
 
 std::function<int()> addEvaluateOptions(CLI::App& app)
@@ -206,18 +197,11 @@ std::function<int()> addEvaluateOptions(CLI::App& app)
             "true poses (TUM), to compute the error of interpolation between scans [the reference, if it has poses]")
       .typeName("FILE");
   addComparison(app, *arguments);
-  const Option limit =
-      addOption(app, "--fail-if-drift-above", arguments->drift_limit,
-                "end with status 3 if the drift is larger than this, in m, or if poses cover less than "
-                "--least-coverage of the reference's time")
-          .notNegative()
-          .typeName("M");
-  addOption(app, "--least-coverage", arguments->least_coverage,
-            "for --fail-if-drift-above: least share of the reference's time that poses must cover, in %")
-      .between(0, 100)
-      .showDefault()
-      .typeName("PERCENT")
-      .needs(limit);
+  addOption(app, "--fail-if-drift-above", arguments->drift_limit,
+            "end with status 3 if the drift is larger than this, in m, or if poses cover less than 90 % of the "
+            "reference's time")
+      .notNegative()
+      .typeName("M");
   addOption(app, "--plot", arguments->plot,
             "picture of both paths from above, their heights, and the error over distance (.svg or .png)")
       .typeName("FILE");

@@ -150,8 +150,11 @@ std::function<int()> addExperimentOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<ExperimentArguments>();
   addConfiguration(app, arguments->configuration).required();
+  addDryRun(app, arguments->configuration);
   addOutputFolder(app, arguments->output).required();
-  addJobs(app, arguments->jobs);
+  addOption(app, "--jobs", arguments->jobs, "number of processes; with slurm, of jobs at a time; 0: one per core")
+      .notNegative()
+      .showDefault();
   addFlag(app, "--resume", arguments->resume,
           "keep the runs that are done with the same version, files and parameters; run the others");
   addOption(app, "--engine", arguments->engine,

@@ -24,7 +24,6 @@ namespace
 struct InfoArguments
 {
   RecordingArguments recording;
-  bool digests = false;
   bool json = false;
 };
 
@@ -51,7 +50,6 @@ std::vector<std::string> metadataOf(const RecordingFiles& files, const Recording
 
 int printBagInfo(const std::filesystem::path& bag, const InfoArguments& arguments)
 {
-  if (arguments.digests) throw UsageError("--digests is for captures");
   const BagContents contents = contentsOf({bag});
   for (const std::string& warning : contents.warnings) fmt::print(stderr, "damaged: {}\n", warning);
   std::cout << (arguments.json ? toJson(contents) : bag.string() + "\n" + toText(contents)) << std::flush;
@@ -64,8 +62,6 @@ int printCaptureInfo(const RecordingFiles& files, const InfoArguments& arguments
       std::all_of(files.captures.begin(), files.captures.end(), [](const auto& p) { return isBag(p); });
   const std::vector<std::string> metadata =
       all_bags ? std::vector<std::string>() : metadataOf(files, arguments.recording);
-  if (arguments.digests && metadata.empty())
-    throw UsageError("--digests needs the sensor's metadata: --metadata FILE.json");
   if (arguments.json && files.captures.size() > 1) throw UsageError("--json is for one capture: name one");
   int status = kDone;
   for (const auto& capture : files.captures)
@@ -75,7 +71,7 @@ int printCaptureInfo(const RecordingFiles& files, const InfoArguments& arguments
       status = std::max(status, printBagInfo(capture, arguments));
       continue;
     }
-    const CaptureInfo info = captureInfo(capture, metadata, arguments.digests ? Digests::Yes : Digests::No);
+    const CaptureInfo info = captureInfo(capture, metadata);
     if (files.captures.size() > 1 && !arguments.json) fmt::print("{}\n", capture.string());
     std::cout << (arguments.json ? toJson(info) : toText(info)) << std::flush;
     if (!info.counters.damages.empty()) status = kQualityGate;
@@ -114,9 +110,8 @@ int printRawlogInfo(const std::filesystem::path& rawlog, bool json)
 int run(const InfoArguments& arguments)
 {
   const RecordingFiles files = filesOf(arguments.recording, Clouds::Taken);
-  if (!files.clouds.empty() && !arguments.digests) return printCloudsInfo(files, arguments);
+  if (!files.clouds.empty()) return printCloudsInfo(files, arguments);
   if (!files.captures.empty()) return printCaptureInfo(files, arguments);
-  if (arguments.digests) throw UsageError("--digests is for captures");
   return printRawlogInfo(files.rawlogs.front(), arguments.json);
 }
 
@@ -124,7 +119,6 @@ std::function<int()> addInfoOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<InfoArguments>();
   addRecording(app, arguments->recording).required();
-  addFlag(app, "--digests", arguments->digests, "MD5 of every channel field of each turn (Ouster)");
   addJson(app, arguments->json);
   return [arguments] { return run(*arguments); };
 }

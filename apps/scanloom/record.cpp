@@ -259,6 +259,7 @@ std::function<int()> addRecordOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<RecordArguments>();
   addConfiguration(app, arguments->configuration);
+  addDryRun(app, arguments->configuration);
   addRecording(app, arguments->recording);
   addOption(app, "-o,--output", arguments->output, "the rawlog to write; default: beside the recording");
   addSeconds(app, arguments->seconds);

@@ -14,12 +14,10 @@
 #include "lab/whole_turns/replaceByTurns.h"
 
 #include <fmt/format.h>
-#include <tbb/global_control.h>
 
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <optional>
 #include <thread>
 
 namespace scanloom
@@ -31,10 +29,7 @@ struct SimulateArguments
   ConfigurationArguments configuration;
   OutputFolderArguments output;
   std::uint64_t seed = 1;
-  double seconds = 0;  // 0: the configured length
-  int jobs = 0;
   bool udp = false;
-  double delay = 3;  // s before the first packet over UDP
   std::string pictures;
 };
 
@@ -87,11 +82,12 @@ int draw(const Scene& scene, const std::filesystem::path& folder)
 }
 
 /** Sends the packets over UDP. Prints the section that 'record' needs first. */
-int play(const Scene& scene, double delay)
+int play(const Scene& scene)
 {
+  constexpr double kUntilListening = 5;  // s from the configuration to the first packet, for who reads it to be started
   SceneSensors sensors(scene);
   std::cout << sensors.configuration() << std::flush;
-  for (double waited = 0; waited < delay && !interrupted(); waited += 0.1) std::this_thread::sleep_for(100ms);
+  for (double waited = 0; waited < kUntilListening && !interrupted(); waited += 0.1) std::this_thread::sleep_for(100ms);
   Progress progress("simulate", static_cast<std::uint64_t>(std::ceil(scene.span.duration)), "s");
   const PlayedScene played = sensors.play(
       [&](double share)
@@ -104,13 +100,8 @@ int play(const Scene& scene, double delay)
   return interrupted() ? kInterrupted : kDone;
 }
 
-int run(SimulateArguments arguments)
+int run(const SimulateArguments& arguments)
 {
-  if (arguments.seconds > 0)
-    arguments.configuration.assignments.push_back(fmt::format("simulated_drive.duration={}", arguments.seconds));
-  std::optional<tbb::global_control> jobs;
-  if (arguments.jobs > 0)
-    jobs.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(arguments.jobs));
   const Loaded<SimulationSettings> loaded = load<SimulationSettings>(arguments.configuration);
   std::vector<std::string> names = recordingFileNames(loaded.settings);
   names.emplace_back(kConfigurationCopy);
@@ -130,7 +121,7 @@ int run(SimulateArguments arguments)
 
   if (!arguments.pictures.empty()) return draw(scene, arguments.pictures);
   catchInterruption();
-  return arguments.udp ? play(scene, arguments.delay) : write(scene, loaded, arguments.output.folder, names);
+  return arguments.udp ? play(scene) : write(scene, loaded, arguments.output.folder, names);
 }
 }  // namespace
 
@@ -142,17 +133,14 @@ Verb simulateVerb()
           {
             auto arguments = std::make_shared<SimulateArguments>();
             addConfiguration(app, arguments->configuration);
+            addDryRun(app, arguments->configuration);
             addOutputFolder(app, arguments->output);
             addFlag(app, "--udp", arguments->udp,
                     "send the packets in real time to 127.0.0.1, as lidars with HTTP interfaces would; prints the "
                     "configuration for 'record' first");
             addOption(app, "--pictures", arguments->pictures,
                       "draw the forest and one turn of every lidar, at half of the drive's time, into this folder");
-            addOption(app, "--delay", arguments->delay, "with --udp: time before the first packet, in s").notNegative();
-            addSeed(app, arguments->seed);
-            addOption(app, "--seconds", arguments->seconds, "length of the drive in s, instead of the configured one")
-                .positive();
-            addJobs(app, arguments->jobs);
+            addOption(app, "--seed", arguments->seed, "seed of the random numbers").showDefault();
             return [arguments] { return run(*arguments); };
           }};
 }

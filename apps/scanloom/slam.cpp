@@ -220,8 +220,9 @@ std::function<int()> addSlamOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<SlamArguments>();
   addConfiguration(app, arguments->configuration);
+  addDryRun(app, arguments->configuration);
   addOutputFolder(app, arguments->output);
-  addRecording(app, arguments->recording, "RECORDING,-i,--input");
+  addRecording(app, arguments->recording);
   addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas; default: all")
       .commaSeparated();
   addSeconds(app, arguments->seconds);

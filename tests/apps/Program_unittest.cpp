@@ -78,8 +78,9 @@ std::function<int()> addWeave(CLI::App& app)
   auto arguments = std::make_shared<WeaveArguments>();
   addConfiguration(app, arguments->configuration);
   addOutputFolder(app, arguments->output);
-  addSeed(app, arguments->seed);
-  addJobs(app, arguments->jobs);
+  addDryRun(app, arguments->configuration);
+  addOption(app, "--seed", arguments->seed, "of the yarn");
+  addOption(app, "--jobs", arguments->jobs, "looms").notNegative();
   addJson(app, arguments->json);
   addOption(app, "--fail", arguments->failure, "an error");
   addOption(app, "--speed", arguments->speed, "of the loom").positive();

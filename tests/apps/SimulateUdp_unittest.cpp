@@ -52,7 +52,7 @@ struct SimulatedSensors
         "[simulated_lidars]\nlidar1_name = left\nlidar1_model = OS0-16\nlidar1_port = {}\nlidar2_name = right\n"
         "lidar2_port = {}\n",
         seconds, stems, left, right);
-    return fmt::format("{}/scanloom simulate -c {} --udp --delay 4", SCANLOOM_BIN_DIR, (folder / "scene.ini").string());
+    return fmt::format("{}/scanloom simulate -c {} --udp", SCANLOOM_BIN_DIR, (folder / "scene.ini").string());
   }
 };
 }  // namespace

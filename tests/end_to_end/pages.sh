@@ -48,5 +48,5 @@ awk '/^```sh$/ { run = 1; next }
 cd "$dir"
 ln -s "$source/params" params
 [ "$what" != README.md ] ||
-  scanloom simulate -c params/simulation/demo.ini --seconds 30 --out-dir build/demo/recording > /dev/null 2>&1
+  scanloom simulate -c params/simulation/demo.ini --set simulated_drive.duration=30 --out-dir build/demo/recording > /dev/null 2>&1
 sh -eux commands

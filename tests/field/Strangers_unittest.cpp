@@ -37,10 +37,10 @@ class Strangers : public testing::Test
   static void SetUpTestSuite()
   {
     world_ = std::make_unique<TemporaryFolder>();
-    const Ended simulated =
-        scanloom(world_->path(), "simulate -c " SCANLOOM_SOURCE_DIR
-                                 "/params/simulation/sparse.ini --seed 3 --seconds 8 --out-dir drive --set "
-                                 "simulated_lidars.lidar1_model=OS0-32 --set simulated_lidars.lidar2_model=OS0-32");
+    const Ended simulated = scanloom(
+        world_->path(), "simulate -c " SCANLOOM_SOURCE_DIR
+                        "/params/simulation/sparse.ini --seed 3 --set simulated_drive.duration=8 --out-dir drive --set "
+                        "simulated_lidars.lidar1_model=OS0-32 --set simulated_lidars.lidar2_model=OS0-32");
     ASSERT_EQ(simulated.status, 0) << simulated.output;
     for (const char* other : {"drive/groundtruth.tum", "drive/total_station.csv", "drive/objects.csv"})
       fs::remove(*world_ / other);

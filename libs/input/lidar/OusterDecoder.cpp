@@ -186,13 +186,6 @@ PacketHeader OusterDecoder::header(Bytes packet) const
   return header;
 }
 
-std::uint32_t OusterDecoder::columnStatus(Bytes packet, std::size_t index) const
-{
-  const Bytes column = packet.slice(layout_.columnOffset(index), layout_.columnBytes());
-  if (layout_.isLegacy()) return load<std::uint32_t>(column, column.size() - layout_.columnFooterBytes());
-  return load<std::uint16_t>(column, kOusterColumnFrameIdOrStatus);
-}
-
 /** The column's bytes are known to be there. */
 MeasurementBlock OusterDecoder::readBlock(const std::uint8_t* column, std::size_t index,
                                           std::uint32_t packet_frame_id) const

@@ -43,9 +43,6 @@ class OusterDecoder : public PacketDecoder
   const OusterMetadata& metadata() const { return metadata_; }
   const OusterLayout& layout() const { return layout_; }
 
-  /** The status word of a column, 32 bits in LEGACY packets and 16 in others; its lowest bit says valid. */
-  std::uint32_t columnStatus(Bytes packet, std::size_t index) const;
-
  private:
   MeasurementBlock readBlock(const std::uint8_t* column, std::size_t index, std::uint32_t packet_frame_id) const;
   bool isForeign(Bytes packet) const;

@@ -46,10 +46,8 @@ std::string toJson(const CaptureInfo& info)
                     {"imu_samples", lidar.imu_samples},
                     {"first_s", secondsOf(lidar.first)},
                     {"last_s", secondsOf(lidar.last)}};
-    if (!lidar.digests.empty()) decoded["scans"] = lidar.digests;
     result["lidars"].push_back(std::move(decoded));
   }
-  if (info.lidars.size() == 1 && !info.lidars.front().digests.empty()) result["scans"] = info.lidars.front().digests;
   return jsonText(result) + '\n';
 }
 
@@ -70,8 +68,6 @@ std::string toText(const CaptureInfo& info)
                         lidar.lidar.model, lidar.lidar.serial, lidar.valid_blocks, lidar.invalid_blocks,
                         lidar.imu_samples, seconds(lidar.last - lidar.first));
     for (const auto& [kind, packets] : lidar.packets) text += fmt::format("  {:<10} {:>8} packets\n", kind, packets);
-    for (const auto& turn : lidar.digests)
-      for (const auto& [field, digest] : turn) text += fmt::format("  {:<16} {}\n", field, digest);
   }
   return text;
 }

@@ -34,6 +34,12 @@ std::optional<PoseError> distanceIfFar(const Rigid& pose, const Rigid& other)
 }
 }  // namespace
 
+PoseError poseError(const Rigid& estimate, const Rigid& truth)
+{
+  const Vector6d e = boxMinus(estimate, truth);
+  return {e.head<3>().norm(), e.tail<3>().norm() / kDegree};
+}
+
 CloudPair::CloudPair(const Points& target, const Points& source)
   : target_(prepare(target, {kTargetLevels.begin(), kTargetLevels.end()})),
     source_(prepare(source, {kSourceLevels.begin(), kSourceLevels.end()}))

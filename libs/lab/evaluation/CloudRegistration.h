@@ -1,7 +1,6 @@
 /** Registration of two clouds on several levels of NDT cells, coarse to fine. */
 #pragma once
 #include "estimation/ndt/Registration.h"
-#include "lab/evaluation/internal/RegistrationTrials.h"
 
 #include <Eigen/Core>
 
@@ -10,6 +9,20 @@
 
 namespace scanloom
 {
+struct PoseError
+{
+  double metres = 0, degrees = 0;
+};
+
+/** Norms of the translation and of the rotation from the truth to the estimate. */
+PoseError poseError(const Rigid& estimate, const Rigid& truth);
+
+struct TimedRegistration
+{
+  RegistrationResult result;
+  double milliseconds = 0;
+};
+
 /** Makes the cells of both clouds once, for any number of guesses. */
 class CloudPair
 {

@@ -76,12 +76,12 @@ Evaluation evaluate(const EvaluationInput& input, const EvaluationOptions& optio
   {
     const std::vector<PosePair> at_scans = posePairs(input.scans, options.body_p_point, *true_poses);
     evaluation.absolute = absoluteErrors(at_scans, options.alignment);
-    evaluation.relative = relativeErrors(at_scans, options.delta);
+    evaluation.relative = relativeErrors(at_scans);
   }
   else
   {
     evaluation.absolute = absoluteErrors(evaluation.pairs, options.alignment);
-    evaluation.relative = relativeErrors(evaluation.pairs, options.delta);
+    evaluation.relative = relativeErrors(evaluation.pairs);
   }
   return evaluation;
 }

@@ -13,7 +13,6 @@ struct EvaluationOptions
   Eigen::Vector3d body_p_point = Eigen::Vector3d::Zero();  // m: the point that is compared, e.g. the prism
   AlignmentKind alignment = AlignmentKind::Yaw;
   bool apply_clock_offset = false;
-  RelativeDelta delta;
 };
 
 struct EvaluationInput

@@ -15,7 +15,6 @@ namespace
 constexpr double kSmallestNamed = 0.2;  // component of a unit vector
 
 constexpr std::array<const char*, 6> kSteps{"x", "y", "z", "about x", "about y", "about z"};
-constexpr std::array kOutcomes{Outcome::Converged, Outcome::IterationLimit, Outcome::LowOverlap, Outcome::Degenerate};
 
 std::string poseLine(const Rigid& pose)
 {
@@ -100,19 +99,6 @@ nlohmann::json directionsJson(const std::vector<Vector6d>& directions)
   return list;
 }
 
-nlohmann::json spreadJson(const Spread& spread)
-{
-  return {{"median", spread.median},
-          {"percentile_95", spread.percentile_95},
-          {"largest", spread.largest},
-          {"mean", spread.mean}};
-}
-
-double shareOf(const TrialsReport& report, Outcome outcome)
-{
-  const auto found = report.outcomes.find(outcome);
-  return found == report.outcomes.end() ? 0 : static_cast<double>(found->second) / static_cast<double>(report.trials);
-}
 }  // namespace
 
 std::string toText(const RegistrationReport& report)
@@ -126,7 +112,7 @@ std::string toText(const RegistrationReport& report)
   if (const auto& apart = report.contradiction)
     text += fmt::format(
         "not confirmed        another pose, {:.2f} m and {:.1f} deg away, may be the true one: give a better --guess, "
-        "and how good it is (--guess-sigma-m, --guess-sigma-deg)\n",
+        "and how good it is (--guess-sigma)\n",
         apart->metres, apart->degrees);
   text += fmt::format("overlap              {:.1f} %\n", 100 * result.overlap);
   text += fmt::format("iterations           {}\n", result.iterations);
@@ -168,38 +154,4 @@ std::string toJson(const RegistrationReport& report)
   return json.dump(2);
 }
 
-std::string toText(const TrialsReport& report)
-{
-  const auto row = [](const char* what, const Spread& s)
-  {
-    return fmt::format("{:<20} {:>10.4f} {:>10.4f} {:>10.4f} {:>10.4f}\n", what, s.median, s.percentile_95, s.largest,
-                       s.mean);
-  };
-  std::string text = fmt::format("trials               {}\nsuccess              {:.1f} % within 0.1 m and 1 deg\n",
-                                 report.trials, 100 * report.success_rate);
-  text += fmt::format("{:<20} {:>10} {:>10} {:>10} {:>10}\n", "", "median", "95 %", "largest", "mean");
-  text += row("error [m]", report.metres) + row("error [deg]", report.degrees) +
-          row("alignment [ms]", report.milliseconds) + "outcomes            ";
-  for (const Outcome outcome : kOutcomes)
-    text += fmt::format("{} {} {:.1f} %", outcome == kOutcomes.front() ? "" : ",", toString(outcome),
-                        100 * shareOf(report, outcome));
-  text += report.mean_nees
-              ? fmt::format("\nmean NEES            {:.2f} of the successes (6 is consistent)", *report.mean_nees)
-              : "\nmean NEES            none: no success";
-  return text;
-}
-
-std::string toJson(const TrialsReport& report)
-{
-  nlohmann::json outcomes;
-  for (const Outcome outcome : kOutcomes) outcomes[toString(outcome)] = shareOf(report, outcome);
-  return nlohmann::json{{"trials", report.trials},
-                        {"success_rate", report.success_rate},
-                        {"error_m", spreadJson(report.metres)},
-                        {"error_deg", spreadJson(report.degrees)},
-                        {"align_milliseconds", spreadJson(report.milliseconds)},
-                        {"outcomes", outcomes},
-                        {"mean_nees", report.mean_nees ? nlohmann::json(*report.mean_nees) : nlohmann::json()}}
-      .dump(2);
-}
 }  // namespace scanloom

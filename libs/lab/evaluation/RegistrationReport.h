@@ -1,6 +1,6 @@
 /** The results of `scanloom register` as text and as JSON. */
 #pragma once
-#include "lab/evaluation/internal/RegistrationTrials.h"
+#include "lab/evaluation/CloudRegistration.h"
 
 #include <cstddef>
 #include <optional>
@@ -26,7 +26,4 @@ struct RegistrationReport
 
 std::string toText(const RegistrationReport&);
 std::string toJson(const RegistrationReport&);
-
-std::string toText(const TrialsReport&);
-std::string toJson(const TrialsReport&);
 }  // namespace scanloom

@@ -1,5 +1,3 @@
-#include "input/lidar/FrameFields.h"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -9,6 +7,7 @@
 #include "base/core/Digest.h"
 #include "captures.h"
 #include "simpleMetadata.h"
+#include "support/FrameFields.h"
 
 namespace scanloom::frame_fields_unittest
 {

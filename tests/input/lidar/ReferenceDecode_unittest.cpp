@@ -8,7 +8,7 @@
 #include <map>
 
 #include "captures.h"
-#include "input/lidar/FrameFields.h"
+#include "support/FrameFields.h"
 
 namespace scanloom::reference_decode_unittest
 {

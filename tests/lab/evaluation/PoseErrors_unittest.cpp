@@ -38,30 +38,32 @@ TEST(PoseErrors, absoluteOnesAreThoseAfterTheBestAlignment)
   }
 }
 
-TEST(PoseErrors, relativeOnesOfFramesAreThoseOfEachStep)
+TEST(PoseErrors, relativeOnesAreThoseOfEachStep)
 {
-  // Steps of 1 m become 1.1, 0.9 and 1 m; before the last one the estimate is turned by 2 deg, which stays.
-  const std::vector<PosePair> pairs{{at(0, 0, 0), at(0, 0, 0)},
-                                    {at(1.1, 0, 0), at(1, 0, 0)},
-                                    {at(2, 0, 0, 2), at(2, 0, 0)},
-                                    {at(3, 0, 0, 2), at(3, 0, 0)}};
+  // After 1.5 m steps of 1.2 m become 1.3, 1.1 and 1.2 m; before the last one the estimate is turned by 2 deg, which
+  // stays.
+  const std::vector<PosePair> pairs{{at(-1.5, 0, 0), at(-1.5, 0, 0)},
+                                    {at(0, 0, 0), at(0, 0, 0)},
+                                    {at(1.3, 0, 0), at(1.2, 0, 0)},
+                                    {at(2.4, 0, 0, 2), at(2.4, 0, 0)},
+                                    {at(3.6, 0, 0, 2), at(3.6, 0, 0)}};
 
-  const PoseErrors errors = relativeErrors(pairs, {1, DeltaUnit::Frames});
+  const PoseErrors errors = relativeErrors(pairs);
 
-  const double aside = 2 * std::sin(1 * kDegree);  // the last step, seen 2 deg askew
+  const double aside = 2 * 1.2 * std::sin(1 * kDegree);  // the last step, seen 2 deg askew
   EXPECT_EQ(errors.compared, 3U);
   EXPECT_NEAR(errors.metres.rmse, std::sqrt((0.01 + 0.01 + aside * aside) / 3), 1e-12);
   EXPECT_NEAR(errors.degrees->rmse, std::sqrt(4.0 / 3), 1e-9);
 }
 
-TEST(PoseErrors, relativeOnesOfMetresBeginWhereThePathFirstReachesThem)
+TEST(PoseErrors, relativeOnesBeginWhereThePathFirstReachesAMetre)
 {
   // By evo's filter_pairs_by_path: 0.6 m a pose, so pairs are (2, 4) and (4, 6); the step into 1 counts in none.
   std::vector<PosePair> pairs;
   for (int i = 0; i < 7; ++i) pairs.push_back({at(0.6 * i, 0, 0), at(0.6 * i, 0, i == 0 ? 5 : 0)});
   pairs[6].reference_T_body.translation.z() = 0.3;
 
-  const PoseErrors errors = relativeErrors(pairs, {1, DeltaUnit::Metres});
+  const PoseErrors errors = relativeErrors(pairs);
 
   EXPECT_EQ(errors.compared, 2U);
   EXPECT_NEAR(errors.metres.rmse, std::sqrt(0.09 / 2), 1e-12);
@@ -70,17 +72,18 @@ TEST(PoseErrors, relativeOnesOfMetresBeginWhereThePathFirstReachesThem)
 TEST(PoseErrors, relativeOnesOfPositionsCompareDistances)
 {
   const std::vector<PositionPair> pairs{
-      {{}, {0, 0, 0}, {0, 0, 0}}, {{}, {1, 0, 0}, {0, 3, 4}}, {{}, {1, 2, 0}, {0, 3, 2}}};
+      {{}, {-1, 0, 0}, {0, 0, 0}}, {{}, {0, 0, 0}, {0, 0, 0}}, {{}, {1, 0, 0}, {0, 3, 4}}, {{}, {1, 2, 0}, {0, 3, 2}}};
 
-  const PoseErrors errors = relativeErrors(pairs, {1, DeltaUnit::Frames});
+  const PoseErrors errors = relativeErrors(pairs);
 
   EXPECT_NEAR(errors.metres.rmse, std::sqrt((16.0 + 0) / 2), 1e-12);  // 1 for 5 m, 2 for 2 m
   EXPECT_FALSE(errors.degrees);
 }
 
-TEST(PoseErrors, nothingIsComparedOnAPathShorterThanTheDelta)
+TEST(PoseErrors, nothingIsComparedOnAPathShorterThanAMetre)
 {
-  EXPECT_EQ(relativeErrors(saddle(), {100, DeltaUnit::Metres}).compared, 0U);
+  const std::vector<PosePair> pairs{{at(0, 0, 0), at(0, 0, 0)}, {at(0.9, 0, 0), at(0.9, 0, 0)}};
+  EXPECT_EQ(relativeErrors(pairs).compared, 0U);
 }
 
 TEST(PoseErrors, ofAnOffsetPointAreThoseOfItsOwnPath)

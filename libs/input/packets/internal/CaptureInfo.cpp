@@ -1,6 +1,5 @@
 #include "input/packets/internal/CaptureInfo.h"
 
-#include "input/lidar/FrameFields.h"
 #include "input/lidar/LidarModels.h"
 
 #include <fmt/format.h>
@@ -8,7 +7,6 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -42,14 +40,9 @@ constexpr const char* kImuOfSeveral = "imu_of_several";
 class View
 {
  public:
-  View(const std::string& metadata_file, Digests digests) : decoder_(makeDecoder(metadata_file, Rigid::identity()))
+  explicit View(const std::string& metadata_file) : decoder_(makeDecoder(metadata_file, Rigid::identity()))
   {
     decoded_.lidar = decoder_->description();
-    if (digests == Digests::No) return;
-    const auto* ouster = dynamic_cast<const OusterDecoder*>(decoder_.get());
-    if (!ouster)
-      throw std::invalid_argument(fmt::format("{}: digests are defined for Ouster packets only", metadata_file));
-    fields_.emplace(*ouster);
   }
 
   void add(const Datagram& datagram)
@@ -70,7 +63,6 @@ class View
     sends_from_.insert(datagram.source);
     decoder_->readBlocks(packet, blocks_);
     for (const MeasurementBlock& block : blocks_) addBlock(block);
-    if (fields_) addDigests(fields_->push(packet));
   }
 
   /** An IMU packet without serial number is of the lidar that sends from its address: of `views`, by their packets. */
@@ -84,11 +76,7 @@ class View
     }
   }
 
-  DecodedCapture finish()
-  {
-    if (fields_) addDigests(fields_->finish());
-    return std::move(decoded_);
-  }
+  DecodedCapture finish() { return std::move(decoded_); }
 
  private:
   using Stream = std::pair<IpAddress, std::uint16_t>;  // source, destination port
@@ -133,25 +121,18 @@ class View
     decoded_.last = std::max(decoded_.last, block.stamp);
   }
 
-  void addDigests(const std::vector<FieldFrame>& frames)
-  {
-    for (const FieldFrame& frame : frames) decoded_.digests.push_back(digestsOf(frame));
-  }
-
   std::unique_ptr<PacketDecoder> decoder_;
   std::set<IpAddress> sends_from_;  // lidar packets
   std::map<Stream, ImuPackets> imu_without_serial_;
-  std::optional<FrameFields> fields_;
   std::vector<MeasurementBlock> blocks_;
   DecodedCapture decoded_;
 };
 }  // namespace
 
-CaptureInfo captureInfo(const std::filesystem::path& path, const std::vector<std::string>& metadata_files,
-                        Digests digests)
+CaptureInfo captureInfo(const std::filesystem::path& path, const std::vector<std::string>& metadata_files)
 {
   std::vector<View> views;
-  for (const std::string& file : metadata_files) views.emplace_back(file, digests);
+  for (const std::string& file : metadata_files) views.emplace_back(file);
 
   CaptureReader reader(path);
   std::map<std::pair<IpAddress, std::uint16_t>, CaptureStream> streams;

@@ -29,8 +29,7 @@ struct DecodedCapture
   std::map<std::string, std::uint64_t> packets;
   std::uint64_t valid_blocks = 0, invalid_blocks = 0;
   std::uint64_t imu_samples = 0;
-  Timestamp first, last;                                    // sensor time of valid blocks
-  std::vector<std::map<std::string, std::string>> digests;  // MD5 by field name, for each turn; only with Digests::Yes
+  Timestamp first, last;  // sensor time of valid blocks
 };
 
 struct CaptureInfo
@@ -40,13 +39,6 @@ struct CaptureInfo
   std::vector<DecodedCapture> lidars;  // one per metadata file
 };
 
-enum class Digests
-{
-  No,
-  Yes,
-};
-
-/** Throws as CaptureReader and makeDecoder do, and std::invalid_argument for Digests::Yes of another brand than Ouster.
- */
-CaptureInfo captureInfo(const std::filesystem::path& capture, const std::vector<std::string>& metadata_files, Digests);
+/** Throws as CaptureReader and makeDecoder do. */
+CaptureInfo captureInfo(const std::filesystem::path& capture, const std::vector<std::string>& metadata_files);
 }  // namespace scanloom

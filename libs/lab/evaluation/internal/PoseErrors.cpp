@@ -45,15 +45,15 @@ std::vector<PositionPair> positionsOf(const std::vector<PosePair>& pairs)
 }
 
 /** The indices i of the RPE: each pair begins where the one before ended. */
-std::vector<std::size_t> endsOfPairs(const std::vector<PositionPair>& pairs, const RelativeDelta& delta)
+std::vector<std::size_t> endsOfPairs(const std::vector<PositionPair>& pairs)
 {
+  constexpr double kPairLength = 1;  // m
   std::vector<std::size_t> ends;
   double passed = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
+  for (std::size_t i = 1; i < pairs.size(); ++i)
   {
-    if (i > 0) passed += delta.unit == DeltaUnit::Frames ? 1 : (pairs[i].map_p - pairs[i - 1].map_p).norm();
-    const bool begins = delta.unit == DeltaUnit::Frames && i == 0;
-    if (passed < delta.delta && !begins) continue;
+    passed += (pairs[i].map_p - pairs[i - 1].map_p).norm();
+    if (passed < kPairLength) continue;
     ends.push_back(i);
     passed = 0;
   }
@@ -89,9 +89,9 @@ PoseErrors absoluteErrors(const std::vector<PositionPair>& pairs, AlignmentKind 
   return {sizeOf(metres), std::nullopt, pairs.size()};
 }
 
-PoseErrors relativeErrors(const std::vector<PosePair>& pairs, const RelativeDelta& delta)
+PoseErrors relativeErrors(const std::vector<PosePair>& pairs)
 {
-  const std::vector<std::size_t> ends = endsOfPairs(positionsOf(pairs), delta);
+  const std::vector<std::size_t> ends = endsOfPairs(positionsOf(pairs));
   std::vector<Rigid> differences;
   for (std::size_t k = 1; k < ends.size(); ++k)
   {
@@ -102,9 +102,9 @@ PoseErrors relativeErrors(const std::vector<PosePair>& pairs, const RelativeDelt
   return errorsOf(differences);
 }
 
-PoseErrors relativeErrors(const std::vector<PositionPair>& pairs, const RelativeDelta& delta)
+PoseErrors relativeErrors(const std::vector<PositionPair>& pairs)
 {
-  const std::vector<std::size_t> ends = endsOfPairs(pairs, delta);
+  const std::vector<std::size_t> ends = endsOfPairs(pairs);
   std::vector<double> metres;
   for (std::size_t k = 1; k < ends.size(); ++k)
   {

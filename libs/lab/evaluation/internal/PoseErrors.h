@@ -38,23 +38,13 @@ struct PoseErrors
 PoseErrors absoluteErrors(const std::vector<PosePair>&, AlignmentKind);
 PoseErrors absoluteErrors(const std::vector<PositionPair>&, AlignmentKind);
 
-enum class DeltaUnit
-{
-  Frames,
-  Metres  // path length of the estimate
-};
-struct RelativeDelta
-{
-  double delta = 1;
-  DeltaUnit unit = DeltaUnit::Metres;
-};
-
 /**
- * RPE: (reference_i^-1 reference_j)^-1 (estimate_i^-1 estimate_j) for i and j that are `delta` apart, j being the next
- * i. As in evo, the first i in metres is where the path reaches `delta`. On a shorter path nothing is compared.
+ * RPE: (reference_i^-1 reference_j)^-1 (estimate_i^-1 estimate_j) for i and j that are 1 m of the estimate's path
+ * apart, j being the next i. As in evo, the first i is where the path reaches 1 m. On a shorter path nothing is
+ * compared.
  */
-PoseErrors relativeErrors(const std::vector<PosePair>&, const RelativeDelta&);
+PoseErrors relativeErrors(const std::vector<PosePair>&);
 
 /** With positions only: the difference of the distances from i to j (evo's point_distance). */
-PoseErrors relativeErrors(const std::vector<PositionPair>&, const RelativeDelta&);
+PoseErrors relativeErrors(const std::vector<PositionPair>&);
 }  // namespace scanloom

@@ -50,7 +50,7 @@ PoseErrorsOfRun poseErrorsOf(const Evaluation& evaluation, const EvaluationInput
 {
   if (!input.truth) return {evaluation.absolute, evaluation.relative};
   const std::vector<PosePair> poses = posePairs(input.scans, Eigen::Vector3d::Zero(), *input.truth);
-  return {absoluteErrors(poses, options.alignment), relativeErrors(poses, options.delta)};
+  return {absoluteErrors(poses, options.alignment), relativeErrors(poses)};
 }
 
 RunFigures figuresOf(const std::filesystem::path& out, const RunReference& reference)
