@@ -2,10 +2,10 @@
 
 #include "base/core/Decompositions.h"
 #include "base/core/Statistics.h"
-#include "estimation/ndt/AmbiguousPoses.h"
 #include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/LidarInformation.h"
 #include "estimation/ndt/Minimiser.h"
+#include "estimation/ndt/internal/AmbiguousPoses.h"
 
 #include <algorithm>
 #include <cmath>

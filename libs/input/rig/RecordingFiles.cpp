@@ -1,9 +1,9 @@
 #include "input/rig/RecordingFiles.h"
 
 #include "base/core/ConfigError.h"
-#include "base/core/naturalOrder.h"
 #include "base/formats/FileFormat.h"
 #include "input/rig/FileKind.h"
+#include "input/rig/internal/naturalOrder.h"
 
 #include <fmt/format.h>
 

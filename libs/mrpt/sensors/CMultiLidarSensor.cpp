@@ -3,7 +3,7 @@
 #include "base/core/Interruption.h"
 #include "input/rig/Rig.h"
 #include "mrpt/observations/readByAll.h"
-#include "mrpt/observations/rigSettingsFrom.h"
+#include "mrpt/sensors/internal/rigSettingsFrom.h"
 
 #include <algorithm>
 #include <utility>

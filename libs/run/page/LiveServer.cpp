@@ -2,7 +2,7 @@
 
 #include "base/core/printable.h"
 #include "run/page/internal/PlayerCommand.h"
-#include "run/page/yieldToAll.h"
+#include "run/page/internal/yieldToAll.h"
 
 #include <fmt/format.h>
 

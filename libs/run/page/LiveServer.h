@@ -1,7 +1,7 @@
 #pragma once
-#include "run/page/LiveExchange.h"
-#include "run/page/LiveMap.h"
 #include "run/page/internal/HttpServer.h"
+#include "run/page/internal/LiveExchange.h"
+#include "run/page/internal/LiveMap.h"
 #include "run/page/internal/PageFiles.h"
 #include "run/page/internal/ViewStatusJson.h"
 

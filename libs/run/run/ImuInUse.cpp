@@ -2,7 +2,7 @@
 
 #include "base/config/Names.h"
 #include "base/core/ConfigError.h"
-#include "estimation/imu/TurnCorrelation.h"
+#include "run/run/internal/TurnCorrelation.h"
 
 #include <fmt/format.h>
 

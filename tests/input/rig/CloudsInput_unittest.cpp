@@ -1,7 +1,7 @@
 #include "input/rig/CloudsInput.h"
 
-#include "base/core/naturalOrder.h"
 #include "input/rig/RecordingFiles.h"
+#include "input/rig/internal/naturalOrder.h"
 #include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>

@@ -1,9 +1,9 @@
 #include "estimation/slam/internal/SmootherReset.h"
 
 #include "estimation/graph/PosePriorFactor.h"
-#include "estimation/imu/BiasOfReplacement.h"
 #include "estimation/imu/ImuBuffer.h"
 #include "estimation/ndt/FittedConstants.h"
+#include "estimation/slam/internal/BiasOfReplacement.h"
 
 #include <cmath>
 #include <optional>

@@ -1,11 +1,11 @@
 #pragma once
-#include "input/batching/ImuContinuity.h"
 #include "input/batching/ImuOrder.h"
 #include "input/batching/TimeBatcher.h"
 #include "input/rig/PacketRouter.h"
 #include "input/rig/Rig.h"
 #include "input/rig/SensorInput.h"
 #include "input/rig/internal/CaptureClock.h"
+#include "input/rig/internal/ImuContinuity.h"
 
 #include <deque>
 #include <functional>

@@ -1,7 +1,7 @@
 #include "run/page/internal/HttpServer.h"
 
 #include "input/packets/SocketAddress.h"
-#include "run/page/yieldToAll.h"
+#include "run/page/internal/yieldToAll.h"
 
 #include <fmt/format.h>
 #include <netinet/in.h>

@@ -1,7 +1,7 @@
 #pragma once
 #include "estimation/slam/StateEstimate.h"
 #include "input/rig/SensorInput.h"
-#include "run/page/LiveExchange.h"
+#include "run/page/internal/LiveExchange.h"
 
 #include <deque>
 #include <map>

@@ -1,4 +1,4 @@
-#include "run/page/LiveMap.h"
+#include "run/page/internal/LiveMap.h"
 
 #include "base/core/VoxelKey.h"
 

@@ -1,4 +1,4 @@
-#include "base/core/naturalOrder.h"
+#include "input/rig/internal/naturalOrder.h"
 
 #include <algorithm>
 #include <cctype>

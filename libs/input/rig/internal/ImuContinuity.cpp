@@ -1,4 +1,4 @@
-#include "input/batching/ImuContinuity.h"
+#include "input/rig/internal/ImuContinuity.h"
 
 namespace scanloom
 {

@@ -1,4 +1,4 @@
-#include "run/page/yieldToAll.h"
+#include "run/page/internal/yieldToAll.h"
 
 #include <pthread.h>
 #include <sched.h>

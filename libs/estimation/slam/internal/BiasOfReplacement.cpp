@@ -1,4 +1,4 @@
-#include "estimation/imu/BiasOfReplacement.h"
+#include "estimation/slam/internal/BiasOfReplacement.h"
 
 #include "estimation/imu/ImuBuffer.h"
 

@@ -1,4 +1,4 @@
-#include "run/page/LiveExchange.h"
+#include "run/page/internal/LiveExchange.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,5 +1,5 @@
 #pragma once
-#include "run/page/LiveExchange.h"
+#include "run/page/internal/LiveExchange.h"
 
 #include <tsl/robin_set.h>
 

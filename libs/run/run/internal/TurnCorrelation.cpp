@@ -1,4 +1,4 @@
-#include "estimation/imu/TurnCorrelation.h"
+#include "run/run/internal/TurnCorrelation.h"
 
 #include <algorithm>
 #include <cmath>

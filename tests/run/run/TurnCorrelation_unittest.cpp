@@ -1,8 +1,8 @@
-#include "estimation/imu/TurnCorrelation.h"
+#include "run/run/internal/TurnCorrelation.h"
 
 #include <gtest/gtest.h>
 
-#include "AnalyticDrive.h"
+#include "estimation/imu/AnalyticDrive.h"
 
 namespace scanloom::turn_correlation_unittest
 {

@@ -1,4 +1,4 @@
-#include "estimation/ndt/AmbiguousPoses.h"
+#include "estimation/ndt/internal/AmbiguousPoses.h"
 
 #include "base/core/Decompositions.h"
 #include "estimation/ndt/FittedConstants.h"

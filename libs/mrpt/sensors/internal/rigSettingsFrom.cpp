@@ -1,4 +1,4 @@
-#include "mrpt/observations/rigSettingsFrom.h"
+#include "mrpt/sensors/internal/rigSettingsFrom.h"
 
 #include <fmt/format.h>
 
