@@ -63,6 +63,7 @@ constexpr Removed kRemoved[] = {
     {"doctor", "--dry-run", "nothing: it writes no file"},
     {"calibrate", "--dry-run", "scanloom slam --dry-run, which checks the same keys"},
     {"info", "--digests", "nothing: tests compare every field with the maker's decode"},
+    {"map", "--cubes", "scanloom view MAP.bt draws cubes"},
     {"evaluate", "--rpe-delta", "the RPE is over 1 m"},
     {"evaluate", "--rpe-unit", "the RPE is over 1 m"},
     {"evaluate", "--least-coverage", "--fail-if-drift-above demands 90 %"},

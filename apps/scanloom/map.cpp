@@ -36,7 +36,7 @@ struct MapArguments
 {
   Path input, trajectory;
   std::vector<Path> outputs;
-  bool overwrite = false, dry_run = false, quiet = false, cubes = false;
+  bool overwrite = false, dry_run = false, quiet = false;
   std::string preset = "inventory";
   double keyframe_distance = 4;  // m
 };
@@ -161,7 +161,7 @@ int mapOctoMap(const MapArguments& arguments)
   requireConvertible(arguments.input, arguments.outputs);
   const auto tree = readOctoMap(arguments.input);
   if (arguments.dry_run) return kDone;
-  convertOctoMap(*tree, arguments.outputs, arguments.cubes ? VoxelShape::Cubes : VoxelShape::Centres);
+  convertOctoMap(*tree, arguments.outputs);
   for (const Path& output : arguments.outputs) fmt::print("{}\n", output.string());
   return kDone;
 }
@@ -193,7 +193,6 @@ int run(const MapArguments& arguments)
   refuseExisting(arguments.outputs, arguments.overwrite);
   refuseInputsAsOutputs({arguments.input, arguments.trajectory}, arguments.outputs);
   const std::string ending = arguments.input.extension().string();
-  if (arguments.cubes && !isOctoMap(arguments.input)) throw UsageError("--cubes is for a .ply of a .bt or .ot");
   if (!arguments.trajectory.empty() && ending != ".rawlog")
     throw UsageError(fmt::format("--trajectory is for rawlogs: {} holds poses of its own", arguments.input.string()));
 
@@ -232,7 +231,6 @@ std::function<int()> addMapOptions(CLI::App& app)
       .oneOf({"preview", "inventory", "fine"})
       .showDefault()
       .typeName("NAME");
-  addFlag(app, "--cubes", arguments->cubes, "for a .ply of a .bt or .ot: voxels as cubes with faces instead of points");
   addFlag(app, "--dry-run", arguments->dry_run, "check the input and estimate time and memory, but write nothing");
   addFlag(app, "-q,--quiet", arguments->quiet, "show no progress");
   return [arguments] { return run(*arguments); };

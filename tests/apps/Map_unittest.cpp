@@ -94,7 +94,6 @@ TEST_F(Map, whatMakesNoSenseIsStatus2)
   EXPECT_EQ(map("-o " + name("m.xyz")).status, 2);
   EXPECT_EQ(map("-o " + name("a.bt") + " -o " + name("b.bt")).status, 2);
   EXPECT_EQ(map("-o " + name("m.bt") + " --preset coarse").status, 2);
-  EXPECT_EQ(map("-o " + name("m.ply") + " --cubes").status, 2);
   EXPECT_EQ(scanloomRuns("map -i " + rawlog + " -o " + name("m.bt")).status, 2) << "no trajectory";
   ASSERT_EQ(map("-o " + name("m.bt")).status, 0);
   EXPECT_EQ(map("-o " + name("m.bt")).status, 2) << "exists";

@@ -313,7 +313,7 @@ const std::vector<Target>& targets()
       {"drive.pcap", C::Binary, "config --for {}"},
       {"drive.pcap", C::Binary, "calibrate -c rig.ini --set lidars.pcap_input={} --out-dir out/calibration"},
       {"map.bt", C::Binary, "map -q -i {} -o out/a.ply"},
-      {"map.ot", C::Binary, "map -q -i {} -o out/a.bt -o out/a.ply --cubes"},
+      {"map.ot", C::Binary, "map -q -i {} -o out/a.bt -o out/a.ply"},
       {"map.ot", C::Binary, "view {} --png out/a.png"},
       {"map.simplemap", C::Packed, "map -q -i {} --preset preview -o out/a.bt -o out/a.ply"},
       {"map.simplemap", C::Packed, "view {} --png out/a.png"},

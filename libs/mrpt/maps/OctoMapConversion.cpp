@@ -3,6 +3,7 @@
 #include "base/core/ConfigError.h"
 #include "mrpt/maps/OctoMapFile.h"
 #include "mrpt/maps/SceneFile.h"
+#include "mrpt/maps/internal/VoxelPly.h"
 
 #include <string>
 
@@ -22,12 +23,12 @@ void requireConvertible(const std::filesystem::path& octomap, const std::vector<
   }
 }
 
-void convertOctoMap(octomap::OcTree& tree, const std::vector<std::filesystem::path>& outputs, VoxelShape of_ply)
+void convertOctoMap(octomap::OcTree& tree, const std::vector<std::filesystem::path>& outputs)
 {
   for (const std::filesystem::path& output : outputs)
   {
     const std::string ending = output.extension().string();
-    if (ending == ".ply") writeVoxelPly(output, tree, of_ply);
+    if (ending == ".ply") writeVoxelPly(output, tree);
     if (ending == ".ot") writeFullOctoMap(output, tree);
     if (ending == ".3Dscene")
     {

@@ -1,6 +1,6 @@
 /** Maps made of an existing OctoMap. */
 #pragma once
-#include "mrpt/maps/internal/VoxelPly.h"
+#include <octomap/octomap.h>
 
 #include <filesystem>
 #include <vector>
@@ -11,5 +11,5 @@ namespace scanloom
 void requireConvertible(const std::filesystem::path& octomap, const std::vector<std::filesystem::path>& outputs);
 
 /** Writes each output in the format of its ending: .ply, .ot, .bt or .3Dscene. A .bt rounds the tree's values. */
-void convertOctoMap(octomap::OcTree&, const std::vector<std::filesystem::path>& outputs, VoxelShape of_ply);
+void convertOctoMap(octomap::OcTree&, const std::vector<std::filesystem::path>& outputs);
 }  // namespace scanloom

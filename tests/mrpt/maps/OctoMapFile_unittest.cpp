@@ -101,35 +101,11 @@ std::string bodyOf(const std::string& ply)
 
 TEST_F(OctoMapFile, centresAreTheVerticesOfAPly)
 {
-  EXPECT_EQ(writeVoxelPly(folder / "m.ply", tree, VoxelShape::Centres), 10U);
+  writeVoxelPly(folder / "m.ply", tree);
   const std::string ply = contentOf(folder / "m.ply");
 
   EXPECT_THAT(ply, testing::HasSubstr("element vertex 10\n"));
   EXPECT_EQ(bodyOf(ply).size(), 10U * 3 * sizeof(float));
-}
-
-/** Outward normals, by the corners alone: the sum of all signed volumes is that of the cubes. */
-TEST_F(OctoMapFile, cubesHaveFacesThatLookOutwards)
-{
-  writeVoxelPly(folder / "m.ply", tree, VoxelShape::Cubes);
-  const std::string ply = contentOf(folder / "m.ply");
-  EXPECT_THAT(ply, testing::HasSubstr("element vertex 80\n"));
-  EXPECT_THAT(ply, testing::HasSubstr("element face 60\n"));
-  const std::string body = bodyOf(ply);
-  std::vector<Eigen::Vector3f> corners(80);
-  std::memcpy(corners.data()->data(), body.data(), 80 * 3 * sizeof(float));
-
-  double volume = 0;
-  for (std::size_t face = 0; face < 60; ++face)
-  {
-    const char* record = body.data() + 80 * 3 * sizeof(float) + face * 17;
-    ASSERT_EQ(record[0], 4);
-    std::array<std::int32_t, 4> index{};
-    std::memcpy(index.data(), record + 1, 16);
-    const auto corner = [&](std::size_t i) { return corners.at(static_cast<std::size_t>(index[i])); };
-    volume += corner(0).dot(corner(1).cross(corner(2))) / 6 + corner(0).dot(corner(2).cross(corner(3))) / 6;
-  }
-  EXPECT_NEAR(volume, 10 * 0.125, 1e-3);
 }
 
 /** As a damaged byte makes it: the root's child in a .bt is an occupied leaf of 3276.8 m. */
@@ -158,16 +134,16 @@ TEST_F(HugeLeaf, isOneLeafToOctomapAndHasTheVolumeOfAllItsVoxels)
 TEST_F(HugeLeaf, isNotListedVoxelByVoxel)
 {
   const auto tree = readOctoMap(path);
-  for (const VoxelShape shape : {VoxelShape::Centres, VoxelShape::Cubes}) try
-    {
-      writeVoxelPly(folder / "m.ply", *tree, shape);
-      FAIL() << "35184372088832 voxels were written";
-    }
-    catch (const std::runtime_error& error)
-    {
-      EXPECT_THAT(error.what(), testing::HasSubstr("35184372088832 voxels of 0.1 m"));
-      EXPECT_THAT(error.what(), testing::HasSubstr("a cube of 3276.8 m"));
-    }
+  try
+  {
+    writeVoxelPly(folder / "m.ply", *tree);
+    FAIL() << "35184372088832 voxels were written";
+  }
+  catch (const std::runtime_error& error)
+  {
+    EXPECT_THAT(error.what(), testing::HasSubstr("35184372088832 voxels of 0.1 m"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("a cube of 3276.8 m"));
+  }
   EXPECT_FALSE(std::filesystem::exists(folder / "m.ply"));
 }
 }  // namespace

@@ -5,15 +5,9 @@
 
 namespace scanloom
 {
-enum class VoxelShape
-{
-  Centres,  // a vertex each
-  Cubes,    // eight vertices and six faces each, 198 bytes
-};
-
 /**
- * Writes the occupied voxels as binary PLY. @return their number. Throws std::runtime_error if the file cannot be
- * written, or for more than kMostListedVoxels.
+ * Writes the centres of the occupied voxels as binary PLY. Throws std::runtime_error if the file cannot be written, or
+ * for more than kMostListedVoxels.
  */
-std::size_t writeVoxelPly(const std::filesystem::path&, const octomap::OcTree&, VoxelShape);
+void writeVoxelPly(const std::filesystem::path&, const octomap::OcTree&);
 }  // namespace scanloom
