@@ -111,12 +111,12 @@ std::filesystem::path folderOfOutput()
 }
 
 /** The section [crop] with a box around the machine, by what stays in place in the body frame while it drives. */
-std::string cropSectionOf(const RecordingFiles& files)
+std::string cropSectionOf(const RecognisedRig& recognised, const std::filesystem::path& ini_folder)
 {
   constexpr Duration kLookedAt = 120s;  // of the recording: longer than most stand before they drive
-  const RecognisedRig recognised = recogniseRig(files);
   if (!recognised.unknown_poses.empty()) return "";
-  const Rig rig = makeRig(readRigSettings(Configuration::fromText(recognised.ini, "recognised"), kRecognisedSection));
+  const auto ini = Configuration::fromText(recognised.ini, (ini_folder / "recognised").string());
+  const Rig rig = makeRig(readRigSettings(ini, kRecognisedSection));
   RigListener listener(rig, true);
   listenToCaptures(rig, kLookedAt, listener, [](double) { return !interrupted(); });
   const SelfReturns machine = examine(listener.finish(), {}).machine;
@@ -130,10 +130,11 @@ int printRigOf(const std::vector<std::filesystem::path>& recording)
   const RecordingFiles files = filesOf(recording);
   if (files.captures.empty())
     throw UsageError(fmt::format("{}: only captures need a configuration of their lidars", recording.front().string()));
-  const RecognisedRig rig = recogniseRig(files, folderOfOutput());
+  const std::filesystem::path folder = folderOfOutput();
+  const RecognisedRig rig = recogniseRig(files, folder);
   for (const std::string& note : rig.notes) warn(printable(note));
   catchInterruption();
-  std::cout << rig.ini << cropSectionOf(files);
+  std::cout << rig.ini << cropSectionOf(rig, folder);
   return kDone;
 }
 
