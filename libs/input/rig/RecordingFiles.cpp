@@ -3,12 +3,12 @@
 #include "base/core/ConfigError.h"
 #include "base/formats/FileFormat.h"
 #include "input/rig/FileKind.h"
-#include "input/rig/internal/naturalOrder.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <string_view>
 
 namespace scanloom
@@ -16,6 +16,9 @@ namespace scanloom
 namespace
 {
 using Paths = RecordingFiles::Paths;
+
+constexpr std::array kLists{&RecordingFiles::captures, &RecordingFiles::rawlogs, &RecordingFiles::clouds,
+                            &RecordingFiles::metadata, &RecordingFiles::imus,    &RecordingFiles::extrinsics};
 
 constexpr std::string_view kNoImu =
     "no table of an IMU: a heading must name a stamp, gyro x y z and accel x y z, or the columns be EuRoC's: "
@@ -91,37 +94,40 @@ RecordingFiles filesIn(const std::filesystem::path& folder)
   return files;
 }
 
-/** Moves them to those that are not used. */
-void putAside(Paths& paths, const UnusedFile& as, RecordingFiles& files)
+/** Moves the files of a list to those that are not used, each `as` this one. */
+void setAside(Paths& paths, const UnusedFile& as, RecordingFiles& files)
 {
   for (const auto& path : paths) files.unused.push_back({path, as.why, as.has_data, as.is_imu});
   paths.clear();
 }
 
-/** A rawlog holds what it was recorded with. */
-void putAsideWhatIsOfNoUse(RecordingFiles& files)
+/**
+ * Clouds beside captures or a rawlog are results of these. Only captures need metadata, poses and IMU samples: a rawlog
+ * holds its own, and clouds are taken in their own frame; what lies beside clouds may have been meant for them.
+ */
+RecordingFiles withoutUnneeded(RecordingFiles files)
 {
-  if (!files.captures.empty() || !files.rawlogs.empty())
-    putAside(files.clouds, {"", "a cloud, taken for a result beside the recording: name clouds to use them"}, files);
-  if (!files.captures.empty()) return;
-  const bool clouds = files.rawlogs.empty();
-  const std::string use = clouds ? "of no use with clouds" : "a rawlog holds its own";
-  putAside(files.metadata, {"", "metadata of a lidar: " + use, clouds}, files);
-  putAside(files.extrinsics, {"", "poses of sensors: " + use, clouds}, files);
-  putAside(files.imus, {"", "IMU samples: " + use, clouds, clouds}, files);
+  const bool clouds_alone = files.captures.empty() && files.rawlogs.empty();
+  if (!clouds_alone)
+    setAside(files.clouds, {"", "a cloud, taken for a result beside the recording: name clouds to use them"}, files);
+  if (!files.captures.empty()) return files;
+  const std::string use = clouds_alone ? "of no use with clouds" : "a rawlog holds its own";
+  setAside(files.metadata, {"", "metadata of a lidar: " + use, clouds_alone}, files);
+  setAside(files.extrinsics, {"", "poses of sensors: " + use, clouds_alone}, files);
+  setAside(files.imus, {"", "IMU samples: " + use, clouds_alone, clouds_alone}, files);
+  return files;
 }
 
-void append(Paths& to, const Paths& from) { to.insert(to.end(), from.begin(), from.end()); }
+template <typename File>
+void append(std::vector<File>& to, const std::vector<File>& from)
+{
+  to.insert(to.end(), from.begin(), from.end());
+}
 
 void append(RecordingFiles& to, const RecordingFiles& from)
 {
-  append(to.captures, from.captures);
-  append(to.rawlogs, from.rawlogs);
-  append(to.clouds, from.clouds);
-  append(to.metadata, from.metadata);
-  append(to.imus, from.imus);
-  append(to.extrinsics, from.extrinsics);
-  to.unused.insert(to.unused.end(), from.unused.begin(), from.unused.end());
+  for (const auto list : kLists) append(to.*list, from.*list);
+  append(to.unused, from.unused);
 }
 
 void addGiven(const std::filesystem::path& path, RecordingFiles& files)
@@ -165,10 +171,11 @@ std::string foldersIn(const std::filesystem::path& folder)
   return names.empty() ? "" : fmt::format("; folders within are not searched, name one: {}", names);
 }
 
+/** Numbers in names count by their value: 2.bin comes before 10.bin. */
 void sort(Paths& paths)
 {
   std::sort(paths.begin(), paths.end(),
-            [](const auto& a, const auto& b) { return inNaturalOrder(a.string(), b.string()); });
+            [](const auto& a, const auto& b) { return ::strverscmp(a.c_str(), b.c_str()) < 0; });
   paths.erase(std::unique(paths.begin(), paths.end()), paths.end());
 }
 }  // namespace
@@ -184,10 +191,9 @@ RecordingFiles filesOf(const std::vector<std::filesystem::path>& given)
                     given.empty() ? "" : given.front().string(), given.empty() ? "" : foldersIn(given.front()),
                     dataIn(files.unused)));
   if (!files.captures.empty() && !std::filesystem::is_directory(given.front())) addWhatLiesBeside(given.front(), files);
-  putAsideWhatIsOfNoUse(files);
+  files = withoutUnneeded(std::move(files));
   std::sort(files.unused.begin(), files.unused.end(), [](const auto& a, const auto& b) { return a.path < b.path; });
-  for (Paths* list : {&files.captures, &files.rawlogs, &files.clouds, &files.metadata, &files.imus, &files.extrinsics})
-    sort(*list);
+  for (const auto list : kLists) sort(files.*list);
   return files;
 }
 }  // namespace scanloom

@@ -1,7 +1,6 @@
 #include "input/rig/CloudsInput.h"
 
 #include "input/rig/RecordingFiles.h"
-#include "input/rig/internal/naturalOrder.h"
 #include "support/TemporaryFolder.h"
 
 #include <gmock/gmock.h>
@@ -99,9 +98,6 @@ TEST_F(Clouds, withNumbersWithoutZerosComeInTheOrderOfNumbers)
   for (const char* name : {"10.ply", "9.ply", "100.ply"}) write(name);
   EXPECT_THAT(filesOf({folder_.path()}).clouds,
               ElementsAre(folder_ / "9.ply", folder_ / "10.ply", folder_ / "100.ply"));
-  EXPECT_TRUE(inNaturalOrder("9.ply", "10.ply"));
-  EXPECT_TRUE(inNaturalOrder("a2b10", "a2b11"));
-  EXPECT_FALSE(inNaturalOrder("a", "a"));
 }
 
 TEST_F(Clouds, whoseNamesAreTimesInNoUnitAreRefused)
