@@ -2,7 +2,7 @@
 #include "warn.h"
 
 #include "base/core/ConfigError.h"
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "input/bags/BagReader.h"
 #include "input/rig/RecognisedRig.h"
 #include "input/rig/RigOptions.h"

@@ -4,7 +4,7 @@
 #include "base/config/Names.h"
 #include "base/core/ConfigError.h"
 #include "base/core/Interruption.h"
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "diagnosis/DoctorFindings.h"
 #include "diagnosis/Listening.h"
 #include "input/rig/RecognisedRig.h"

@@ -3,6 +3,7 @@
  * fuzz options: -max_len=512
  */
 #include "base/config/Configuration.h"
+#include "base/core/Text.h"
 
 #include <string_view>
 

@@ -1,6 +1,7 @@
 #include "base/config/Configuration.h"
 
 #include "base/config/internal/RemovedKeys.h"
+#include "base/core/Text.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "base/config/MrptMessage.h"
 
-#include "base/config/Names.h"
+#include "base/core/Text.h"
 
 #include <sstream>
 #include <string_view>

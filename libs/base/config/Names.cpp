@@ -55,14 +55,6 @@ bool contains(std::string_view name, std::string_view part)
 }
 }  // namespace
 
-std::string_view trimmed(std::string_view text)
-{
-  constexpr std::string_view kBlanks = " \t\r\n";
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
 bool CaseInsensitiveLess::operator()(std::string_view a, std::string_view b) const
 {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),

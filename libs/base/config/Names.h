@@ -6,8 +6,6 @@
 
 namespace scanloom
 {
-std::string_view trimmed(std::string_view);
-
 struct CaseInsensitiveLess
 {
   using is_transparent = void;

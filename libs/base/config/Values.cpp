@@ -1,6 +1,7 @@
 #include "base/config/Values.h"
 
 #include "base/config/Names.h"
+#include "base/core/Text.h"
 
 #include <fmt/format.h>
 

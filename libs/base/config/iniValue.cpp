@@ -2,7 +2,7 @@
 
 #include "base/config/internal/IniFile.h"
 #include "base/core/ConfigError.h"
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "base/core/csvField.h"
 
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 
 namespace scanloom
 {

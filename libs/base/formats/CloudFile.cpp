@@ -1,7 +1,7 @@
 #include "base/formats/CloudFile.h"
 
 #include "base/core/Bytes.h"
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "base/formats/CompressedFile.h"
 #include "base/formats/internal/FloatsReader.h"
 #include "base/formats/internal/PcdReader.h"
@@ -32,17 +32,7 @@ std::vector<std::uint8_t> contentOf(const std::filesystem::path& path)
   return content;
 }
 
-std::string endingOf(const std::filesystem::path& path)
-{
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
-
-bool beginsWith(std::string_view bytes, std::string_view beginning)
-{
-  return bytes.substr(0, beginning.size()) == beginning;
-}
+std::string endingOf(const std::filesystem::path& path) { return lowerCase(path.extension().string()); }
 
 /** "ply" and the end of the line, or blanks that an editor has left before it. */
 bool beginsLikePly(std::string_view bytes)

@@ -1,6 +1,7 @@
 #include "base/formats/ImuCsv.h"
 
 #include "base/core/Statistics.h"
+#include "base/core/Text.h"
 #include "base/formats/SecondsText.h"
 #include "base/formats/StampUnit.h"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -22,17 +22,9 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::string_view kBlanks = " \t\r";
 constexpr std::string_view kHeading =
     "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
     "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]";
-
-std::string_view trimmed(std::string_view text)
-{
-  const auto begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
 
 template <typename Number>
 std::optional<Number> parse(std::string_view text)
@@ -65,19 +57,12 @@ struct Columns
 
 constexpr double kPerDegree = 3.14159265358979323846 / 180, kStandardGravity = 9.80665;
 
-std::string lowered(std::string_view text)
-{
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-  return lower;
-}
-
 bool holds(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 /** A name without its unit, and the unit: "w_x [deg/s]", "gyro_x (deg/s)". */
 std::pair<std::string, std::string> nameAndUnit(std::string_view cell)
 {
-  const std::string lower = lowered(cell);
+  const std::string lower = lowerCase(cell);
   const std::size_t unit = lower.find_first_of("[(");
   std::string name(trimmed(std::string_view(lower).substr(0, unit)));
   name.erase(0, name.find_first_not_of("#%"));

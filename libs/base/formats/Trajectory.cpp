@@ -1,6 +1,6 @@
 #include "base/formats/Trajectory.h"
 
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "base/formats/SecondsText.h"
 
 #include <fmt/format.h>

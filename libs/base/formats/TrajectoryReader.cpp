@@ -1,6 +1,6 @@
 #include "base/formats/TrajectoryReader.h"
 
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "base/formats/SecondsText.h"
 #include "base/formats/StampUnit.h"
 

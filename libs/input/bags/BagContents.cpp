@@ -1,7 +1,7 @@
 #include "input/bags/BagContents.h"
 
 #include "base/core/Statistics.h"
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "input/bags/internal/CloudMessage.h"
 #include "input/bags/internal/PacketMessages.h"
 #include "input/lidar/CloudPacket.h"

@@ -1,6 +1,6 @@
 #include "input/bags/BagReader.h"
 
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "base/formats/CompressedFile.h"
 #include "base/formats/FileFormat.h"
 #include "input/bags/internal/McapBag.h"

@@ -1,5 +1,5 @@
+#include "base/core/Text.h"
 #include "base/core/jsonText.h"
-#include "base/core/printable.h"
 #include "input/bags/BagContents.h"
 
 #include <fmt/format.h>

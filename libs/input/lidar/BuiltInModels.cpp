@@ -1,11 +1,11 @@
 #include "input/lidar/BuiltInModels.h"
 
+#include "base/core/Text.h"
 #include "input/lidar/MetadataKeys.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -27,19 +27,6 @@ std::optional<int> takeRpm(std::string& name)
   name.resize(static_cast<std::size_t>(found.position()));
   return rpm;
 }
-
-bool endsWith(std::string_view text, std::string_view end)
-{
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
-
-std::string inLowerCase(std::string_view text)
-{
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
 }  // namespace
 
 std::string namesOfBuiltInModels()
@@ -51,13 +38,13 @@ std::string namesOfBuiltInModels()
 
 std::optional<std::string> builtInMetadata(const std::string& name)
 {
-  std::string wanted = inLowerCase(name);
+  std::string wanted = lowerCase(name);
   const std::optional<int> rpm = takeRpm(wanted);
   const bool dual = endsWith(wanted, kDual);
   if (dual) wanted.resize(wanted.size() - kDual.size());
   for (const BuiltInModel& model : builtInModels())
   {
-    if (inLowerCase(model.name) != wanted) continue;
+    if (lowerCase(model.name) != wanted) continue;
     if (!dual && !rpm) return std::string(model.metadata);
     nlohmann::json metadata = nlohmann::json::parse(model.metadata);
     if (dual) metadata["returns"] = 2;

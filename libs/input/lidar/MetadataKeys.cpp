@@ -1,7 +1,7 @@
 #include "input/lidar/MetadataKeys.h"
 
+#include "base/core/Text.h"
 #include "base/core/jsonText.h"
-#include "base/core/printable.h"
 
 #include <fmt/format.h>
 

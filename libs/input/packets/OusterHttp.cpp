@@ -1,6 +1,6 @@
 #include "input/packets/OusterHttp.h"
 
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "input/lidar/OusterMetadata.h"
 
 #include <fmt/format.h>

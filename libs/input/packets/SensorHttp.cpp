@@ -1,6 +1,6 @@
 #include "input/packets/SensorHttp.h"
 
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "input/packets/internal/bytesReceived.h"
 
 #include <fmt/format.h>

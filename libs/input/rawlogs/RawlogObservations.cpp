@@ -1,7 +1,7 @@
 #include "input/rawlogs/RawlogObservations.h"
 
 #include "base/config/MrptMessage.h"
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 
 #include <fmt/format.h>
 

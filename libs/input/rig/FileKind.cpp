@@ -1,5 +1,6 @@
 #include "input/rig/FileKind.h"
 
+#include "base/core/Text.h"
 #include "base/formats/CloudFile.h"
 #include "base/formats/CompressedFile.h"
 #include "base/formats/FileFormat.h"
@@ -27,11 +28,6 @@ std::string firstBytesOf(const std::filesystem::path& path)
   CompressedFile file(path);
   bytes.resize(file.readUpTo(bytes.data(), bytes.size()));
   return bytes;
-}
-
-bool beginsWith(std::string_view bytes, std::string_view beginning)
-{
-  return bytes.substr(0, beginning.size()) == beginning;
 }
 
 /** KITTI's scans have nothing but points in them: they are recognised by their ending. */

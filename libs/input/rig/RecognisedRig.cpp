@@ -3,7 +3,7 @@
 #include "base/config/iniValue.h"
 #include "base/core/ConfigError.h"
 #include "base/core/NewFile.h"
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "input/rig/Extrinsics.h"
 #include "input/rig/RigOptions.h"
 #include "input/rig/internal/BagPoses.h"

@@ -1,6 +1,7 @@
 #include "input/rig/RigOptions.h"
 
 #include "base/core/NewFile.h"
+#include "base/core/Text.h"
 #include "input/lidar/BuiltInModels.h"
 
 #include <fmt/format.h>

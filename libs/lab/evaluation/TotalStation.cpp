@@ -1,8 +1,7 @@
 #include "lab/evaluation/TotalStation.h"
 
-#include "base/config/Names.h"
 #include "base/config/Values.h"
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "base/formats/SecondsText.h"
 #include "base/formats/TrajectoryReader.h"
 #include "lab/evaluation/internal/StationColumns.h"
@@ -19,8 +18,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::string_view kBlanks = " \t\r";
-
 char separatorOf(const std::string& line)
 {
   for (const char separator : {';', '\t', ','})
@@ -48,7 +45,7 @@ class StationLines
   /** Nothing for a header, a comment or an empty line. */
   std::optional<StampedPosition> measurement(const std::string& line)
   {
-    if (line.rfind('#', 0) == 0 || line.find_first_not_of(kBlanks) == std::string::npos) return std::nullopt;
+    if (beginsWith(line, "#") || trimmed(line).empty()) return std::nullopt;
     if (!begun_ && begin(line)) return std::nullopt;
     std::vector<std::string> fields = fieldsOf(line, separator_);
     if (separator_ != ',')

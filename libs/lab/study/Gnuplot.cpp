@@ -1,7 +1,7 @@
 #include "lab/study/Gnuplot.h"
 
 #include "base/core/OutputFile.h"
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "lab/study/ContentHash.h"
 #include "lab/study/internal/Command.h"
 

@@ -1,6 +1,6 @@
 #include "mrpt/observations/Observations.h"
 
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "input/rawlogs/Conversions.h"
 #include "mrpt/observations/CGenericPointsMap.h"
 #include "mrpt/observations/RecordingHeaderJson.h"

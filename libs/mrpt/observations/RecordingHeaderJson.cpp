@@ -1,7 +1,7 @@
 #include "mrpt/observations/RecordingHeaderJson.h"
 
+#include "base/core/Text.h"
 #include "base/core/jsonText.h"
-#include "base/core/printable.h"
 #include "input/batching/Scan.h"
 
 #include <fmt/format.h>

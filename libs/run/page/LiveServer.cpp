@@ -1,6 +1,6 @@
 #include "run/page/LiveServer.h"
 
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 #include "run/page/internal/PlayerCommand.h"
 #include "run/page/internal/yieldToAll.h"
 

@@ -1,6 +1,6 @@
 #include "run/run/SlamFiles.h"
 
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>

@@ -36,10 +36,5 @@ TEST(Names, areNotAllListedIfTheyAreMany)
   EXPECT_EQ(suggestion("drop_everything", many), "the nearest of 11 known names is 'crop'");
 }
 
-TEST(Names, loseBlanksAtBothEnds)
-{
-  EXPECT_EQ(trimmed(" \t a b \r\n"), "a b");
-  EXPECT_EQ(trimmed(" \n"), "");
-}
 }  // namespace
 }  // namespace scanloom::names_unittest

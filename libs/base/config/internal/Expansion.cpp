@@ -3,6 +3,7 @@
 #include "base/config/MrptMessage.h"
 #include "base/config/Names.h"
 #include "base/config/Values.h"
+#include "base/core/Text.h"
 
 #include <fmt/format.h>
 #include <mrpt/expr/CRuntimeCompiledExpression.h>

@@ -1,8 +1,8 @@
 #include "base/config/internal/IniFile.h"
 
-#include "base/config/Names.h"
 #include "base/config/internal/Expansion.h"
 #include "base/core/ConfigError.h"
+#include "base/core/Text.h"
 
 #include <fmt/format.h>
 
@@ -23,10 +23,10 @@ struct Line
   int number;
 };
 
-bool startsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
+bool beginsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
 bool isComment(std::string_view line)
 {
-  return startsWith(line, "//") || startsWith(line, "#") || startsWith(line, ";");
+  return beginsWith(line, "//") || beginsWith(line, "#") || beginsWith(line, ";");
 }
 bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
@@ -34,7 +34,7 @@ bool isBlank(char c) { return c == ' ' || c == '\t'; }
 std::vector<Line> logicalLines(std::string_view text)
 {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (startsWith(text, kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  if (beginsWith(text, kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
 
   std::vector<Line> lines;
   bool continues = false;
@@ -43,7 +43,7 @@ std::vector<Line> logicalLines(std::string_view text)
     const auto end = std::min(text.find_first_of("\r\n"), text.size());
     std::string_view line = text.substr(0, end);
     text.remove_prefix(end);
-    text.remove_prefix(startsWith(text, "\r\n") ? 2 : !text.empty());
+    text.remove_prefix(beginsWith(text, "\r\n") ? 2 : !text.empty());
 
     if (!continues) lines.push_back({"", number});
     continues = !line.empty() && line.back() == '\\' && !text.empty();
@@ -86,9 +86,9 @@ class IniParser
     if (text.empty() || isComment(text)) return;
     try
     {
-      if (startsWith(text, kDefine))
+      if (beginsWith(text, kDefine))
         expansion_.define(withoutAnyComment(text.substr(kDefine.size())));
-      else if (startsWith(text, "["))
+      else if (beginsWith(text, "["))
         section_ = sectionName(text);
       else
         addEntry(text, {file_, line.number});
@@ -125,7 +125,7 @@ class IniParser
     if (!section_) throw std::invalid_argument(fmt::format("{} stands before any [section]", key));
 
     const std::string_view value = text.substr(equals + 1);
-    const bool from_environment = startsWith(trimmed(value), "$env{");
+    const bool from_environment = beginsWith(trimmed(value), "$env{");
     entries_.push_back({*section_, key, valueOf(key, value), place,
                         from_environment ? "" : std::filesystem::path(file_).parent_path()});
   }

@@ -1,5 +1,7 @@
 #include "input/rig/internal/BagPoses.h"
 
+#include "base/core/Text.h"
+
 #include <algorithm>
 
 namespace scanloom
@@ -13,11 +15,6 @@ const TopicContents* topicNamed(const std::string& name, const BagContents& bags
   const auto found = std::find_if(bags.topics.begin(), bags.topics.end(),
                                   [&](const TopicContents& topic) { return topic.name == name; });
   return found == bags.topics.end() ? nullptr : &*found;
-}
-
-bool endsWith(const std::string& text, const std::string& end)
-{
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 /** Packets of Ouster's driver name no frame: it is os_sensor, with the lidar's name before it where there are several.

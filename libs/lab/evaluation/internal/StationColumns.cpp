@@ -1,6 +1,7 @@
 #include "lab/evaluation/internal/StationColumns.h"
 
 #include "base/config/Names.h"
+#include "base/core/Text.h"
 #include "base/formats/SecondsText.h"
 
 #include <fmt/format.h>
@@ -20,18 +21,12 @@ struct Column
   std::string name, unit;
 };
 
-std::string lower(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 /** `X [mm]`, `x(mm)`, `x_mm` and `x mm` are all x in mm. */
 Column columnOf(const std::string& title)
 {
   static const std::regex pattern(R"(^\W*([a-z]+)[\s_]*[\[(]?\s*([a-z]*)\s*[\])]?\W*$)");
   std::smatch parts;
-  const std::string text = lower(title);
+  const std::string text = lowerCase(title);
   if (!std::regex_match(text, parts, pattern)) return {text, ""};
   return {parts[1], parts[2]};
 }

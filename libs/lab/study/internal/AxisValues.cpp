@@ -1,5 +1,7 @@
 #include "lab/study/internal/AxisValues.h"
 
+#include "base/core/Text.h"
+
 #include <algorithm>
 #include <charconv>
 #include <iterator>

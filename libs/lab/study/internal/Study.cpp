@@ -1,9 +1,8 @@
 #include "lab/study/internal/Study.h"
 
-#include "base/config/Names.h"
 #include "base/core/OutputFile.h"
+#include "base/core/Text.h"
 #include "base/core/jsonText.h"
-#include "base/core/printable.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 #include "run/page/internal/HttpRequest.h"
 
+#include "base/core/Text.h"
 #include "input/packets/SensorAddress.h"
 
 #include <fmt/format.h>
@@ -20,24 +21,9 @@ std::string_view cut(std::string_view& text, std::string_view end)
   return first;
 }
 
-std::string_view trimmedOfBlanks(std::string_view text)
-{
-  const std::size_t first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
-
 bool isPrintable(std::string_view text)
 {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; });
-}
-
-std::string lowerCase(std::string_view text)
-{
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
 }
 
 std::uint64_t numberIn(const std::string& text)
@@ -67,7 +53,7 @@ void readHeader(std::string_view line, HttpRequest& request)
   if (colon == 0 || colon == std::string_view::npos) throw BadRequest(kHttpBadRequest, "a header without a name");
   const std::string name = lowerCase(line.substr(0, colon));
   // Two lengths or hosts: which one counts is what attacks on proxies live on.
-  if (!request.headers.emplace(name, trimmedOfBlanks(line.substr(colon + 1))).second)
+  if (!request.headers.emplace(name, trimmed(line.substr(colon + 1))).second)
     throw BadRequest(kHttpBadRequest, "a header is there twice");
   if (request.headers.size() > HttpRequest::kMostHeaders) throw BadRequest(kHttpHeadTooLarge, "too many headers");
 }

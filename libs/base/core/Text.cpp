@@ -1,9 +1,9 @@
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 
-#include <cstdlib>
-
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
-#include <string_view>
+#include <cstdlib>
 
 namespace scanloom
 {
@@ -40,6 +40,22 @@ bool controlsTheTerminal(char32_t code)
   return is_control || turns_direction;
 }
 }  // namespace
+
+std::string_view trimmed(std::string_view text)
+{
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+std::string lowerCase(std::string_view text)
+{
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
 
 std::string printable(const std::string& text)
 {

@@ -1,8 +1,8 @@
-#include "base/core/printable.h"
+#include "base/core/Text.h"
 
 #include <gtest/gtest.h>
 
-namespace scanloom::printable_unittest
+namespace scanloom::text_unittest
 {
 TEST(Printable, leavesTextOfEveryLanguageAsItIs)
 {
@@ -38,4 +38,10 @@ TEST(Printable, textForATableIsNoFormula)
   for (const char* text : {"=HYPERLINK(\"http://evil\")", "@SUM(1)", "+cmd|' /C calc'!A0", "-2+3"})
     EXPECT_EQ(notAFormula(text), std::string("'") + text);
 }
-}  // namespace scanloom::printable_unittest
+
+TEST(Text, isTrimmedOfBlanksAtBothEnds)
+{
+  EXPECT_EQ(trimmed(" \t a b \r\n"), "a b");
+  EXPECT_EQ(trimmed(" \n"), "");
+}
+}  // namespace scanloom::text_unittest
