@@ -24,7 +24,6 @@
 #include <limits>
 #include <list>
 #include <memory>
-#include <optional>
 
 namespace scanloom
 {
@@ -36,7 +35,7 @@ struct MapArguments
 {
   Path input, trajectory;
   std::vector<Path> outputs;
-  bool overwrite = false, dry_run = false, quiet = false;
+  bool overwrite = false;
   std::string preset = "inventory";
   double keyframe_distance = 4;  // m
 };
@@ -107,20 +106,18 @@ int mapKeyframes(const MapArguments& arguments)
 {
   const SimpleMapReader reader(arguments.input);
   announce(arguments, driveSizeOf(reader));
-  if (arguments.dry_run) return kDone;
 
   std::list<OutputFile> staged(arguments.outputs.begin(), arguments.outputs.end());
   const Eigen::Vector3d offset =
       reader.size() == 0 ? Eigen::Vector3d::Zero() : announcedOffset(reader.keyframe(0).map_T_body);
   MapFiles maps(temporariesOf(staged), reader.lidars(), octoMapPreset(arguments.preset), offset);
-  std::optional<Progress> progress;
-  if (!arguments.quiet) progress.emplace("map", reader.size(), "keyframes");
+  Progress progress("map", reader.size(), "keyframes");
   std::size_t done = 0;
   for (; done < reader.size() && !interrupted(); ++done)
   {
     const Keyframe keyframe = reader.keyframe(done);
     maps.add(keyframe);
-    if (progress) progress->update(done + 1);
+    progress.update(done + 1);
   }
   maps.close();
   return finish(staged, maps, done);
@@ -133,10 +130,8 @@ int mapRawlog(const MapArguments& arguments)
   const KeyframeOptions options{readTrajectory(arguments.trajectory, &warn), arguments.keyframe_distance};
   const RecordingHeader header = required(headerOf(arguments.input));
   announce(arguments, driveSizeOf(options.trajectory, options.distance, header));
-  if (arguments.dry_run) return kDone;
 
-  std::optional<Progress> progress;
-  if (!arguments.quiet) progress.emplace("map", megabytesOf({arguments.input}), "MB");
+  Progress progress("map", megabytesOf({arguments.input}), "MB");
   std::size_t keyframes = 0;
   std::list<OutputFile> staged(arguments.outputs.begin(), arguments.outputs.end());
   const Eigen::Vector3d offset =
@@ -147,7 +142,7 @@ int mapRawlog(const MapArguments& arguments)
   const RawlogEdited read = readRawlog(arguments.input, operation,
                                        [&](std::uint64_t bytes)
                                        {
-                                         if (progress) progress->update(bytes / 1000000);
+                                         progress.update(bytes / 1000000);
                                          return !interrupted();
                                        });
   const int status = finish(staged, *maps, keyframes);
@@ -160,7 +155,6 @@ int mapOctoMap(const MapArguments& arguments)
 {
   requireConvertible(arguments.input, arguments.outputs);
   const auto tree = readOctoMap(arguments.input);
-  if (arguments.dry_run) return kDone;
   convertOctoMap(*tree, arguments.outputs);
   for (const Path& output : arguments.outputs) fmt::print("{}\n", output.string());
   return kDone;
@@ -177,7 +171,6 @@ int convertTrajectory(const MapArguments& arguments)
   }
   const Trajectory trajectory = readTrajectory(arguments.input, &warn);
   if (trajectory.empty()) throw std::runtime_error(arguments.input.string() + ": holds no pose");
-  if (arguments.dry_run) return kDone;
   for (const Path& output : arguments.outputs)
   {
     writeTrajectory(output, trajectory);
@@ -231,8 +224,6 @@ std::function<int()> addMapOptions(CLI::App& app)
       .oneOf({"preview", "inventory", "fine"})
       .showDefault()
       .typeName("NAME");
-  addFlag(app, "--dry-run", arguments->dry_run, "check the input and estimate time and memory, but write nothing");
-  addFlag(app, "-q,--quiet", arguments->quiet, "show no progress");
   return [arguments] { return run(*arguments); };
 }
 }  // namespace

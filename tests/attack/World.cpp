@@ -196,10 +196,10 @@ void makeWorld(const fs::path& scanloom, const fs::path& folder)
   maker.copy("kitti/lidar/velodyne/000000.bin", "a.bin");
   for (const char* cloud : {"a.ply", "a.pcd", "a.bin"}) maker.pack(cloud);
   maker.run(
-      "map -q -i short.rawlog --trajectory drive/groundtruth.tum --preset preview -o map.bt -o map.ot "
+      "map -i short.rawlog --trajectory drive/groundtruth.tum --preset preview -o map.bt -o map.ot "
       "-o map.simplemap");
   maker.copy("drive/groundtruth.tum", "true.tum");
-  maker.run("map -q -i true.tum -o true.csv");
+  maker.run("map -i true.tum -o true.csv");
   maker.run("config --default slam");
 }
 
@@ -294,7 +294,7 @@ const std::vector<Target>& targets()
       {"short.rawlog", C::Packed, "edit -q -i {} --export ply=out/ply"},
       {"short.rawlog", C::Packed, "edit -q -i {} --export pcd=out/pcd"},
       {"short.rawlog", C::Packed, "edit -q -i {} --export csv=out/csv"},
-      {"short.rawlog", C::Packed, "map -q -i {} --trajectory true.tum --preset preview -o out/a.bt -o out/a.simplemap"},
+      {"short.rawlog", C::Packed, "map -i {} --trajectory true.tum --preset preview -o out/a.bt -o out/a.simplemap"},
       {"xyzi.rawlog", C::Packed, "view {} --png out/a.png"},
       {"a.ply", C::Binary, "register {} a.pcd"},
       {"a.pcd", C::Binary, "register a.ply {}"},
@@ -307,15 +307,15 @@ const std::vector<Target>& targets()
       {"true.csv", C::Text, "evaluate --trajectory {} --reference drive/groundtruth.tum --json"},
       {"drive/total_station.csv", C::Text, "evaluate --trajectory true.tum --reference {}"},
       {"true.tum", C::Text, "edit -q -i short.rawlog -o out/a.rawlog --deskew {}"},
-      {"true.tum", C::Text, "map -q -i short.rawlog --trajectory {} --preset preview -o out/a.bt"},
-      {"true.tum", C::Text, "map -q -i {} -o out/a.csv"},
+      {"true.tum", C::Text, "map -i short.rawlog --trajectory {} --preset preview -o out/a.bt"},
+      {"true.tum", C::Text, "map -i {} -o out/a.csv"},
       {"short.rawlog", C::Packed, "edit -q -i {} --to-mcap out/a.mcap"},
       {"drive.pcap", C::Binary, "config --for {}"},
       {"drive.pcap", C::Binary, "calibrate -c rig.ini --set lidars.pcap_input={} --out-dir out/calibration"},
-      {"map.bt", C::Binary, "map -q -i {} -o out/a.ply"},
-      {"map.ot", C::Binary, "map -q -i {} -o out/a.bt -o out/a.ply"},
+      {"map.bt", C::Binary, "map -i {} -o out/a.ply"},
+      {"map.ot", C::Binary, "map -i {} -o out/a.bt -o out/a.ply"},
       {"map.ot", C::Binary, "view {} --png out/a.png"},
-      {"map.simplemap", C::Packed, "map -q -i {} --preset preview -o out/a.bt -o out/a.ply"},
+      {"map.simplemap", C::Packed, "map -i {} --preset preview -o out/a.bt -o out/a.ply"},
       {"map.simplemap", C::Packed, "view {} --png out/a.png"},
   };
   static const std::vector<Target> kTargets = [&]
