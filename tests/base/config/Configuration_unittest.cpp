@@ -1,6 +1,7 @@
 #include "base/config/Configuration.h"
 
 #include "support/TemporaryFolder.h"
+#include "support/with.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -100,11 +101,8 @@ struct ConfigurationFiles : testing::Test
 
 TEST(Configuration, overwritesTheDefaultsWithWhatIsThere)
 {
-  NdtOptions defaults;
-  defaults.overlap = 0.5;
-
   const auto options = from("[NDT]\nCell_Size = 2.5 // m\nneighbours = $eval{3*3}\nfine = No\nmethod = p2d\n")
-                           .read<NdtOptions>("ndt", defaults);
+                           .read<NdtOptions>("ndt", with(&NdtOptions::overlap, 0.5));
 
   EXPECT_EQ(options.cell_size, 2.5);
   EXPECT_EQ(options.overlap, 0.5);

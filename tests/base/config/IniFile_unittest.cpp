@@ -8,7 +8,6 @@
 #include <mrpt/config/CConfigFile.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <map>
 
@@ -59,9 +58,7 @@ Values mrpts(const std::string& text)
   return values;
 }
 
-class Dialect : public testing::TestWithParam<const char*>
-{
-};
+using Dialect = testing::TestWithParam<const char*>;
 
 TEST_P(Dialect, givesTheValuesOfMrpt)
 {

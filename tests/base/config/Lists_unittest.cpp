@@ -1,5 +1,6 @@
 /** Options structs of which a section holds any number: lidar1_, lidar2_, ... */
 #include "base/config/Configuration.h"
+#include "support/messageOf.h"
 
 #include <gmock/gmock.h>
 
@@ -40,15 +41,7 @@ std::vector<SeatOptions> seatsFrom(const std::string& text)
 
 std::string problemOf(const std::string& text)
 {
-  try
-  {
-    seatsFrom(text);
-    return "";
-  }
-  catch (const ConfigError& error)
-  {
-    return error.what();
-  }
+  return messageOf<ConfigError>([&] { seatsFrom(text); });
 }
 }  // namespace
 

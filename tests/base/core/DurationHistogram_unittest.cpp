@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <initializer_list>
-
 namespace scanloom::duration_histogram_unittest
 {
 namespace

@@ -3,6 +3,7 @@
 #include "base/core/ConfigError.h"
 #include "support/FullDisk.h"
 #include "support/TemporaryFolder.h"
+#include "support/messageOf.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -72,18 +73,8 @@ TEST_F(OutputFileTest, replacesTheOldFile)
 
 TEST_F(OutputFileTest, saysWhyItCannotBeWritten)
 {
-  const auto reason = [](const std::filesystem::path& file) -> std::string
-  {
-    try
-    {
-      OutputFile{file};
-    }
-    catch (const std::runtime_error& e)
-    {
-      return e.what();
-    }
-    return "";
-  };
+  const auto reason = [](const std::filesystem::path& file)
+  { return messageOf<std::runtime_error>([&] { OutputFile{file}; }); };
   EXPECT_EQ(reason(folder / "none" / "a.tum"),
             (folder / "none" / "a.tum").string() + ": cannot be written: No such file or directory");
   EXPECT_EQ(reason(folder), folder.string() + ": cannot be written: Is a directory");
@@ -144,15 +135,8 @@ TEST_F(OutputFileTest, refusesToReplaceFilesUnlessAsked)
   std::ofstream(outputs[0]) << "a";
   std::ofstream(outputs[2]) << "c";
 
-  try
-  {
-    refuseExisting(outputs, false);
-    FAIL() << "must refuse";
-  }
-  catch (const UsageError& e)
-  {
-    EXPECT_EQ(e.what(), outputs[0].string() + ", " + outputs[2].string() + " exist already: give -w to overwrite");
-  }
+  EXPECT_EQ(messageOf<UsageError>([&] { refuseExisting(outputs, false); }),
+            outputs[0].string() + ", " + outputs[2].string() + " exist already: give -w to overwrite");
   EXPECT_NO_THROW(refuseExisting(outputs, true));
 }
 

@@ -2,6 +2,7 @@
 #include "base/formats/CompressedFile.h"
 
 #include "support/TemporaryFolder.h"
+#include "support/messageOf.h"
 #include "support/runProgram.h"
 
 #include <fmt/format.h>
@@ -37,15 +38,7 @@ std::string everythingIn(const std::filesystem::path& path)
 
 std::string messageOfReading(const std::filesystem::path& path)
 {
-  try
-  {
-    uncompressedBytes(path);
-  }
-  catch (const std::runtime_error& e)
-  {
-    return e.what();
-  }
-  return "no error";
+  return messageOf<std::runtime_error>([&] { uncompressedBytes(path); });
 }
 }  // namespace
 

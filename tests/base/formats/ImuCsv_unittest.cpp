@@ -2,6 +2,7 @@
 
 #include "input/packets/HandmadeCapture.h"
 #include "support/TestData.h"
+#include "support/messageOf.h"
 
 #include <gmock/gmock.h>
 
@@ -22,15 +23,7 @@ struct Table : HandmadeCapture
 std::string errorOf(const std::string& text)
 {
   const Table csv(text);
-  try
-  {
-    readImuCsv(csv.path);
-  }
-  catch (const std::runtime_error& error)
-  {
-    return error.what();
-  }
-  return "no error";
+  return messageOf<std::runtime_error>([&] { readImuCsv(csv.path); });
 }
 
 TEST(ImuCsv, readsSamplesBehindAnyHeading)

@@ -1,10 +1,9 @@
 #include "base/formats/TrajectoryReader.h"
 
 #include "support/TemporaryFolder.h"
+#include "support/messageOf.h"
 
 #include <gmock/gmock.h>
-
-#include <functional>
 
 namespace scanloom::trajectory_reader_unittest
 {
@@ -78,27 +77,18 @@ TEST_F(ForeignTrajectories, ofOursAreReadBack)
   }
 }
 
-std::string messageOf(const std::function<void()>& run)
-try
-{
-  run();
-  return "no exception";
-}
-catch (const std::invalid_argument& error)
-{
-  return error.what();
-}
-
 TEST_F(ForeignTrajectories, nameFileAndLineOfWhatIsWrong)
 {
   const auto euroc = write("bad.csv", "1403636579763555584,1,2,3,1,0,0,0\n1403636579763555583,1,2,3,1,0,0,0\n");
-  EXPECT_THAT(messageOf([&] { readTrajectory(euroc); }), testing::HasSubstr("bad.csv:2: stamp"));
+  EXPECT_THAT(messageOf<std::invalid_argument>([&] { readTrajectory(euroc); }), testing::HasSubstr("bad.csv:2: stamp"));
   const auto kitti = write("01.txt", "1 0 0 4 0 1 0 5 0 0 1 6\n1 0 0 4 0 1 0 5 0 0 1 x\n");
-  EXPECT_THAT(messageOf([&] { readTrajectory(kitti); }), testing::HasSubstr("have no stamps"));
+  EXPECT_THAT(messageOf<std::invalid_argument>([&] { readTrajectory(kitti); }), testing::HasSubstr("have no stamps"));
   write("01_times.txt", "0\n1\n");
-  EXPECT_THAT(messageOf([&] { readTrajectory(kitti); }), testing::HasSubstr("01.txt:2: expected twelve numbers"));
+  EXPECT_THAT(messageOf<std::invalid_argument>([&] { readTrajectory(kitti); }),
+              testing::HasSubstr("01.txt:2: expected twelve numbers"));
   write("01.txt", "1 0 0 4 0 1 0 5 0 0 1 6\n");
-  EXPECT_THAT(messageOf([&] { readTrajectory(kitti); }), testing::HasSubstr("1 poses, but 2 stamps"));
+  EXPECT_THAT(messageOf<std::invalid_argument>([&] { readTrajectory(kitti); }),
+              testing::HasSubstr("1 poses, but 2 stamps"));
 }
 
 TEST_F(ForeignTrajectories, withAStampTwiceKeepTheFirstPoseAndSaySo)
