@@ -86,6 +86,14 @@ inline void inOrderOfArrival(Arrivals& arrivals)
                    [](const Arrival& l, const Arrival& r) { return l.received < r.received; });
 }
 
+/** Each packet `delay` after its last block. */
+inline void addPackets(Arrivals& arrivals, LidarIndex lidar, const std::vector<std::vector<std::uint8_t>>& packets,
+                       Duration delay = kDelay)
+{
+  for (const auto& packet : packets)
+    arrivals.push_back({lidar, packet, lastStampOf(packet) + delay, lastStampOf(packet)});
+}
+
 /** Each lidar in a phase of its own; packets take kDelay and up to 0.4 ms more. */
 inline Arrivals drive(const Rig& rig, Duration length, Timestamp begin = kBegin, std::uint32_t first_frame = 7)
 {
@@ -135,6 +143,20 @@ inline TimeBatcher batcherOf(const Rig& rig, const BatcherOptions& options)
   for (const auto& lidar : rig)
     lidars.push_back({"lidar" + std::to_string(lidars.size() + 1), std::make_shared<FakeLidar>(lidar)});
   return {lidars, options};
+}
+
+inline BatcherOptions withOtherClock(const std::string& treatment)
+{
+  BatcherOptions options;
+  options.other_clock = treatment;
+  return options;
+}
+
+/** The name of a test whose parameter is a duration: plus37000ms, minus5ms. */
+inline std::string nameOfDuration(const testing::TestParamInfo<Duration>& tested)
+{
+  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(tested.param).count();
+  return (ms < 0 ? "minus" : "plus") + std::to_string(std::abs(ms)) + "ms";
 }
 
 /** What must hold whatever happens: I1, I2, I3, I4 and I5 of the fault table. */

@@ -98,9 +98,7 @@ TEST(F9, frameIdsWrapWithoutLossAt16And32Bits)
   }
 }
 
-class F10Restart : public testing::TestWithParam<Restart>
-{
-};
+using F10Restart = testing::TestWithParam<Restart>;
 
 TEST_P(F10Restart, isBackWithinTwoPeriodsOfItsFirstPacket)
 {
@@ -125,14 +123,9 @@ TEST_P(F10Restart, isBackWithinTwoPeriodsOfItsFirstPacket)
   measured("scans_without_it_after_its_first_packet", back_after);
   for (std::size_t k = 0; k + 1 < outcome.scans.size(); ++k)
   {
-    if (outcome.scans[k].start >= on + kPeriod)
-    {
-      EXPECT_TRUE(outcome.scans[k].complete());
-    }
-    if (outcome.scans[k].start >= on + kPeriod)
-    {
-      EXPECT_NEAR(outcome.scans[k].columns_of[1], 1024, 12);
-    }
+    if (outcome.scans[k].start < on + kPeriod) continue;
+    EXPECT_TRUE(outcome.scans[k].complete());
+    EXPECT_NEAR(outcome.scans[k].columns_of[1], 1024, 12);
   }
 }
 INSTANTIATE_TEST_SUITE_P(All, F10Restart,
@@ -154,11 +147,7 @@ TEST(F11, aChangeOfModeIsSeenAtTheFirstPacketAndCostsTheOthersNothing)
   const Timestamp from = kBegin + 1s, known = from + 500ms;
   Arrivals arrivals = clean;
   removeIf(arrivals, [&](const Arrival& a) { return a.lidar == 0 && a.sent >= from; });
-  for (auto& packet : FakeLidar(other_mode).drive(from + 300ms, 2s, 0))
-  {
-    const Timestamp sent = lastStampOf(packet);
-    arrivals.push_back({0, std::move(packet), sent + kDelay, sent});
-  }
+  addPackets(arrivals, 0, FakeLidar(other_mode).drive(from + 300ms, 2s, 0));
   inOrderOfArrival(arrivals);
 
   TimeBatcher batcher = batcherOf(rig, {});
@@ -191,8 +180,7 @@ TEST(F11, aChangeOfModeIsSeenAtTheFirstPacketAndCostsTheOthersNothing)
 TEST(F11, aLidarMayBecomeKnownAfterTheStart)
 {
   const Rig rig = referenceRig();
-  std::vector<BatchedLidar> lidars;
-  for (const FakeLidarOptions& lidar : rig) lidars.push_back({"lidar", std::make_shared<FakeLidar>(lidar)});
+  std::vector<BatchedLidar> lidars = batcherOf(rig, {}).lidars();
   lidars[3].decoder.reset();
   TimeBatcher batcher(lidars, {});
   std::vector<Scan> scans;

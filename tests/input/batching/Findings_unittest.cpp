@@ -6,6 +6,7 @@
 #include "FaultRig.h"
 #include "input/batching/internal/PacketConsensus.h"
 #include "support/pushPacket.h"
+#include "support/with.h"
 
 namespace scanloom::findings_unittest
 {
@@ -34,13 +35,6 @@ struct Session
   TimeBatcher batcher;
   std::vector<Scan> scans;
 };
-
-BatcherOptions quarantine()
-{
-  BatcherOptions options;
-  options.other_clock = "quarantine";
-  return options;
-}
 }  // namespace
 
 TEST(Findings, whatWaitsOfALidarReplacedBeforeTheStartIsCounted)
@@ -58,7 +52,7 @@ TEST(Findings, whatWaitsOfALidarReplacedBeforeTheStartIsCounted)
 TEST(Findings, aLidarOfAnotherClockReplacedBeforeTheStartDoesNotCarryTheOthersAway)
 {
   const Rig rig{ouster(10), ouster(10)};
-  Session session(rig, quarantine());
+  Session session(rig, withOtherClock("quarantine"));
   Arrivals arrivals = drive(rig, 40ms);
   for (Arrival& a : arrivals)
   {
@@ -87,7 +81,7 @@ TEST(Findings, noBlockComesTwiceAcrossAReplacement)
 TEST(Findings, whereEveryLidarIsQuarantinedScansStopInsteadOfRunningOn)
 {
   const Rig rig{ouster(10), ouster(10)};
-  Session session(rig, quarantine());
+  Session session(rig, withOtherClock("quarantine"));
   Arrivals arrivals = drive(rig, 3s);
   for (Arrival& a : arrivals)  // each one's clock steps against what the other one had
   {
@@ -102,7 +96,7 @@ TEST(Findings, whereEveryLidarIsQuarantinedScansStopInsteadOfRunningOn)
 TEST(Findings, aQuarantinedLidarThatStartsAgainWhenNobodyElseIsHeardDoesNotLeadTheTime)
 {
   const Rig rig{ouster(10), ouster(10)};
-  Session session(rig, quarantine());
+  Session session(rig, withOtherClock("quarantine"));
   for (Arrival& a : drive(rig, 8s))
   {
     if (a.lidar == 1 && a.sent > kBegin + 2s) continue;
@@ -119,7 +113,7 @@ TEST(Findings, aQuarantinedLidarThatStartsAgainWhenNobodyElseIsHeardDoesNotLeadT
 TEST(Findings, aLidarThatIsFirstHeardWhenAllOthersAreLeftOutDoesNotBeginAnotherTime)
 {
   const Rig rig{ouster(10), ouster(10)};
-  Session session(rig, quarantine());
+  Session session(rig, withOtherClock("quarantine"));
   for (Arrival& a : drive(rig, 4s))
   {
     if (a.lidar == 1 && a.sent < kBegin + 3s) continue;
@@ -135,9 +129,7 @@ TEST(Findings, aLidarThatIsFirstHeardWhenAllOthersAreLeftOutDoesNotBeginAnotherT
 TEST(Findings, aSliceHoldsNoBlockOfAnEarlierOne)
 {
   const Rig rig{ouster(10), ouster(10)};
-  BatcherOptions options;
-  options.slices = 4;
-  Session session(rig, options);
+  Session session(rig, with(&BatcherOptions::slices, 4));
   session.batcher.onSlice(
       [](const ScanSlice& slice)
       {

@@ -2,6 +2,7 @@
 
 #include "FaultRig.h"
 #include "support/pushPacket.h"
+#include "support/with.h"
 
 namespace scanloom::slices_unittest
 {
@@ -53,9 +54,7 @@ TEST(Slices, areSubRangesOfTheScanAndTheLastOneIsTheScanToTheBit)
   const Rig rig = referenceRig();
   for (const int count : {1, 2, 7, 20})
   {
-    BatcherOptions options;
-    options.slices = count;
-    const Sliced sliced = slicesOf(rig, drive(rig, 1s), options);
+    const Sliced sliced = slicesOf(rig, drive(rig, 1s), with(&BatcherOptions::slices, count));
     ASSERT_EQ(sliced.slices.size(), sliced.scans.size() * static_cast<std::size_t>(count));
     for (std::size_t k = 0; k < sliced.scans.size(); ++k)
     {
@@ -78,17 +77,14 @@ TEST(Slices, areSubRangesOfTheScanAndTheLastOneIsTheScanToTheBit)
 TEST(Slices, doNotChangeTheScans)
 {
   const Rig rig = referenceRig();
-  BatcherOptions options;
-  options.slices = 8;
-  EXPECT_EQ(digestOf(slicesOf(rig, drive(rig, 1s), options).scans), digestOf(batch(rig, drive(rig, 1s)).scans));
+  EXPECT_EQ(digestOf(slicesOf(rig, drive(rig, 1s), with(&BatcherOptions::slices, 8)).scans),
+            digestOf(batch(rig, drive(rig, 1s)).scans));
 }
 
 TEST(Slices, asScansOfTheirOwnJoinToTheWhole)
 {
   const Rig rig = referenceRig();
-  BatcherOptions options;
-  options.slices = 4;
-  TimeBatcher batcher = batcherOf(rig, options);
+  TimeBatcher batcher = batcherOf(rig, with(&BatcherOptions::slices, 4));
   std::vector<Scan> parts, scans;
   batcher.onSlice([&parts](const ScanSlice& slice) { parts.push_back(copyOf(slice)); });
   for (const Arrival& a : drive(rig, 1s))
@@ -117,9 +113,7 @@ TEST(ScanRate, mayBeAnythingFromOneTo200HzAndTheScansAreCutFromTheSameColumns)
   const Arrivals arrivals = drive(rig, 3s);
   for (const double rate : {1.0, 3.0, 7.5, 10.0, 29.97, 50.0, 100.0, 200.0})
   {
-    BatcherOptions options;
-    options.scan_rate = rate;
-    const Outcome outcome = batch(rig, arrivals, options);
+    const Outcome outcome = batch(rig, arrivals, with(&BatcherOptions::scan_rate, rate));
     for (std::size_t k = 0; k + 1 < outcome.scans.size(); ++k)
     {
       EXPECT_NEAR(seconds(outcome.scans[k].period), 1 / rate, 1e-9);
