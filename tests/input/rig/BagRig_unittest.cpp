@@ -4,10 +4,11 @@
 #include "input/packets/CaptureWriter.h"
 #include "input/rig/RecognisedRig.h"
 #include "input/rig/Rig.h"
-#include "input/rig/internal/RigReplay.h"
+#include "liveRig.h"
 #include "support/HandmadeMessages.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/messageOf.h"
 
 namespace scanloom::bag_rig_unittest
 {
@@ -55,10 +56,7 @@ Rig rigOf(const RecognisedRig& recognised)
 std::vector<Scan> scansOf(const Rig& rig)
 {
   RigReplay replay(rig);
-  std::vector<Scan> scans;
-  while (const auto event = replay.next())
-    if (const auto* scan = std::get_if<Scan>(&*event)) scans.push_back(*scan);
-  return scans;
+  return scansIn(eventsOf(replay));
 }
 }  // namespace
 
@@ -96,13 +94,12 @@ TEST(BagRig, weavesTheCloudsOfTwoDriversByTheStampsOfTheirPoints)
   writeFile(folder / "drive.bag", ros1Of(driveOfTwoLidars()));
   RigReplay replay(rigOf(recogniseRig(filesOf({folder.path()}))));
   int whole_scans = 0;
-  while (const auto event = replay.next())
+  for (const Scan& scan : scansIn(eventsOf(replay)))
   {
-    const auto* scan = std::get_if<Scan>(&*event);
-    if (!scan || scan->columns_of[0] + scan->columns_of[1] < 2 * kColumns) continue;
+    if (scan.columns_of[0] + scan.columns_of[1] < 2 * kColumns) continue;
     ++whole_scans;
-    EXPECT_EQ(scan->points.size(), 4 * kColumns);
-    EXPECT_TRUE(std::is_sorted(scan->points.t.begin(), scan->points.t.end()));
+    EXPECT_EQ(scan.points.size(), 4 * kColumns);
+    EXPECT_TRUE(std::is_sorted(scan.points.t.begin(), scan.points.t.end()));
   }
   EXPECT_GE(whole_scans, 17);  // of 20 turns: the first and last scans are of one lidar, or cut
   for (const LidarAccount& lidar : replay.account().lidars)
@@ -172,8 +169,7 @@ TEST(BagRig, ofRecordedPacketsIsRecognisedByThem)
   EXPECT_THAT(recognised.ini, HasSubstr("lidar1_topic     = /sensing/lidar/front/velodyne_packets"));
   RigReplay replay(rigOf(recognised));
   std::size_t points = 0;
-  while (const auto event = replay.next())
-    if (const auto* scan = std::get_if<Scan>(&*event)) points += scan->points.size();
+  for (const Scan& scan : scansIn(eventsOf(replay))) points += scan.points.size();
   EXPECT_GT(points, 80'000u);  // the reference has 26216 points a turn
   EXPECT_EQ(replay.account().lidars.at(0).counters.packets, 379u);
 }
@@ -241,23 +237,20 @@ TEST(BagRig, thatNamesAnUnknownTopicIsToldThoseThereAre)
   writeFile(folder / "drive.bag", ros1Of(driveOfTwoLidars()));
   const auto problemOf = [&](const std::string& keys)
   {
-    try
-    {
-      const std::string ini = "[lidars]\ndriver = CMultiLidarSensor\npcap_input = " + (folder / "drive.bag").string() +
-                              "\nlidar1_pose = [0 0 0 0 0 0]\nimu_pose = [0 0 0 0 0 0]\n" + keys;
-      makeRig(readRigSettings(Configuration::fromText(ini, "ini"), "lidars"));
-      return std::string("none");
-    }
-    catch (const ConfigError& problem)
-    {
-      return std::string(problem.what());
-    }
+    return messageOf<ConfigError>(
+        [&]
+        {
+          const std::string ini =
+              "[lidars]\ndriver = CMultiLidarSensor\npcap_input = " + (folder / "drive.bag").string() +
+              "\nlidar1_pose = [0 0 0 0 0 0]\nimu_pose = [0 0 0 0 0 0]\n" + keys;
+          makeRig(readRigSettings(Configuration::fromText(ini, "ini"), "lidars"));
+        });
   };
   const std::string metadata = "lidar1_metadata = topic:/left/points\n";
   EXPECT_THAT(problemOf(metadata + "lidar1_topic = /front\n"), HasSubstr("/left/points, /right/points"));
   EXPECT_THAT(problemOf(metadata), HasSubstr("lidar1_topic is missing"));
   EXPECT_THAT(problemOf("lidar1_metadata = topic:/m\nlidar1_topic = /left/points\n"), HasSubstr("topic:/m"));
   EXPECT_THAT(problemOf(metadata + "lidar1_topic = /left/points\nimu_topic = /imu\n"), HasSubstr("/imu/data"));
-  EXPECT_EQ(problemOf(metadata + "lidar1_topic = /left/points\nimu_topic = /imu/data\n"), "none");
+  EXPECT_EQ(problemOf(metadata + "lidar1_topic = /left/points\nimu_topic = /imu/data\n"), "");
 }
 }  // namespace scanloom::bag_rig_unittest

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "liveRig.h"
+#include "support/with.h"
 
 namespace scanloom::capture_clock_unittest
 {
@@ -95,29 +96,14 @@ struct Streamed
 Streamed stream(const Rig& rig, const std::vector<Datagram>& datagrams)
 {
   RigStream stream(rig, RigStream::ReceiveTimes::OfCapture);
-  Streamed streamed;
-  const auto collect = [&]
-  {
-    while (const std::optional<SensorEvent> event = stream.next())
-      if (const auto* scan = std::get_if<Scan>(&*event)) streamed.scans.push_back(*scan);
-  };
-  for (const Datagram& datagram : datagrams)
-  {
-    stream.take(datagram);
-    collect();
-  }
-  stream.finish();
-  collect();
-  streamed.warnings = stream.takeWarnings();
-  return streamed;
+  const std::vector<SensorEvent> events = eventsOf(stream, datagrams);
+  return {scansIn(events), stream.takeWarnings()};
 }
 
 /** Of two lidars one shows TAI, the other UTC; the IMU inside the other sends before its lidar does. */
 TEST(RigStream, stampsAnEarlyImuSampleByTheClockThatItsLidarTurnsOutToHave)
 {
-  FakeLidarOptions options;
-  options.has_imu = true;
-  LiveRig lidars(2, LiveRig::Ports::Several, options);
+  LiveRig lidars(2, LiveRig::Ports::Several, with(&FakeLidarOptions::has_imu, true));
   lidars.rig.addresses[1].imu_port = lidars.rig.addresses[1].lidar_port;
   std::vector<Datagram> sent = lidars.drive(2s);
   std::size_t late = 0;
@@ -128,18 +114,8 @@ TEST(RigStream, stampsAnEarlyImuSampleByTheClockThatItsLidarTurnsOutToHave)
                              FakeLidar::imuPacket(Timestamp{1000s - 37s}, 7)});
   RigStream stream(lidars.rig, RigStream::ReceiveTimes::OfCapture);
   std::vector<Timestamp> stamps;
-  const auto collect = [&]
-  {
-    while (const std::optional<SensorEvent> event = stream.next())
-      if (const auto* imu = std::get_if<SensorImu>(&*event)) stamps.push_back(imu->sample.stamp);
-  };
-  for (const Datagram& datagram : sent)
-  {
-    stream.take(datagram);
-    collect();
-  }
-  stream.finish();
-  collect();
+  for (const SensorEvent& event : eventsOf(stream, sent))
+    if (const auto* imu = std::get_if<SensorImu>(&event)) stamps.push_back(imu->sample.stamp);
   ASSERT_EQ(stamps.size(), 1u);
   EXPECT_LT(std::chrono::abs(stamps[0] - Timestamp{1000s}), 100ms);
 }

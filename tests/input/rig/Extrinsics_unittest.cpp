@@ -6,6 +6,7 @@
 
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/messageOf.h"
 
 namespace scanloom::extrinsics_unittest
 {
@@ -20,15 +21,7 @@ std::map<std::string, Rigid> posesOf(const std::string& text)
 
 std::string complaintAbout(const std::string& text)
 {
-  try
-  {
-    posesOf(text);
-  }
-  catch (const std::runtime_error& error)
-  {
-    return error.what();
-  }
-  return "";
+  return messageOf<std::runtime_error>([&] { posesOf(text); });
 }
 }  // namespace
 

@@ -1,6 +1,6 @@
 #include "input/rig/internal/LiveStatus.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <sstream>
 #include <utility>

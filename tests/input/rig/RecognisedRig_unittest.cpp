@@ -8,8 +8,8 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 #include "support/mergedCaptures.h"
+#include "support/messageOf.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -43,14 +43,8 @@ Rig rigFrom(const RecognisedRig& recognised)
 }
 
 std::string refusalOf(const std::vector<Path>& recording)
-try
 {
-  recogniseRig(filesOf(recording));
-  return "";
-}
-catch (const UsageError& refusal)
-{
-  return refusal.what();
+  return messageOf<UsageError>([&] { recogniseRig(filesOf(recording)); });
 }
 }  // namespace
 

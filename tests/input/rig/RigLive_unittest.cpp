@@ -4,6 +4,8 @@
 #include "support/RecordedLidars.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/messageOf.h"
+#include "support/with.h"
 
 #include <gmock/gmock.h>
 
@@ -14,27 +16,6 @@ namespace scanloom::rig_live_unittest
 namespace
 {
 using testing::HasSubstr;
-
-/** Sends all, then waits until it has been received and ends the input. */
-std::vector<SensorEvent> sendAndRead(const std::vector<Datagram>& datagrams, RigLive& live, double speed = 1)
-{
-  std::thread sending(
-      [&]
-      {
-        UdpSender().replay(datagrams, speed);
-        live.stop();
-      });
-  std::vector<SensorEvent> events = eventsOf(live);
-  sending.join();
-  return events;
-}
-
-std::vector<SensorEvent> replayOf(Rig rig, const std::filesystem::path& capture)
-{
-  rig.captures = {capture};
-  RigReplay replay(rig);
-  return eventsOf(replay);
-}
 }  // namespace
 
 TEST(RigLive, givesEveryColumnOfTwoLidarsInScansOfTheWholePeriods)
@@ -230,9 +211,7 @@ TEST(RigLive, tellsTwoLidarsOnOnePortApartByTheirSerialNumbers)  // F20
 TEST(RigLive, aSpoofingAndAFloodingSenderCostAFewPacketsAtTheStart)
 {
   const TemporaryFolder folder;
-  FakeLidarOptions with_imu;
-  with_imu.has_imu = true;
-  LiveRig lidars(2, LiveRig::Ports::Several, with_imu);
+  LiveRig lidars(2, LiveRig::Ports::Several, with(&FakeLidarOptions::has_imu, true));
   const auto datagrams = lidars.drive(2s);
   const std::uint16_t port = lidars.rig.addresses[0].lidar_port;
   const IpAddress stranger = IpAddress::parse("127.0.0.9");
@@ -345,15 +324,7 @@ TEST(RigLive, doesNotReplaceACapture)
   LiveRig lidars(1);
   lidars.rig.live.capture = folder / "live.pcap";
   std::ofstream(folder / "live.pcap") << "precious";
-  try
-  {
-    RigLive live(lidars.rig);
-    FAIL() << "replaced";
-  }
-  catch (const std::exception& error)
-  {
-    EXPECT_THAT(error.what(), HasSubstr("live.pcap exists"));
-  }
+  EXPECT_THAT(messageOf([&] { RigLive live(lidars.rig); }), HasSubstr("live.pcap exists"));
   EXPECT_EQ(contentOf(folder / "live.pcap"), "precious");
 }
 
@@ -363,25 +334,15 @@ TEST(RigStream, givesEachSliceBeforeTheScanThatHoldsItAgain)
   lidars.rig.batcher.slices = 4;
   RigStream stream(lidars.rig, RigStream::ReceiveTimes::Steady);
   std::vector<Scan> parts, scans;
-  const auto collect = [&]
+  for (const SensorEvent& event : eventsOf(stream, lidars.drive(1s)))
   {
-    while (const std::optional<SensorEvent> event = stream.next())
-    {
-      if (const auto* part = std::get_if<ScanPart>(&*event)) parts.push_back(part->scan);
-      const auto* scan = std::get_if<Scan>(&*event);
-      if (!scan) continue;
-      scans.push_back(*scan);
-      ASSERT_EQ(parts.size(), 4 * scans.size());
-      EXPECT_EQ(parts.back().end(), scan->end());
-    }
-  };
-  for (const Datagram& datagram : lidars.drive(1s))
-  {
-    stream.take(datagram);
-    collect();
+    if (const auto* part = std::get_if<ScanPart>(&event)) parts.push_back(part->scan);
+    const auto* scan = std::get_if<Scan>(&event);
+    if (!scan) continue;
+    scans.push_back(*scan);
+    ASSERT_EQ(parts.size(), 4 * scans.size());
+    EXPECT_EQ(parts.back().end(), scan->end());
   }
-  stream.finish();
-  collect();
   ASSERT_GE(scans.size(), 8u);
   EXPECT_EQ(columnsIn(parts), columnsIn(scans));
 }

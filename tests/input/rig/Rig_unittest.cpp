@@ -7,38 +7,28 @@
 #include "input/lidar/LidarModels.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/messageOf.h"
+#include "support/recordedRig.h"
 
 namespace scanloom::rig_unittest
 {
 namespace
 {
-std::string iniOf(const std::string& folder, const std::string& more = "")
-{
-  return "[rig]\ndriver = CMultiLidarSensor\nprocess_rate = 100\npcap_input = " + folder +
-         "/recording.pcap\nextrinsics = " + folder + "/extrinsics.txt\nimu_csv = " + folder +
-         "/imu.csv\nlidar1_name = left\nlidar1_metadata = " + folder +
-         "/left.json\nlidar2_name = right\nlidar2_metadata = " + folder + "/right.json\n" + more;
-}
-
 std::string complaintAbout(const std::string& ini)
 {
-  try
-  {
-    const Configuration configuration = Configuration::fromText(ini, "x.ini");
-    readRigSettings(configuration, rigSection(configuration));
-  }
-  catch (const ConfigError& error)
-  {
-    return error.what();
-  }
-  return "";
+  return messageOf<ConfigError>(
+      [&]
+      {
+        const Configuration configuration = Configuration::fromText(ini, "x.ini");
+        readRigSettings(configuration, rigSection(configuration));
+      });
 }
 }  // namespace
 
 TEST(RigOptions, namesAnUnknownKeyWithItsPlaceAndTheNearestOne)
 {
-  EXPECT_EQ(complaintAbout(iniOf("f", "lidar2_adress = 1.2.3.4\n")),
-            "x.ini:11: [rig] lidar2_adress is an unknown key: did you mean 'lidar2_address'?");
+  EXPECT_EQ(complaintAbout(recordedRigSection("f", "lidar2_adress = 1.2.3.4\n")),
+            "x.ini:11: [lidars] lidar2_adress is an unknown key: did you mean 'lidar2_address'?");
 }
 
 TEST(RigOptions, twoLidarsNeedTwoNames)
@@ -70,18 +60,7 @@ TEST(Rig, namesTheKeyOfAnAddressThatIsNone)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
   const auto complaint = [&](const std::string& line)
-  {
-    const Configuration configuration = Configuration::fromText(iniOf(folder.string(), line), "x.ini");
-    try
-    {
-      makeRig(readRigSettings(configuration, "rig"));
-    }
-    catch (const ConfigError& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  { return messageOf<ConfigError>([&] { makeRig(recordedRigSettings(folder, line)); }); };
   EXPECT_EQ(complaint("bind_address = 10.0.0\n"),
             "bind_address: '10.0.0' is no IP address: write it as 192.168.1.10 or fe80::1");
   EXPECT_EQ(complaint("lidar2_address = left\n"),
@@ -92,42 +71,25 @@ TEST(Rig, asksWhetherAPoseIsInMillimetres)
 {
   const Configuration configuration = Configuration::fromText(
       "[rig]\ndriver = CMultiLidarSensor\nlidar1_metadata = VLP-16\nlidar1_pose = [1500 0 2500 0 0 0]\n", "x.ini");
-  try
-  {
-    makeRig(readRigSettings(configuration, "rig"));
-    FAIL() << "accepted";
-  }
-  catch (const ConfigError& error)
-  {
-    EXPECT_EQ(std::string(error.what()),
-              "lidar1_pose: 2915 m from the body's origin: in mm? Poses are x y z (m) yaw pitch roll (deg)");
-  }
+  EXPECT_EQ(messageOf<ConfigError>([&] { makeRig(readRigSettings(configuration, "rig")); }),
+            "lidar1_pose: 2915 m from the body's origin: in mm? Poses are x y z (m) yaw pitch roll (deg)");
 }
 
 TEST(Rig, saysThatTwoLidarsHaveTheMetadataOfOneSensor)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
-  std::string ini = iniOf(folder.string());
-  ini.replace(ini.find("/right.json"), 11, "/left.json");
-  const Configuration configuration = Configuration::fromText(ini, "x.ini");
+  RigSettings settings = recordedRigSettings(folder);
+  settings.lidars[1].metadata = settings.lidars[0].metadata;
   const std::string serial = makeDecoder((folder / "left.json").string(), Rigid::identity())->description().serial;
-  try
-  {
-    makeRig(readRigSettings(configuration, "rig"));
-    FAIL() << "accepted";
-  }
-  catch (const ConfigError& error)
-  {
-    EXPECT_EQ(std::string(error.what()), "lidars 'left' and 'right': both have metadata of serial number " + serial +
-                                             ": give each the metadata of its own sensor");
-  }
+  EXPECT_EQ(messageOf<ConfigError>([&] { makeRig(settings); }),
+            "lidars 'left' and 'right': both have metadata of serial number " + serial +
+                ": give each the metadata of its own sensor");
 }
 
 TEST(RigReplay, weavesBothLidarsOfARecordingWithExactAccounts)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
-  const Configuration configuration = Configuration::fromText(iniOf(folder.string()), "x.ini");
-  RigReplay replay(makeRig(readRigSettings(configuration, "rig")));
+  RigReplay replay(makeRig(recordedRigSettings(folder)));
 
   std::uint64_t columns = 0, body_imu = 0, scans = 0;
   Timestamp previous = Timestamp::min(), previous_imu = Timestamp::min(), end;
@@ -172,8 +134,7 @@ TEST(RigReplay, weavesBothLidarsOfARecordingWithExactAccounts)
 TEST(Rig, aLidarThatIsNotThereIsNamedWithTheOnesThatAre)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
-  const Configuration configuration = Configuration::fromText(iniOf(folder.string()), "x.ini");
-  EXPECT_THROW(makeRig(readRigSettings(configuration, "rig"), {"lef"}), ConfigError);
-  EXPECT_EQ(makeRig(readRigSettings(configuration, "rig"), {"right"}).lidars.size(), 1u);
+  EXPECT_THROW(makeRig(recordedRigSettings(folder), {"lef"}), ConfigError);
+  EXPECT_EQ(makeRig(recordedRigSettings(folder), {"right"}).lidars.size(), 1u);
 }
 }  // namespace scanloom::rig_unittest

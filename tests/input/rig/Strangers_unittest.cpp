@@ -83,21 +83,8 @@ struct Batched
 Batched runOf(const Rig& rig, const Datagrams& datagrams)
 {
   RigStream stream(rig, RigStream::ReceiveTimes::Steady);
-  Batched run;
-  const auto collect = [&]
-  {
-    while (auto event = stream.next()) run.events.push_back(*std::move(event));
-    for (std::string& warning : stream.takeWarnings()) run.warnings.push_back(std::move(warning));
-  };
-  for (const Datagram& datagram : datagrams)
-  {
-    stream.take(datagram);
-    collect();
-  }
-  stream.finish();
-  collect();
-  run.account = stream.account();
-  return run;
+  std::vector<SensorEvent> events = eventsOf(stream, datagrams);
+  return {stream.account(), stream.takeWarnings(), std::move(events)};
 }
 
 /** The left lidar's n-th packet with every stamp, and its ids where turns are given, moved ahead. */
@@ -166,9 +153,7 @@ Datagrams tenPairsASecondFarAhead(const OpenRig& rig)
   return packets;
 }
 
-class Strangers : public testing::TestWithParam<Attack>
-{
-};
+using Strangers = testing::TestWithParam<Attack>;
 INSTANTIATE_TEST_SUITE_P(Copies, Strangers,
                          testing::Values(Attack{"threeAYearAheadBeforeTheStart", aYearAheadBeforeTheStart, 0.005},
                                          Attack{"threeJustBeforeTheStart", rightStampsJustBeforeTheStart, 0.005},

@@ -80,9 +80,7 @@ std::uint64_t truncation(const LiveRig& lidars, Datagrams& datagrams)
   return damaged;
 }
 
-class WireFaults : public testing::TestWithParam<WireFault>
-{
-};
+using WireFaults = testing::TestWithParam<WireFault>;
 }  // namespace
 
 TEST_P(WireFaults, areCountedHarmNobodyElseAndComeOutOfTheCaptureToTheBit)
@@ -98,14 +96,7 @@ TEST_P(WireFaults, areCountedHarmNobodyElseAndComeOutOfTheCaptureToTheBit)
   RigAccount account;
   {
     RigLive live(lidars.rig);
-    std::thread sending(
-        [&]
-        {
-          UdpSender().replay(datagrams);
-          live.stop();
-        });
-    events = eventsOf(live);
-    sending.join();
+    events = sendAndRead(datagrams, live);
     account = live.account();
   }
 
@@ -115,9 +106,7 @@ TEST_P(WireFaults, areCountedHarmNobodyElseAndComeOutOfTheCaptureToTheBit)
   EXPECT_EQ(ill.emitted + ill.before_start, (of_each - missed) * kBlocks);
   EXPECT_GT(ill.*GetParam().counted, 0u);
 
-  lidars.rig.captures = {folder / "live.pcap"};
-  RigReplay replay(lidars.rig);
-  expectTheSame(events, eventsOf(replay));
+  expectTheSame(events, replayOf(lidars.rig, folder / "live.pcap"));
 }
 
 INSTANTIATE_TEST_SUITE_P(OnLoopback, WireFaults,

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
+#include <thread>
 
 namespace scanloom
 {
@@ -63,6 +65,45 @@ inline std::vector<SensorEvent> eventsOf(SensorInput& input)
 {
   std::vector<SensorEvent> events;
   while (auto event = input.next()) events.push_back(*std::move(event));
+  return events;
+}
+
+/** All that the stream makes of the datagrams, from one to the next and at their end. */
+inline std::vector<SensorEvent> eventsOf(RigStream& stream, const std::vector<Datagram>& datagrams)
+{
+  std::vector<SensorEvent> events;
+  const auto collect = [&]
+  {
+    while (auto event = stream.next()) events.push_back(*std::move(event));
+  };
+  for (const Datagram& datagram : datagrams)
+  {
+    stream.take(datagram);
+    collect();
+  }
+  stream.finish();
+  collect();
+  return events;
+}
+
+inline std::vector<SensorEvent> replayOf(Rig rig, const std::filesystem::path& capture)
+{
+  rig.captures = {capture};
+  RigReplay replay(rig);
+  return eventsOf(replay);
+}
+
+/** Sends all, then waits until it has been received and ends the input. */
+inline std::vector<SensorEvent> sendAndRead(const std::vector<Datagram>& datagrams, RigLive& live, double speed = 1)
+{
+  std::thread sending(
+      [&]
+      {
+        UdpSender().replay(datagrams, speed);
+        live.stop();
+      });
+  std::vector<SensorEvent> events = eventsOf(live);
+  sending.join();
   return events;
 }
 
