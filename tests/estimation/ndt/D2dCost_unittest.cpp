@@ -3,6 +3,7 @@
 #include "estimation/ndt/NormalEquations.h"
 #include "estimation/ndt/RayWorld.h"
 #include "support/checkJacobian.h"
+#include "support/with.h"
 
 #include <gtest/gtest.h>
 
@@ -74,9 +75,8 @@ GaussianCell withMixture(GaussianCell target, const GaussianCell& source, const 
 TEST(NormalEquations, agreeWithTheExactCost)
 {
   const Rigid pose = Rigid::fromXyzYawPitchRoll(0.1, 0.05, 0.02, 0.01, 0, 0);
-  NdtOptions coarse;
-  coarse.cell_size = 2.5;
-  const NdtMap target(scanFrom(forest(3), Rigid::identity(), 1), {}), source(scanFrom(forest(3), pose, 2), coarse);
+  const NdtMap target(scanFrom(forest(3), Rigid::identity(), 1), {}),
+      source(scanFrom(forest(3), pose, 2), with(&NdtOptions::cell_size, 2.5));
   CellCorrespondences correspondences(target, source, 27);
   correspondences.moveTo(pose);
   std::vector<CellPair> pairs;

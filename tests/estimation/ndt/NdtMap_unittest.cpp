@@ -2,6 +2,7 @@
 
 #include "estimation/ndt/RayWorld.h"
 #include "estimation/ndt/cellAt.h"
+#include "support/with.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -201,15 +202,11 @@ TEST(NdtMap, needsEnoughPointsForAGaussianButKeepsTheOthersForLater)
 
 TEST(NdtMap, refusesOptionsAndMergesThatMakeNoSense)
 {
-  NdtOptions none;
-  none.cell_size = 0;
-  EXPECT_THAT([&] { NdtMap{none}; },
+  EXPECT_THAT([&] { NdtMap{with(&NdtOptions::cell_size, 0)}; },
               testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("cell_size = 0 m")));
 
-  NdtOptions coarse;
-  coarse.cell_size = 2;
   NdtMap fine({});
-  EXPECT_THROW(fine.add(counted({}, coarse)), std::invalid_argument);
+  EXPECT_THROW(fine.add(counted({}, with(&NdtOptions::cell_size, 2))), std::invalid_argument);
   EXPECT_THROW(fine.remove(counted(blockAt({0, 0, 0}))), std::invalid_argument);
 }
 }  // namespace

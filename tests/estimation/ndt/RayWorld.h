@@ -3,7 +3,6 @@
 #include "base/core/Rigid.h"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <random>
 #include <vector>

@@ -4,6 +4,7 @@
 #include "estimation/ndt/briefOf.h"
 #include "support/PointFile.h"
 #include "support/TestData.h"
+#include "support/with.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -72,9 +73,7 @@ std::string text(const Trials& t)
 
 NdtMap mapOf(const std::vector<Eigen::Vector3f>& points, double cell_size)
 {
-  NdtOptions options;
-  options.cell_size = cell_size;
-  return NdtMap(points, options);
+  return NdtMap(points, with(&NdtOptions::cell_size, cell_size));
 }
 
 Rigid readTransform(const std::filesystem::path& path)

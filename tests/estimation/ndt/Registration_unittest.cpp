@@ -3,6 +3,7 @@
 #include "base/core/Angle.h"
 #include "estimation/ndt/RayWorld.h"
 #include "estimation/ndt/briefOf.h"
+#include "support/with.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,9 +18,7 @@ namespace
 {
 NdtMap mapOf(const std::vector<Eigen::Vector3f>& points, double cell_size)
 {
-  NdtOptions options;
-  options.cell_size = cell_size;
-  return NdtMap(points, options);
+  return NdtMap(points, with(&NdtOptions::cell_size, cell_size));
 }
 
 double metres(const Rigid& a, const Rigid& b) { return boxMinus(a, b).head<3>().norm(); }
@@ -34,9 +33,7 @@ RegistrationResult alignForest(double cell_size, const Rigid& guess)
                {});
 }
 
-class RegistrationInAForest : public testing::TestWithParam<double>
-{
-};
+using RegistrationInAForest = testing::TestWithParam<double>;
 
 TEST_P(RegistrationInAForest, findsTheTrueMotion)
 {
@@ -118,10 +115,8 @@ TEST(Registration, ignoresPointsThatAreNotFinite)
 
 TEST(Registration, refusesANeighbourhoodThatDoesNotExist)
 {
-  RegistrationOptions options;
-  options.neighbours = 9;
   const NdtMap empty{NdtOptions{}};
-  EXPECT_THAT([&] { align(empty, empty, Rigid::identity(), options); },
+  EXPECT_THAT([&] { align(empty, empty, Rigid::identity(), with(&RegistrationOptions::neighbours, 9)); },
               testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("neighbours = 9")));
 }
 
@@ -174,9 +169,7 @@ void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
 
 Vector6d along(int axis) { return Vector6d::Unit(axis); }
 
-class RegistrationInABareScene : public testing::TestWithParam<Scene>
-{
-};
+using RegistrationInABareScene = testing::TestWithParam<Scene>;
 
 TEST_P(RegistrationInABareScene, namesWhatNothingMeasuresDoesNotMoveThereAndHasNoInformationOfIt)
 {

@@ -3,6 +3,7 @@
 #include "estimation/ndt/ForestCorrections.h"
 #include "estimation/ndt/NdtMap.h"
 #include "estimation/ndt/Registration.h"
+#include "support/with.h"
 
 #include <gtest/gtest.h>
 
@@ -131,9 +132,7 @@ View withTwoFarPoints(const Eigen::Vector3f& direction, double radius)
 /** How much farther away the two points are than they were seen. */
 double farPointsMoved(const View& view)
 {
-  NdtOptions options;
-  options.min_points = 2;
-  const NdtMap map({view}, options);
+  const NdtMap map({view}, with(&NdtOptions::min_points, 2));
   double farthest = 0;
   for (const GaussianCell& cell : map.cells()) farthest = std::max(farthest, cell.mean.y());
   return farthest - 30.5;

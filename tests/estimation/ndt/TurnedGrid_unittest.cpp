@@ -1,5 +1,6 @@
 #include "estimation/ndt/NdtMap.h"
 #include "estimation/ndt/Registration.h"
+#include "support/with.h"
 
 #include <gtest/gtest.h>
 
@@ -62,11 +63,9 @@ TEST(TurnedGrid, hasCellsInTheFrameOfThePoints)
   const View view = crownsFrom(0, 2);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3f& p : view.points) mean += p.cast<double>() / static_cast<double>(view.points.size());
-  NdtOptions all;
-  all.min_points = 1;
 
   Eigen::Vector3d of_cells = Eigen::Vector3d::Zero();
-  const NdtMap map({view}, all, Grid::Turned);
+  const NdtMap map({view}, with(&NdtOptions::min_points, 1), Grid::Turned);
   for (const GaussianCell& cell : map.cells()) of_cells += cell.points * cell.mean / static_cast<double>(map.points());
 
   EXPECT_LT((of_cells - mean).norm(), 1e-4);

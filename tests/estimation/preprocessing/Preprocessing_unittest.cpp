@@ -4,6 +4,8 @@
 #include "estimation/preprocessing/Crop.h"
 #include "estimation/preprocessing/Deskew.h"
 #include "estimation/preprocessing/Thin.h"
+#include "support/messageOf.h"
+#include "support/with.h"
 
 namespace scanloom::preprocessing_unittest
 {
@@ -80,9 +82,7 @@ TEST(Crop, removesFromEachLidarWhatIsInItsOwnBoxAndLeavesItToTheOthers)
   Scan scan = scanOf({{20, 5, 0}, {20, 5, 0}, {15, 0, 0}});
   for (const std::size_t i : {1, 2}) scan.columns[i].sensor_id = scan.points.sensor_id[i] = 1;
 
-  CropOptions options;
-  options.lidar_boxes = "right 4 -1 -1 6 1 1";
-  const CroppedScan cropped = cropOut(scan, cropOf(options, lidars));
+  const CroppedScan cropped = cropOut(scan, cropOf(with(&CropOptions::lidar_boxes, "right 4 -1 -1 6 1 1"), lidars));
 
   EXPECT_EQ(cropped.scan.points.size(), 2u);
   EXPECT_EQ(cropped.counts[0].kept, 1u);
@@ -93,24 +93,13 @@ TEST(Crop, removesFromEachLidarWhatIsInItsOwnBoxAndLeavesItToTheOthers)
 TEST(LidarBox, isRefusedWithItsNameIfItIsNoneOrOfNoLidar)
 {
   const std::vector<MountedLidar> lidars{{"left", Rigid::identity()}};
-  const auto messageOf = [&](const char* text)
-  {
-    try
-    {
-      lidarBoxes(text, lidars);
-    }
-    catch (const ConfigError& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_NE(messageOf("left 0 0 0 1 1 -1").find("'left 0 0 0 1 1 -1': must be NAME x0"), std::string::npos);
-  EXPECT_NE(messageOf("left 0 0 0 1 1").find("must be NAME x0"), std::string::npos);
-  EXPECT_NE(messageOf("left 0 0 0 1 1 x").find("must be NAME x0"), std::string::npos);
-  EXPECT_NE(messageOf("lfet 0 0 0 1 1 1").find("no lidar is called 'lfet'"), std::string::npos);
-  EXPECT_EQ(messageOf("left 0 0 0 1 1 1, left 2 2 2 3 3 3"), "");
-  EXPECT_EQ(messageOf(""), "");
+  const auto refusalOf = [&](const char* text) { return messageOf<ConfigError>([&] { lidarBoxes(text, lidars); }); };
+  EXPECT_NE(refusalOf("left 0 0 0 1 1 -1").find("'left 0 0 0 1 1 -1': must be NAME x0"), std::string::npos);
+  EXPECT_NE(refusalOf("left 0 0 0 1 1").find("must be NAME x0"), std::string::npos);
+  EXPECT_NE(refusalOf("left 0 0 0 1 1 x").find("must be NAME x0"), std::string::npos);
+  EXPECT_NE(refusalOf("lfet 0 0 0 1 1 1").find("no lidar is called 'lfet'"), std::string::npos);
+  EXPECT_EQ(refusalOf("left 0 0 0 1 1 1, left 2 2 2 3 3 3"), "");
+  EXPECT_EQ(refusalOf(""), "");
 }
 
 TEST(Deskew, aWallSeenWhileDrivingTowardsItBecomesFlat)
