@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "support/TestData.h"
+#include "support/with.h"
 
 namespace scanloom::evaluation_unittest
 {
@@ -54,9 +55,7 @@ TEST(Evaluation, usesStampsAsGivenUnlessAskedNotTo)
   EXPECT_FALSE(as_given.clock_offset_applied);
   EXPECT_GT(as_given.drift.largest, 0.1);
 
-  EvaluationOptions options;
-  options.apply_clock_offset = true;
-  const Evaluation applied = evaluate(input, options);
+  const Evaluation applied = evaluate(input, with(&EvaluationOptions::apply_clock_offset, true));
   EXPECT_TRUE(applied.clock_offset_applied);
   EXPECT_LT(applied.drift.largest, 1e-3);
   EXPECT_LT(applied.absolute.metres.rmse, 1e-3);

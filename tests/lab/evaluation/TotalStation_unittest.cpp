@@ -1,6 +1,7 @@
 #include "lab/evaluation/TotalStation.h"
 
 #include "support/TemporaryFolder.h"
+#include "support/messageOf.h"
 
 #include <gmock/gmock.h>
 
@@ -19,15 +20,7 @@ PositionTrack read(const std::string& text)
 
 std::string complaintAbout(const std::string& text)
 {
-  try
-  {
-    read(text);
-  }
-  catch (const std::invalid_argument& e)
-  {
-    return e.what();
-  }
-  return "";
+  return messageOf<std::invalid_argument>([&] { read(text); });
 }
 
 TEST(TotalStation, isReadToTheNanosecond)

@@ -7,6 +7,7 @@
 
 #include "lab/study/internal/RunHash.h"
 #include "support/TemporaryFolder.h"
+#include "support/messageOf.h"
 
 namespace scanloom::experiment_plan_unittest
 {
@@ -43,15 +44,7 @@ class ExperimentPlanOf : public testing::Test
 
   std::string complaintAbout(const std::string& lines) const
   {
-    try
-    {
-      plan(lines);
-    }
-    catch (const ConfigError& e)
-    {
-      return e.what();
-    }
-    return "";
+    return messageOf<ConfigError>([&] { plan(lines); });
   }
 
   TemporaryFolder folder_;

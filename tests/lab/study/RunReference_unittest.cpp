@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "support/TemporaryFolder.h"
+#include "support/messageOf.h"
 
 namespace scanloom::run_reference_unittest
 {
@@ -81,16 +82,8 @@ TEST_F(RunReferenceOf, leavesNothingToChanceBetweenTwoFiles)
   write("groundtruth.tum", kPoses);
   write("groundtruth.txt", kPoses);
 
-  try
-  {
-    referenceOf(folder_.path(), "");
-    FAIL();
-  }
-  catch (const std::invalid_argument& e)
-  {
-    EXPECT_THAT(e.what(), HasSubstr("groundtruth.tum"));
-    EXPECT_THAT(e.what(), HasSubstr("name one in [experiment] references"));
-  }
+  EXPECT_THAT(messageOf<std::invalid_argument>([&] { referenceOf(folder_.path(), ""); }),
+              testing::AllOf(HasSubstr("groundtruth.tum"), HasSubstr("name one in [experiment] references")));
 }
 }  // namespace
 }  // namespace scanloom::run_reference_unittest
