@@ -5,6 +5,7 @@
 #include "mrpt/edit/CloudObservation.h"
 #include "mrpt/edit/internal/ThinClouds.h"
 #include "smallRawlog.h"
+#include "support/with.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -77,20 +78,17 @@ TEST(CropClouds, cloudsOfOtherClassesStayWhatTheyAre)
 
 TEST(CropClouds, rangesCountFromTheLidarThatMeasured)
 {
-  RangeLimits limits;
-  limits.least = 1.5;
-  limits.most = 4;
   // Lidar 0 at 0 m measured 2 and 4 m; lidar 1 at 5 m measured 1, 3 and 5 m from 4, 2 and 0 m away.
-  EXPECT_THAT(xOf(limitRanges(limits, lidarsAt(0, 5))(fivePoints())), ElementsAre(1, 2, 3, 4));
+  EXPECT_THAT(
+      xOf(limitRanges(with(&RangeLimits::least, 1.5, with(&RangeLimits::most, 4)), lidarsAt(0, 5))(fivePoints())),
+      ElementsAre(1, 2, 3, 4));
 }
 
 TEST(CropClouds, withoutAHeaderRangesCountFromTheCloudsOwnFrame)
 {
-  RangeLimits limits;
-  limits.most = 2;
   const auto cloud = fivePoints();
   cloud->sensorPose = toMrpt(Rigid::fromXyzYawPitchRoll(100, 0, 0, 0, 0, 0));
-  EXPECT_THAT(xOf(limitRanges(limits, std::nullopt)(cloud)), ElementsAre(101, 102));
+  EXPECT_THAT(xOf(limitRanges(with(&RangeLimits::most, 2), std::nullopt)(cloud)), ElementsAre(101, 102));
 }
 
 TEST(ThinClouds, keepsTheFirstPointOfEachCube)

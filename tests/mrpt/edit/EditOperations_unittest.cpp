@@ -4,6 +4,7 @@
 #include "base/core/ConfigError.h"
 #include "mrpt/edit/CloudObservation.h"
 #include "smallRawlog.h"
+#include "support/messageOf.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,15 +32,7 @@ struct EditOperations : testing::Test
   void edit() { edited(in, chained(operations(), in, operations().back().outputs), out); }
   std::string complaint()
   {
-    try
-    {
-      operations();
-    }
-    catch (const UsageError& e)
-    {
-      return e.what();
-    }
-    return "none";
+    return messageOf<UsageError>([&] { operations(); });
   }
 };
 

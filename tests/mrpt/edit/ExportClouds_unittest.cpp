@@ -15,7 +15,6 @@
 #include <mrpt/obs/CObservationOdometry.h>
 
 #include <cstring>
-#include <fstream>
 #include <sstream>
 
 namespace scanloom::export_clouds_unittest

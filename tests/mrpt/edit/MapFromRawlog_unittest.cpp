@@ -3,6 +3,7 @@
 #include "base/formats/CloudFile.h"
 #include "smallRawlog.h"
 #include "support/TestData.h"
+#include "support/with.h"
 
 #include <gmock/gmock.h>
 #include <mrpt/maps/CSimpleMap.h>
@@ -20,11 +21,10 @@ struct MapFromRawlog : testing::Test
   /** With keyframes each 0.5 m and voxels of 0.2 m. @return the number of keyframes. */
   int writeMaps(const std::vector<std::filesystem::path>& maps, const Trajectory& trajectory) const
   {
-    OctoMapOptions options;
-    options.resolution = 0.2;
     int keyframes = 0;
-    const auto files = std::make_shared<MapFiles>(maps, mountedLidars(someHeader().lidars), options,
-                                                  offsetFor(trajectory.front().map_T_body));
+    const auto files =
+        std::make_shared<MapFiles>(maps, mountedLidars(someHeader().lidars), with(&OctoMapOptions::resolution, 0.2),
+                                   offsetFor(trajectory.front().map_T_body));
     readRawlog(in, toMaps(files, {trajectory, 0.5}, someHeader(), [&] { ++keyframes; }),
                [](std::uint64_t) { return true; });
     EXPECT_EQ(files->leftOut(), 0u);

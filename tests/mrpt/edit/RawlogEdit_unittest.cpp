@@ -8,6 +8,7 @@
 #include "mrpt/edit/internal/RawlogLabels.h"
 #include "mrpt/edit/internal/TimeOffset.h"
 #include "smallRawlog.h"
+#include "support/messageOf.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -137,15 +138,8 @@ TEST_F(RawlogEdit, keepsAndRemovesLabels)
 
 TEST_F(RawlogEdit, aLabelThatDoesNotOccurIsAMistake)
 {
-  try
-  {
-    edited(in, removeLabels({"imu_rihgt"}), out);
-    FAIL();
-  }
-  catch (const UsageError& e)
-  {
-    EXPECT_THAT(e.what(), HasSubstr("did you mean 'imu_right'?"));
-  }
+  EXPECT_THAT(messageOf<UsageError>([&] { edited(in, removeLabels({"imu_rihgt"}), out); }),
+              HasSubstr("did you mean 'imu_right'?"));
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 

@@ -56,9 +56,7 @@ std::filesystem::path writeSimpleMap(const std::filesystem::path& path)
   return path;
 }
 
-class WrittenByMrpt : public testing::TestWithParam<const char*>
-{
-};
+using WrittenByMrpt = testing::TestWithParam<const char*>;
 INSTANTIATE_TEST_SUITE_P(Version, WrittenByMrpt, testing::Values("2.5.8", "2.15.14"));
 
 TEST_P(WrittenByMrpt, aRawlogIsReadWithEveryField)

@@ -198,9 +198,7 @@ TEST(CGenericPointsMap, readsBackWhatItWrote)
 }
 
 // The older writers passed vectors to MRPT's operators: bare for float, with two names of types before all others.
-class OlderVersion : public testing::TestWithParam<int>
-{
-};
+using OlderVersion = testing::TestWithParam<int>;
 
 TEST_P(OlderVersion, isRead)
 {

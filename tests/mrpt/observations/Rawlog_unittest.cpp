@@ -13,6 +13,7 @@
 #include "someScan.h"
 #include "support/FullDisk.h"
 #include "support/TemporaryFolder.h"
+#include "support/messageOf.h"
 #include "support/peakMemory.h"
 
 #include <gmock/gmock.h>
@@ -233,17 +234,7 @@ TEST_F(Rawlog, leavesAnOlderFileAloneUntilTheNewOneIsWhole)
 TEST_F(Rawlog, saysWhichFileItCouldNotOpen)
 {
   const auto expectNamed = [](const auto& open)
-  {
-    try
-    {
-      open();
-      FAIL() << "opened";
-    }
-    catch (const std::runtime_error& e)
-    {
-      EXPECT_NE(std::string(e.what()).find("nowhere"), std::string::npos) << e.what();
-    }
-  };
+  { EXPECT_THAT(messageOf<std::runtime_error>([&] { open(); }), testing::HasSubstr("nowhere")); };
   expectNamed([&] { RawlogReader(folder_ / "nowhere" / "x.rawlog"); });
   expectNamed([&] { RawlogWriter(folder_ / "nowhere" / "x.rawlog", {}); });
 }

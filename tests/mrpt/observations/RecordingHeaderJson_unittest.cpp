@@ -1,6 +1,7 @@
 #include "mrpt/observations/RecordingHeaderJson.h"
 
 #include "someScan.h"
+#include "support/messageOf.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,15 +52,9 @@ TEST(RecordingHeaderJson, isNotSeenInSomebodyElsesComment)
 
 TEST(RecordingHeaderJson, namesTheKeyThatIsMissing)
 {
-  try
-  {
-    recordingHeaderFromJson(R"({"scanloom": {"version": "1", "lidars": []}})");
-    FAIL() << "accepted";
-  }
-  catch (const std::invalid_argument& e)
-  {
-    EXPECT_NE(std::string(e.what()).find("scan_rate"), std::string::npos) << e.what();
-  }
+  EXPECT_THAT(messageOf<std::invalid_argument>(
+                  [&] { recordingHeaderFromJson(R"({"scanloom": {"version": "1", "lidars": []}})"); }),
+              testing::HasSubstr("scan_rate"));
 }
 
 TEST(RecordingHeaderJson, refusesAPoseThatIsNoRotation)
@@ -75,17 +70,9 @@ TEST(RecordingHeaderJson, refusesWhatNoRigHasAndNamesIt)
   {
     auto json = nlohmann::json::parse(toJson(someHeader()));
     json["scanloom"][nlohmann::json::json_pointer(pointer)] = value;
-    try
-    {
-      recordingHeaderFromJson(json.dump());
-    }
-    catch (const std::invalid_argument& e)
-    {
-      return e.what();
-    }
-    return "taken";
+    return messageOf<std::invalid_argument>([&] { recordingHeaderFromJson(json.dump()); });
   };
-  EXPECT_EQ(refusalOf("/scan_rate", 20), "taken");
+  EXPECT_EQ(refusalOf("/scan_rate", 20), "");
   for (const double rate : {1e-9, -1.0, 1e300})
     EXPECT_THAT(refusalOf("/scan_rate", rate), testing::HasSubstr("scan_rate")) << rate;
   EXPECT_THAT(refusalOf("/recorded_scan_rate", 1e-12), testing::HasSubstr("recorded_scan_rate"));

@@ -1,6 +1,7 @@
 #include "run/run/ImuInUse.h"
 
 #include "base/core/ConfigError.h"
+#include "support/messageOf.h"
 
 #include <gmock/gmock.h>
 
@@ -52,20 +53,10 @@ TEST(ImuInUse, isTheBodysOrElseTheFirstLidarsThatHasOne)
 
 TEST(ImuInUse, isRefusedWithTheOnesThereAre)
 {
-  const auto messageOf = [](const std::set<int>& imus, const char* wanted)
-  {
-    try
-    {
-      ImuInUse(InputWithImus(imus), wanted, {});
-    }
-    catch (const ConfigError& error)
-    {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_THAT(messageOf({kBody, kRight}, "left"), testing::HasSubstr("imu = left: the input has no such IMU"));
-  EXPECT_THAT(messageOf({}, "auto"), testing::HasSubstr("no such IMU"));
+  const auto refusalOf = [](const std::set<int>& imus, const char* wanted)
+  { return messageOf<ConfigError>([&] { ImuInUse(InputWithImus(imus), wanted, {}); }); };
+  EXPECT_THAT(refusalOf({kBody, kRight}, "left"), testing::HasSubstr("imu = left: the input has no such IMU"));
+  EXPECT_THAT(refusalOf({}, "auto"), testing::HasSubstr("no such IMU"));
 }
 
 TEST(ImuInUse, givesWayToAnotherAfterAFifthOfASecondOfSilenceWithWhatThatSaidSinceThen)
