@@ -1,6 +1,6 @@
 #include "run/page/internal/HttpRequest.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace scanloom::http_request_unittest
 {

@@ -2,9 +2,7 @@
 
 #include "run/page/internal/ViewStatusJson.h"
 
-#include <gmock/gmock.h>
-
-#include <thread>
+#include <gtest/gtest.h>
 
 namespace scanloom::live_feed_unittest
 {

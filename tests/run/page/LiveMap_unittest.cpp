@@ -2,7 +2,7 @@
 
 #include "base/core/Bytes.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>

@@ -8,7 +8,6 @@
 #include <mrpt/img/CImage.h>
 
 #include <cmath>
-#include <cstdio>
 #include <thread>
 
 namespace scanloom::page_unittest

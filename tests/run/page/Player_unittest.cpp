@@ -1,6 +1,6 @@
 #include "run/page/Player.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <thread>
 

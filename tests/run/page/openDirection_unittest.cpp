@@ -1,6 +1,6 @@
 #include "run/page/internal/openDirection.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 
