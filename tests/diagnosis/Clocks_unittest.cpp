@@ -1,7 +1,6 @@
 /** ClockKind, ClockSteps, ClockDrift and RotorPhase against clocks that were set wrong on purpose. */
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <random>
 
 #include "diagnosis/internal/ClockDrift.h"

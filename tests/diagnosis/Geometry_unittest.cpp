@@ -11,9 +11,7 @@
 
 namespace scanloom::geometry_unittest
 {
-class Tilts : public testing::TestWithParam<double>
-{
-};
+using Tilts = testing::TestWithParam<double>;
 
 TEST_P(Tilts, ofTheGroundAreFoundWithTheSensorsHeight)
 {

@@ -113,9 +113,7 @@ TEST(MeanForce, namesAxesAndTheTurnThatMendsThem)
   EXPECT_NEAR(degreesBetween({0, 0, 2}, {0, 3, 3}), 45, 1e-9);
 }
 
-class GyroUnits : public testing::TestWithParam<double>
-{
-};
+using GyroUnits = testing::TestWithParam<double>;
 
 TEST_P(GyroUnits, areToldByGravityWhereverTheImuSits)
 {

@@ -4,14 +4,15 @@
 #include <cmath>
 #include <functional>
 
-#include "base/config/Configuration.h"
 #include "base/core/Angle.h"
 #include "base/core/So3.h"
 #include "diagnosis/DoctorFindings.h"
 #include "input/lidar/OusterDecoder.h"
 #include "input/lidar/internal/OusterLayout.h"
 #include "support/TestData.h"
+#include "support/harvesterSettings.h"
 #include "support/mergedCaptures.h"
+#include "support/recordedRig.h"
 
 namespace scanloom::rig_faults_unittest
 {
@@ -19,22 +20,9 @@ namespace
 {
 constexpr std::uint16_t kRightPort = 7504;
 
-/** A box around the machine, as in params/dual_os0_recording.ini. */
-CropOptions machine()
-{
-  CropOptions crop;
-  crop.min_x = -4, crop.max_x = 10, crop.min_y = -3, crop.max_y = 3, crop.min_z = -0.5, crop.max_z = 6;
-  return crop;
-}
-
 Rig recordedRig(const std::filesystem::path& folder, const std::string& more_keys = "")
 {
-  const std::string f = folder.string();
-  const std::string ini = "[lidars]\ndriver = CMultiLidarSensor\nprocess_rate = 100\npcap_input = " + f +
-                          "/recording.pcap\nextrinsics = " + f + "/extrinsics.txt\nimu_csv = " + f +
-                          "/imu.csv\nlidar1_name = left\nlidar1_metadata = " + f +
-                          "/left.json\nlidar2_name = right\nlidar2_metadata = " + f + "/right.json\n" + more_keys;
-  return makeRig(readRigSettings(Configuration::fromText(ini, "test.ini"), "lidars"));
+  return makeRig(recordedRigSettings(folder, more_keys));
 }
 
 /** What becomes of a datagram: none, one or several. */
@@ -83,7 +71,7 @@ Examined examined(const Rig& rig, const Fault& fault = {}, Duration longest = 1h
       for (const Datagram& changed : fault(datagram)) listener.add(changed);
   }
   Examined result;
-  result.rig = examine(listener.finish(), machine());
+  result.rig = examine(listener.finish(), harvesterSettings().crop);
   result.findings = findingsOf(result.rig);
   return result;
 }

@@ -12,18 +12,15 @@
 #include "mrpt/observations/RigObservations.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/harvesterSettings.h"
+#include "support/recordedRig.h"
 
 namespace scanloom::scan_evidence_unittest
 {
 TEST(ScanEvidence, pointsAndImusTellTheSameAsThePacketsDid)
 {
   SCANLOOM_NEEDS_DATA(folder, "recordings/sparse");
-  const std::string f = folder.string();
-  const std::string ini = "[lidars]\ndriver = CMultiLidarSensor\nprocess_rate = 100\npcap_input = " + f +
-                          "/recording.pcap\nextrinsics = " + f + "/extrinsics.txt\nimu_csv = " + f +
-                          "/imu.csv\nlidar1_name = left\nlidar1_metadata = " + f +
-                          "/left.json\nlidar2_name = right\nlidar2_metadata = " + f + "/right.json\n";
-  const RigSettings settings = readRigSettings(Configuration::fromText(ini, "test.ini"), "lidars");
+  const RigSettings settings = recordedRigSettings(folder);
   const Rig rig = makeRig(settings);
   const TemporaryFolder temporary;
   {
@@ -34,10 +31,7 @@ TEST(ScanEvidence, pointsAndImusTellTheSameAsThePacketsDid)
   }
 
   RawlogInput input(temporary / "a.rawlog");
-  CropOptions machine;
-  machine.min_x = -4, machine.max_x = 10, machine.min_y = -3, machine.max_y = 3, machine.min_z = -0.5,
-  machine.max_z = 6;
-  const RigExamination seen = examine(scanEvidence(input, true, [] { return true; }), machine);
+  const RigExamination seen = examine(scanEvidence(input, true, [] { return true; }), harvesterSettings().crop);
   EXPECT_TRUE(input.takeWarnings().empty()) << "nothing is damaged";
   ASSERT_EQ(seen.lidars.size(), 2u);
   for (const LidarExamination& lidar : seen.lidars)
