@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 namespace scanloom::assumed_ouster_unittest
 {
 namespace
@@ -24,9 +22,7 @@ struct RealUnit
   const char* model;
 };
 
-class AssumedTables : public testing::TestWithParam<RealUnit>
-{
-};
+using AssumedTables = testing::TestWithParam<RealUnit>;
 
 TEST_P(AssumedTables, areWithinOneAndAHalfDegreesOfARealUnits)
 {

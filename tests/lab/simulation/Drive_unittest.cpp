@@ -2,15 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include "support/with.h"
+
 namespace scanloom::drive_unittest
 {
 namespace
 {
 Drive windingDrive(const DriveOptions& options = {})
 {
-  BodyMotionOptions body;
-  body.sway_deg = 3;
-  return {Route(options, {}, 1), options, body, Ground(GroundOptions{})};
+  return {Route(options, {}, 1), options, with(&BodyMotionOptions::sway_deg, 3), Ground(GroundOptions{})};
 }
 
 /** An hour of short stops along a curve. */
@@ -20,13 +20,8 @@ Drive workDay()
   options.route = "work";
   options.duration = 3600;
   options.speed_up = 1;
-  WorkCycleOptions work;
-  work.work_min = 4;
-  work.work_max = 12;
-  BodyMotionOptions body;
-  body.sway_deg = 3;
-  body.sway_rate = 1.5;
-  return {Route(options, work, 1), options, body, Ground(GroundOptions{})};
+  return {Route(options, with(&WorkCycleOptions::work_min, 4, with(&WorkCycleOptions::work_max, 12)), 1), options,
+          with(&BodyMotionOptions::sway_deg, 3, with(&BodyMotionOptions::sway_rate, 1.5)), Ground(GroundOptions{})};
 }
 
 /** With low frequencies: differences of the step below are exact enough. */

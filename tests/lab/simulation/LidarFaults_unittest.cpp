@@ -3,6 +3,7 @@
 #include "input/rig/Extrinsics.h"
 #include "lab/simulation/internal/ScenePackets.h"
 #include "support/SceneInput.h"
+#include "support/with.h"
 
 #include <gmock/gmock.h>
 
@@ -41,9 +42,7 @@ struct Received
 Received batched(const SimulationSettings& settings)
 {
   const auto scene = std::make_shared<const Scene>(makeScene(settings, 1));
-  BatcherOptions batcher;
-  batcher.deadline_ms = 50;
-  const auto input = makeSceneInput(scene, rigOf(*scene, batcher));
+  const auto input = makeSceneInput(scene, rigOf(*scene, with(&BatcherOptions::deadline_ms, 50)));
   Received received;
   while (auto event = input->next())
     if (auto* scan = std::get_if<Scan>(&*event)) received.scans.push_back(std::move(*scan));

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <functional>
 #include <future>
-#include <map>
 #include <optional>
 #include <thread>
 
@@ -18,6 +17,7 @@
 #include "support/FakeSensor.h"
 #include "support/TemporaryFolder.h"
 #include "support/UdpSender.h"
+#include "support/with.h"
 
 namespace scanloom::live_from_sensors_unittest
 {
@@ -74,13 +74,7 @@ class TwoSensors : public testing::Test
     return makeRig(readRigSettings(configuration, "rig"));
   }
 
-  StreamOptions together() const
-  {
-    StreamOptions options;
-    options.start = start_;
-    options.origin = kEpoch;
-    return options;
-  }
+  StreamOptions together() const { return with(&StreamOptions::start, start_, with(&StreamOptions::origin, kEpoch)); }
 
   /** Until both have sent all; what waits is taken meanwhile, as a recorder does. */
   std::vector<Scan> readAll(RigLive& live)

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "mantle.h"
+#include "support/with.h"
 
 namespace scanloom::moving_objects_unittest
 {
@@ -16,9 +17,7 @@ Drive workDay()
   options.route = "work";
   options.duration = 900;
   options.speed_up = 1;
-  WorkCycleOptions work;
-  work.work_max = 60;
-  return {Route(options, work, 1), options, {}, Ground(GroundOptions{})};
+  return {Route(options, with(&WorkCycleOptions::work_max, 60), 1), options, {}, Ground(GroundOptions{})};
 }
 
 TEST(MovingObjects, passTheMachineAtTheSpeedAndTheDistanceThatWereGiven)

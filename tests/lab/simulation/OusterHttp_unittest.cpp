@@ -15,6 +15,7 @@
 #include "support/FakeSensor.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/with.h"
 
 namespace scanloom::ouster_http_unittest
 {
@@ -90,9 +91,7 @@ TEST(OusterHttp, readsEveryRealSensorFromFirmware20OnByNewAndOldEndpoints)
       if (!contains(text, "image_rev")) continue;  // no sensor's own metadata: digests, reduced files
       for (const bool old : {false, true})
       {
-        FakeSensorOptions options;
-        options.old_endpoints = old;
-        FakeSensor sensor(text, options);
+        FakeSensor sensor(text, with(&FakeSensorOptions::old_endpoints, old));
         sensor.setStatus("RUNNING");  // two files were saved while the sensor started
         if (contains(text, "aries-v1."))
         {
@@ -110,9 +109,7 @@ TEST(OusterHttp, readsEveryRealSensorFromFirmware20OnByNewAndOldEndpoints)
 
 TEST(OusterHttp, configurationIsAskedForWhereTheMetadataHaveNone)
 {
-  FakeSensorOptions options;
-  options.old_endpoints = true;
-  const FakeSensor sensor(someMetadata(), options);
+  const FakeSensor sensor(someMetadata(), with(&FakeSensorOptions::old_endpoints, true));
   EXPECT_EQ(parseOusterMetadata(metadataOf(sensor), "metadata").lidar_port, 7502);
   const auto requests = sensor.requests();
   EXPECT_EQ(std::count(requests.begin(), requests.end(), "GET /api/v1/sensor/cmd/get_config_param?args=active"), 1);
@@ -122,9 +119,7 @@ TEST(OusterHttp, askingNeverWritesToASensor)
 {
   for (const bool old : {false, true})
   {
-    FakeSensorOptions options;
-    options.old_endpoints = old;
-    const FakeSensor sensor(someMetadata(), options);
+    const FakeSensor sensor(someMetadata(), with(&FakeSensorOptions::old_endpoints, old));
     const std::string before = sensor.metadata();
     metadataOf(sensor);
     EXPECT_EQ(sensor.metadata(), before);
@@ -138,9 +133,7 @@ TEST(OusterHttp, setsTheDestinationOnceByNewAndOldEndpoints)
   const IpAddress here = IpAddress::parse("127.0.0.1");
   for (const bool old : {false, true})
   {
-    FakeSensorOptions options;
-    options.old_endpoints = old;
-    const FakeSensor sensor(someMetadata(), options);
+    const FakeSensor sensor(someMetadata(), with(&FakeSensorOptions::old_endpoints, old));
     SensorHttp http(addressOf(sensor), {});
     EXPECT_TRUE(setOusterDestination(http, here));
     const OusterMetadata after = parseOusterMetadata(sensor.metadata(), "metadata");
@@ -161,9 +154,7 @@ struct FaultCase
 };
 void PrintTo(const FaultCase& row, std::ostream* out) { *out << row.said; }
 
-class SensorFaults : public testing::TestWithParam<FaultCase>
-{
-};
+using SensorFaults = testing::TestWithParam<FaultCase>;
 
 TEST_P(SensorFaults, areToldInTimeWithAddressEndpointAndCause)
 {
@@ -217,9 +208,7 @@ TEST(OusterHttp, anAddressThatSwallowsPacketsTakesNoLongerThanTheLimit)
 
 TEST(OusterHttp, aSensorThatStartsIsRefusedUntilItRuns)
 {
-  FakeSensorOptions options;
-  options.initialising = 300ms;
-  FakeSensor sensor(someMetadata(), options);
+  FakeSensor sensor(someMetadata(), with(&FakeSensorOptions::initialising, 300ms));
   sensor.restart(4712);
   const Failure failure = failureOf(addressOf(sensor));
   EXPECT_EQ(failure.fault, SensorFault::NotRunning);

@@ -1,5 +1,6 @@
 #include "lab/simulation/internal/Precipitation.h"
 #include "lab/simulation/internal/Receiver.h"
+#include "support/with.h"
 
 #include <gtest/gtest.h>
 
@@ -13,10 +14,7 @@ constexpr double kReflectivity = 0.02, kAperture = 0.005;
 
 RangingOptions ofOs0()
 {
-  RangingOptions options;
-  options.range_at_ten_percent = 35;
-  options.least_range = 0.3;
-  return options;
+  return with(&RangingOptions::range_at_ten_percent, 35, with(&RangingOptions::least_range, 0.3));
 }
 
 double declineOfRain(double mm_per_hour) { return 4.1 * std::pow(mm_per_hour, -0.21); }
@@ -135,13 +133,11 @@ TEST(Precipitation, isReceivedWhereItIsStrongerThanTheSurfaceBehind)
 
 TEST(Precipitation, weakensTheSignalOfASurface)
 {
-  PrecipitationOptions heavy;
-  heavy.snow = 10;
   RangingOptions options = ofOs0();
   options.shade = 0;
   Random random(6, RandomStream::Lidar, 0);
   const Luck luck(random);
-  const Receiver dry(options, "OS0", 0), wet(options, "OS0", 0, heavy);
+  const Receiver dry(options, "OS0", 0), wet(options, "OS0", 0, with(&PrecipitationOptions::snow, 10));
   const double ratio = static_cast<double>(wet.receive({wallAt(15), luck}).reading.first.signal) /
                        dry.receive({wallAt(15), luck}).reading.first.signal;
   EXPECT_NEAR(ratio, wet.precipitation().transmission(15), 0.01);

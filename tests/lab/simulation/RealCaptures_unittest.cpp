@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <ostream>
 #include <set>
 
@@ -173,9 +172,7 @@ struct CaptureCase
 };
 void PrintTo(const CaptureCase& row, std::ostream* out) { *out << row.capture; }
 
-class SimulatedPackets : public testing::TestWithParam<CaptureCase>
-{
-};
+using SimulatedPackets = testing::TestWithParam<CaptureCase>;
 
 TEST_P(SimulatedPackets, meanWhatTheSensorsOwnPacketsMean)
 {

@@ -11,7 +11,7 @@
 #include "support/TemporaryFolder.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <tbb/global_control.h>
 #include <nlohmann/json.hpp>
 
@@ -19,6 +19,7 @@
 #include <map>
 
 #include "mantle.h"
+#include "support/messageOf.h"
 
 namespace scanloom::recording_folder_unittest
 {
@@ -272,15 +273,7 @@ TEST(Scene, namesTheOptionThatCannotBe)
 {
   SimulationSettings settings = shortDrive();
   settings.lidars[1].pose = "1 2 3";
-  try
-  {
-    makeScene(settings, 1);
-    FAIL() << "a pose of three numbers was taken";
-  }
-  catch (const std::invalid_argument& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("lidar2_pose"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(messageOf<std::invalid_argument>([&] { makeScene(settings, 1); }), testing::HasSubstr("lidar2_pose"));
   settings = shortDrive();
   settings.lidars[0].mode = "512x11";
   EXPECT_THROW(makeScene(settings, 1), std::invalid_argument);

@@ -15,6 +15,7 @@
 #include "support/FakeSensor.h"
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
+#include "support/with.h"
 
 namespace scanloom::rig_from_sensors_unittest
 {
@@ -95,9 +96,8 @@ TEST(RigFromSensors, knowsTheSameAsARigFromFiles)
 
 TEST(RigFromSensors, startsWithin2SecondsWithoutThoseThatAreSilentOrStart)
 {
-  FakeSensorOptions slow;
-  slow.initialising = 1h;
-  FakeSensor good(someMetadata()), silent(someMetadata()), late(someMetadata()), starting(someMetadata(), slow);
+  FakeSensor good(someMetadata()), silent(someMetadata()), late(someMetadata()),
+      starting(someMetadata(), with(&FakeSensorOptions::initialising, 1h));
   silent.set(FakeFault::Silence);
   late.set(FakeFault::Delay);
   starting.restart(4712);
@@ -164,9 +164,7 @@ TEST(RigFromSensors, writesToNoSensorBeforeItIsLive)
 
 TEST(SensorInquiries, configureASensorOnceAndAskItWhenItHasStartedAnew)
 {
-  FakeSensorOptions options;
-  options.initialising = 300ms;
-  const FakeSensor sensor(someMetadata(), options);
+  const FakeSensor sensor(someMetadata(), with(&FakeSensorOptions::initialising, 300ms));
   SensorInquiries inquiries;
   inquiries.ask(0, {addressOf(sensor), true});
   const auto answers = waitForAnswer(inquiries);

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <stdexcept>
+
+#include "support/messageOf.h"
+#include "support/with.h"
 
 namespace scanloom::route_unittest
 {
@@ -20,22 +22,12 @@ DriveOptions hourOfWork()
 
 std::string problemOf(const DriveOptions& drive, const WorkCycleOptions& work)
 {
-  try
-  {
-    Route(drive, work, 1);
-    return "";
-  }
-  catch (const std::invalid_argument& error)
-  {
-    return error.what();
-  }
+  return messageOf<std::invalid_argument>([&] { Route(drive, work, 1); });
 }
 
 TEST(Route, repeatsStepsAndStopsWithinTheBoundsThatWereGiven)
 {
-  WorkCycleOptions work;
-  work.turn_after = 0;
-  const Route route(hourOfWork(), work, 3);
+  const Route route(hourOfWork(), with(&WorkCycleOptions::turn_after, 0), 3);
 
   double left = 0, last_end = 2.5;
   int stops = 0;
@@ -96,9 +88,7 @@ TEST(Route, namesTheOptionsThatCannotBeTogether)
   drive = hourOfWork();
   drive.speed_up = 2;
   EXPECT_NE(problemOf(drive, {}).find("speed_up = 2 s"), std::string::npos);
-  WorkCycleOptions work;
-  work.work_min = 200;
-  EXPECT_NE(problemOf(hourOfWork(), work).find("work_min = 200"), std::string::npos);
+  EXPECT_NE(problemOf(hourOfWork(), with(&WorkCycleOptions::work_min, 200)).find("work_min = 200"), std::string::npos);
   drive.route = "home";
   EXPECT_NE(problemOf(drive, {}).find("'home'"), std::string::npos);
 }

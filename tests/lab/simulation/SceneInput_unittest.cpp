@@ -3,8 +3,8 @@
 #include "input/rig/internal/RigReplay.h"
 #include "lab/simulation/RecordingFolder.h"
 #include "support/TemporaryFolder.h"
+#include "support/recordedRig.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace scanloom::scene_input_unittest
@@ -39,14 +39,7 @@ TEST(SceneInput, givesTheEventsOfTheWrittenRecordingToTheBit)
   const TemporaryFolder folder;
   const auto scene = std::make_shared<const Scene>(makeScene(shortDrive(), 5));
   writeRecording(*scene, folder.path(), [](double) {});
-  const std::string path = folder.path().string();
-  const Configuration configuration = Configuration::fromText(
-      fmt::format("[rig]\ndriver = CMultiLidarSensor\nprocess_rate = 100\npcap_input = {0}/recording.pcap\n"
-                  "extrinsics = {0}/extrinsics.txt\nimu_csv = {0}/imu.csv\nlidar1_name = left\n"
-                  "lidar1_metadata = {0}/left.json\nlidar2_name = right\nlidar2_metadata = {0}/right.json\n",
-                  path),
-      "x.ini");
-  const RigSettings settings = readRigSettings(configuration, "rig");
+  const RigSettings settings = recordedRigSettings(folder.path());
   RigReplay written(makeRig(settings));
   const auto direct = makeSceneInput(scene, rigOf(*scene, settings.batcher));
 

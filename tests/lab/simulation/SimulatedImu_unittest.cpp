@@ -1,6 +1,7 @@
 #include "lab/simulation/internal/SimulatedImu.h"
 
 #include "estimation/imu/Preintegration.h"
+#include "support/with.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,9 +12,7 @@ namespace
 {
 Drive windingDrive(const DriveOptions& options = {}, const GroundOptions& ground = {})
 {
-  BodyMotionOptions body;
-  body.sway_deg = 3;
-  return {Route(options, {}, 1), options, body, Ground(ground)};
+  return {Route(options, {}, 1), options, with(&BodyMotionOptions::sway_deg, 3), Ground(ground)};
 }
 
 TEST(SimulatedImu, measuresGravityAtRestWhereverItSits)

@@ -1,9 +1,12 @@
 #include "lab/simulation/internal/Stand.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "support/messageOf.h"
+#include "support/with.h"
 
 namespace scanloom::stand_unittest
 {
@@ -16,13 +19,7 @@ std::vector<Eigen::Vector2d> straightPath(double from, double to)
   return path;
 }
 
-StandOptions denseStand()
-{
-  StandOptions options;
-  options.stems_per_hectare = 4000;
-  options.spacing = 0.5;
-  return options;
-}
+StandOptions denseStand() { return with(&StandOptions::stems_per_hectare, 4000, with(&StandOptions::spacing, 0.5)); }
 
 Stand grow(const StandOptions& options, const TreeOptions& trees = {}, double to = 200, std::uint64_t seed = 1)
 {
@@ -117,11 +114,9 @@ TEST(Stand, leavesStumpsWhereTheLaneFells)
 
 TEST(Stand, hasTheDiametersThatWereAskedFor)
 {
-  TreeOptions trees;
-  trees.diameter = 0.07;
-  trees.diameter_spread = 0.04;
   std::vector<double> diameters;
-  for (const Stem& stem : grow(denseStand(), trees).stems)
+  for (const Stem& stem :
+       grow(denseStand(), with(&TreeOptions::diameter, 0.07, with(&TreeOptions::diameter_spread, 0.04))).stems)
   {
     diameters.push_back(stem.diameter);
     const Eigen::Vector3d breast = stem.foot + 1.3 * stem.axis;
@@ -182,15 +177,8 @@ TEST(Stand, refusesMoreStemsThanTheirSpacingAllows)
 {
   StandOptions options = denseStand();
   options.spacing = 1.5;
-  try
-  {
-    grow(options);
-    FAIL() << "4000 stems on a hectare stand no 1.5 m apart";
-  }
-  catch (const std::invalid_argument& error)
-  {
-    EXPECT_NE(std::string(error.what()).find("[simulated_stand] spacing = 1.5 m"), std::string::npos) << error.what();
-  }
+  EXPECT_THAT(messageOf<std::invalid_argument>([&] { grow(options); }),
+              testing::HasSubstr("[simulated_stand] spacing = 1.5 m"));
 }
 }  // namespace
 }  // namespace scanloom::stand_unittest

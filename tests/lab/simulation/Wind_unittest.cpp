@@ -1,6 +1,7 @@
 #include "lab/simulation/internal/Wind.h"
 #include "lab/simulation/internal/World.h"
 #include "lab/simulation/mantle.h"
+#include "support/with.h"
 
 #include <gtest/gtest.h>
 
@@ -13,13 +14,7 @@ namespace
 {
 constexpr double kTree = 19, kTrunk = 0.2;  // m: height and diameter
 
-WindOptions windOf(double speed)
-{
-  WindOptions options;
-  options.speed = speed;
-  options.direction_deg = 0;
-  return options;
-}
+WindOptions windOf(double speed) { return with(&WindOptions::speed, speed, with(&WindOptions::direction_deg, 0)); }
 
 ForestOptions forestIn(const WindOptions& wind)
 {
