@@ -7,7 +7,6 @@
 
 #include <set>
 #include <string>
-#include <vector>
 
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"

@@ -63,9 +63,7 @@ std::size_t scansInReplayOf(const Recorder& recorder)
 }
 }  // namespace
 
-class RecordLive : public testing::TestWithParam<int>
-{
-};
+using RecordLive = testing::TestWithParam<int>;
 INSTANTIATE_TEST_SUITE_P(Signals, RecordLive, testing::Values(SIGINT, SIGTERM));
 
 TEST_P(RecordLive, savesEverythingWhenItIsInterruptedAndSaysSo)

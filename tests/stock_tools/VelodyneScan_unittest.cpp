@@ -44,9 +44,7 @@ std::vector<Eigen::Vector3f> decodedByMrpt(const std::vector<std::vector<std::ui
 }
 }  // namespace
 
-class VelodyneScan : public testing::TestWithParam<Recording>
-{
-};
+using VelodyneScan = testing::TestWithParam<Recording>;
 INSTANTIATE_TEST_SUITE_P(
     Models, VelodyneScan,
     testing::Values(Recording{"vlp16", "VLP16", "Kitware+VeloView/Testing/Data/vlp-16-test-90deg-1-50-frames.pcap"},
