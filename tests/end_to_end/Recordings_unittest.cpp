@@ -12,22 +12,12 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 #include "support/harvesterSettings.h"
+#include "support/recordedRig.h"
 
 namespace scanloom::recordings_unittest
 {
 namespace
 {
-Rig rigOf(const std::filesystem::path& recording, const std::vector<std::string>& only = {})
-{
-  const std::string folder = recording.string();
-  const Configuration configuration = Configuration::fromText(
-      "[rig]\ndriver = CMultiLidarSensor\npcap_input = " + folder + "/recording.pcap\nextrinsics = " + folder +
-          "/extrinsics.txt\nimu_csv = " + folder + "/imu.csv\nlidar1_name = left\nlidar1_metadata = " + folder +
-          "/left.json\nlidar2_name = right\nlidar2_metadata = " + folder + "/right.json\n",
-      "test.ini");
-  return makeRig(readRigSettings(configuration, "rig"), only);
-}
-
 RunSummary localise(SensorInput& input, const std::filesystem::path& folder,
                     const SlamSettings& settings = harvesterSettings())
 {
@@ -54,7 +44,7 @@ void expectDrift(const std::filesystem::path& recording, const std::vector<std::
   const TemporaryFolder folder;
   SlamSettings settings = harvesterSettings();
   settings.slam.every_nth = every_nth;
-  const auto input = openRig(rigOf(recording, lidars));
+  const auto input = openRig(makeRig(recordedRigSettings(recording), lidars));
   localise(*input, folder.path(), settings);
   const double error = largestError(folder.path(), recording);
   testing::Test::RecordProperty("largest_error_m", std::to_string(error));
@@ -90,8 +80,8 @@ TEST(Recordings, everyScanGetsAPoseAtItsEndAndASecondRunGivesTheSameBytes)
 {
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
   const TemporaryFolder first, second;
-  const RunSummary summary = localise(*openRig(rigOf(recording)), first.path());
-  localise(*openRig(rigOf(recording)), second.path());
+  const RunSummary summary = localise(*openRig(makeRig(recordedRigSettings(recording))), first.path());
+  localise(*openRig(makeRig(recordedRigSettings(recording))), second.path());
 
   const Trajectory trajectory = readTum(first / "trajectory.tum");
   EXPECT_EQ(trajectory.size(), summary.counts.at("scans"));
@@ -105,7 +95,7 @@ TEST(Recordings, aRawlogGivesThePosesOfItsCaptureWithinAMillimetre)
 {
   SCANLOOM_NEEDS_DATA(recording, "recordings/sparse");
   const TemporaryFolder folder;
-  const Rig rig = rigOf(recording);
+  const Rig rig = makeRig(recordedRigSettings(recording));
   RawlogWriter writer(folder / "dual.rawlog", recordingHeader(rig), {});
   RigReplay replay(rig);
   while (const auto event = replay.next()) writer.write(*toObservation(*event, replay.setup(), DriverOptions{}));

@@ -7,6 +7,7 @@
 #include "support/TemporaryFolder.h"
 #include "support/TestData.h"
 #include "support/harvesterSettings.h"
+#include "support/recordedRig.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
@@ -44,15 +45,10 @@ std::string metadataOf(const std::filesystem::path& recording, const std::string
 
 Rig rigOf(const std::filesystem::path& recording, const WrongRig& wrong, const TemporaryFolder& folder)
 {
-  const std::string source = recording.string(), metadata = (folder / "left.json").string();
-  std::ofstream(metadata) << metadataOf(recording, wrong.beams);
-  return makeRig(readRigSettings(
-      Configuration::fromText("[rig]\ndriver = CMultiLidarSensor\npcap_input = " + source +
-                                  "/recording.pcap\nextrinsics = " + source + "/extrinsics.txt\nimu_csv = " + source +
-                                  "/imu.csv\nlidar1_name = left\nlidar1_metadata = " + metadata + "\nlidar1_pose = [" +
-                                  wrong.pose + "]\nlidar2_name = right\nlidar2_metadata = " + source + "/right.json\n",
-                              "test.ini"),
-      "rig"));
+  RigSettings settings = recordedRigSettings(recording, std::string("lidar1_pose = [") + wrong.pose + "]\n");
+  settings.lidars[0].metadata = (folder / "left.json").string();
+  std::ofstream(settings.lidars[0].metadata) << metadataOf(recording, wrong.beams);
+  return makeRig(settings);
 }
 
 struct Told
@@ -74,9 +70,7 @@ Told localise(SensorInput& input, const std::filesystem::path& folder)
 }
 }  // namespace
 
-class WrongRigs : public testing::TestWithParam<std::tuple<const char*, WrongRig>>
-{
-};
+using WrongRigs = testing::TestWithParam<std::tuple<const char*, WrongRig>>;
 
 TEST_P(WrongRigs, areNamedAndTheImuIsNotBlamed)
 {
