@@ -1,10 +1,11 @@
 /** The smoother on an IMU that a stranger's generator made: frames, signs, gravity and noise are not ours. */
 #include "base/core/Angle.h"
+#include "base/formats/ImuCsv.h"
+#include "base/formats/Trajectory.h"
 #include "estimation/graph/FixedLagSmoother.h"
 #include "estimation/imu/AnalyticDrive.h"
 #include "estimation/imu/ImuBuffer.h"
 #include "estimation/imu/ImuInitialisation.h"
-#include "estimation/imu/readImuCsv.h"
 #include "support/TestData.h"
 
 #include <gtest/gtest.h>
@@ -21,28 +22,6 @@ const Rigid kBodyFromRealImu =
 const Eigen::Vector3d kGyroBias{-1.7242e-4, -1.268e-5, 7.3215e-4};
 const Eigen::Vector3d kAccelBias{-1.516e-3, -7.99e-4, 2.566e-3};
 
-struct TruePose
-{
-  Timestamp stamp;
-  Rigid world_T_body;
-};
-
-std::vector<TruePose> readTum(const std::string& file)
-{
-  std::ifstream in(file);
-  std::vector<TruePose> poses;
-  for (std::string line; std::getline(in, line);)
-  {
-    long long s = 0, ns = 0;
-    Eigen::Vector3d p;
-    Eigen::Quaterniond q;
-    if (std::sscanf(line.c_str(), "%lld.%9lld %lf %lf %lf %lf %lf %lf %lf", &s, &ns, &p.x(), &p.y(), &p.z(), &q.x(),
-                    &q.y(), &q.z(), &q.w()) == 9)
-      poses.push_back({fromNanoseconds(s * 1000000000 + ns), {q.normalized(), p}});
-  }
-  return poses;
-}
-
 struct Outcomes
 {
   NavState last;
@@ -54,18 +33,11 @@ struct Outcomes
 Outcomes runOn(const std::filesystem::path& recording, Duration period)
 {
   ImuBuffer imu;
-  for (const ImuSample& s : readImuCsv(recording / "imu.csv")) imu.add(s);
-  const std::vector<TruePose> truth = readTum(recording / "groundtruth.tum");
+  for (const ImuSample& s : readImuCsv(recording / "imu.csv").readings.samples) imu.add(s);
+  const Trajectory truth = readTum(recording / "groundtruth.tum");
   const Timestamp start = imu.samples().front().stamp + 2500ms;
-  const auto poseAt = [&](Timestamp stamp)
-  {
-    const auto after = std::find_if(truth.begin(), truth.end(), [&](const TruePose& p) { return p.stamp >= stamp; });
-    const TruePose &a = *std::prev(after), &b = *after;
-    return interpolate(a.world_T_body, b.world_T_body, seconds(stamp - a.stamp) / seconds(b.stamp - a.stamp));
-  };
-
   NavEstimate first = *initialiseAtRest(imu.between(start - 2100ms, start), kBodyFromRealImu, {});
-  const Rigid at_start = poseAt(start);
+  const Rigid at_start = poseAt(truth, start).value();
   const Rigid map_T_world = Rigid::fromXyzYawPitchRoll(0, 0, 0, -at_start.yawPitchRoll().x(), 0, 0) *
                             Rigid{Eigen::Quaterniond::Identity(), -at_start.translation};
 
@@ -78,7 +50,7 @@ Outcomes runOn(const std::filesystem::path& recording, Duration period)
   Outcomes out;
   for (Timestamp t = start + period; t < truth.back().stamp && t < imu.samples().back().stamp; t += period)
   {
-    const Rigid map_T_body = map_T_world * poseAt(t);
+    const Rigid map_T_body = map_T_world * poseAt(truth, t).value();
     const auto errorNow = [&]
     { return boxMinus(smoother.newest().map_T_imu * kBodyFromRealImu.inverse(), map_T_body); };
 

@@ -3,6 +3,7 @@
 #include "base/core/Decompositions.h"
 #include "estimation/graph/PosePriorFactor.h"
 #include "estimation/graph/SimulatedDrive.h"
+#include "support/with.h"
 
 #include <gtest/gtest.h>
 
@@ -391,9 +392,7 @@ TEST(FixedLagSmoother, resistsAnOutlier)
   const SimulatedDrive drive = simulate(kDrive, 20, 100ms, noise, 9);
   const auto errorWith = [&](double huber)
   {
-    SmootherOptions options;
-    options.huber = huber;
-    FixedLagSmoother smoother = smootherFor(drive, noise, options);
+    FixedLagSmoother smoother = smootherFor(drive, noise, with(&SmootherOptions::huber, huber));
     for (std::size_t k = 1; k < drive.truth.size(); ++k)
     {
       smoother.addState(drive.motions[k - 1]);

@@ -6,7 +6,6 @@ namespace scanloom::pose_prior_factor_unittest
 {
 namespace
 {
-const Rigid kBodyFromImu = Rigid::fromXyzYawPitchRoll(0.15, -0.3, 2.85, 1.5, 0.1, -0.2);
 const NavState kState = AnalyticDrive{}.stateAt(Timestamp{2s});
 
 Rigid bodyOf(const NavState& state) { return state.map_T_imu * kBodyFromImu.inverse(); }

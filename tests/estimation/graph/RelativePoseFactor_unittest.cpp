@@ -7,7 +7,6 @@ namespace scanloom::relative_pose_factor_unittest
 {
 namespace
 {
-const Rigid kBodyFromImu = Rigid::fromXyzYawPitchRoll(0.15, -0.3, 2.85, 1.5, 0.1, -0.2);
 const NavState kReference = AnalyticDrive{}.stateAt(Timestamp{2s});
 const NavState kState = AnalyticDrive{}.stateAt(Timestamp{3s});
 

@@ -25,8 +25,6 @@ struct DriveNoise
   double share = 1;          // all errors drawn are multiplied by it
 };
 
-inline const Rigid kBodyFromImu = Rigid::fromXyzYawPitchRoll(0.15, -0.3, 2.85, 1.5, 0.1, -0.2);
-
 inline SimulatedDrive simulate(const AnalyticDrive& drive, int scans, Duration period, const DriveNoise& noise,
                                unsigned seed)
 {

@@ -1,6 +1,7 @@
 /** A drive in closed form: position and attitude are sums of sines, so that what an IMU reads on it is exact. */
 #pragma once
 #include "base/core/ImuSample.h"
+#include "base/core/So3.h"
 #include "estimation/imu/NavState.h"
 
 #include <random>
@@ -20,6 +21,19 @@ struct Sine
     return -amplitude * frequency * frequency * std::sin(frequency * t + phase);
   }
 };
+
+/** An IMU in a body. */
+inline const Rigid kBodyFromImu = Rigid::fromXyzYawPitchRoll(0.15, -0.3, 2.85, 1.5, 0.1, -0.2);
+
+/** What an ideal IMU reads whose poses these are, by their differences. */
+template <typename PoseAt>
+ImuSample sampleByDifferences(const PoseAt& map_T_imu, Timestamp t)
+{
+  const Rigid before = map_T_imu(t - 1ms), now = map_T_imu(t), after = map_T_imu(t + 1ms);
+  const Eigen::Vector3d acceleration = (before.translation - 2 * now.translation + after.translation) / 1e-6;
+  return {t, logSo3(before.rotation.conjugate() * after.rotation) / 0.002,
+          now.rotation.conjugate() * (acceleration - gravityInMap())};
+}
 
 /** A vehicle that weaves, rolls and pitches; the IMU stands in the frame that moves. */
 struct AnalyticDrive

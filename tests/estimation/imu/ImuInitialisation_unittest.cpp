@@ -2,8 +2,8 @@
 
 #include "base/core/Angle.h"
 #include "base/core/Decompositions.h"
+#include "base/formats/ImuCsv.h"
 #include "estimation/imu/AnalyticDrive.h"
-#include "estimation/imu/readImuCsv.h"
 #include "support/TestData.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +12,6 @@ namespace scanloom::imu_initialisation_unittest
 {
 namespace
 {
-const Rigid kBodyFromImu = Rigid::fromXyzYawPitchRoll(0.15, -0.3, 2.85, 1.5, 0.1, -0.2);
-
 /** 200 Hz readings of a body that stands still; `vibration` (m/s2 and deg/s) is a 4-cylinder engine's 26 Hz. */
 std::vector<ImuSample> atRest(const Rigid& map_T_body, const ImuBias& bias, double vibration, Duration length = 2100ms)
 {
@@ -61,9 +59,7 @@ TEST(ImuInitialisation, findsTiltAndGyroBiasOfAQuietMachine)
 }
 
 /** Amplitude on the strongest axis; 1 m/s2 comes with 1 deg/s. */
-class AnEngine : public testing::TestWithParam<double>
-{
-};
+using AnEngine = testing::TestWithParam<double>;
 INSTANTIATE_TEST_SUITE_P(OfG, AnEngine, testing::Values(0.1, 0.3, 0.6, 1.5));
 
 TEST_P(AnEngine, doesNotHideAStandstill)
@@ -183,7 +179,7 @@ TEST(ImuInitialisation, withoutAnImuTheMapIsAsLevelAsTheBody)
 TEST(ImuInitialisation, tellsTheStandstillOfARecordingFromItsDrive)
 {
   SCANLOOM_NEEDS_DATA(file, "recordings/sparse/imu.csv");
-  const std::vector<ImuSample> samples = readImuCsv(file);
+  const std::vector<ImuSample> samples = readImuCsv(file).readings.samples;
   const auto start = initialiseAtRest(part(samples, 0s, 2500ms), kBodyFromImu, {});
   ASSERT_TRUE(start);
   // summary.json: the constant part of the simulated bias

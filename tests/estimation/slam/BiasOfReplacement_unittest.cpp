@@ -1,6 +1,5 @@
 #include "estimation/slam/internal/BiasOfReplacement.h"
 
-#include "base/core/So3.h"
 #include "estimation/imu/AnalyticDrive.h"
 
 #include <gtest/gtest.h>
@@ -12,16 +11,12 @@ namespace
 const Rigid kKnownTOther = Rigid::fromXyzYawPitchRoll(1.5, -2, 0.7, 2, 0.3, -0.4);
 const ImuBias kKnown{{0.01, 0.002, -0.004}, {0.1, -0.05, 0.02}}, kOther{{-0.005, 0.006, 0.003}, {-0.15, 0.1, 0.2}};
 
-/** By differences of the drive's own poses. */
 ImuSample sampleElsewhere(const AnalyticDrive& drive, Timestamp t)
 {
-  const auto at = [&](Timestamp stamp) { return drive.stateAt(stamp).map_T_imu * kKnownTOther; };
-  const Rigid before = at(t - 1ms), now = at(t), after = at(t + 1ms);
-  ImuSample sample;
-  sample.stamp = t;
-  sample.gyro = logSo3(before.rotation.conjugate() * after.rotation) / 0.002 + kOther.gyro;
-  const Eigen::Vector3d acceleration = (before.translation - 2 * now.translation + after.translation) / 1e-6;
-  sample.accel = now.rotation.conjugate() * (acceleration - gravityInMap()) + kOther.accel;
+  ImuSample sample =
+      sampleByDifferences([&](Timestamp stamp) { return drive.stateAt(stamp).map_T_imu * kKnownTOther; }, t);
+  sample.gyro += kOther.gyro;
+  sample.accel += kOther.accel;
   return sample;
 }
 
