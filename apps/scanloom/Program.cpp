@@ -5,6 +5,7 @@
 #include "base/config/MrptMessage.h"
 #include "base/config/Names.h"
 #include "base/core/ConfigError.h"
+#include "base/core/Text.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -147,17 +148,17 @@ try
 }
 catch (const ConfigError& e)
 {
-  std::cerr << e.what() << '\n';  // every line begins with its file
+  std::cerr << printableLines(e.what()) << '\n';  // every line begins with its file
   return kWrongUsage;
 }
 catch (const UsageError& e)
 {
-  std::cerr << fmt::format("scanloom {}: {}\n", name, e.what());
+  std::cerr << fmt::format("scanloom {}: {}\n", name, printableLines(e.what()));
   return kWrongUsage;
 }
 catch (const std::exception& e)
 {
-  std::cerr << fmt::format("scanloom {}: {}\n", name, messageIn(e.what()));
+  std::cerr << fmt::format("scanloom {}: {}\n", name, printableLines(messageIn(e.what())));
   return kFailed;
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include "base/core/Text.h"
+
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -7,5 +9,5 @@
 namespace scanloom
 {
 /** In a line of its own on stderr. */
-inline void warn(const std::string& text) { fmt::print(stderr, "warning: {}\n", text); }
+inline void warn(const std::string& text) { fmt::print(stderr, "warning: {}\n", printableLines(text)); }
 }  // namespace scanloom

@@ -73,6 +73,15 @@ std::string printable(const std::string& text)
   return shown;
 }
 
+std::string printableLines(const std::string& text)
+{
+  std::string shown;
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = text.find('\n', begin)) != text.npos; begin = end + 1)
+    shown += printable(text.substr(begin, end - begin)) + '\n';
+  return shown + printable(text.substr(begin));
+}
+
 std::string notAFormula(const std::string& text)
 {
   if (text.empty() || std::string("=+-@\t\r").find(text.front()) == std::string::npos) return text;

@@ -27,6 +27,9 @@ inline bool endsWith(std::string_view text, std::string_view end)
  */
 std::string printable(const std::string& text);
 
+/** The same, but lines end where they do. */
+std::string printableLines(const std::string& text);
+
 /**
  * Text for a column of CSV: after a ' where a spreadsheet would compute it, as it does what begins with = + - or @ and
  * is no number.

@@ -12,6 +12,7 @@ TEST(Printable, leavesTextOfEveryLanguageAsItIs)
 TEST(Printable, showsNothingThatATerminalObeys)
 {
   EXPECT_EQ(printable("OS\x1b[2J\x1b]0;title\x07"), "OS?[2J?]0;title?");
+  EXPECT_EQ(printableLines("a\x1b\nb\n"), "a?\nb\n");
   EXPECT_EQ(printable("a\r\nb\tc\x7f"), "a??b?c?");
   EXPECT_EQ(printable("\xc2\x9b"
                       "31m"),
