@@ -90,16 +90,17 @@ std::vector<Candidate> candidatesFrom(const std::vector<Mount>& starts, const st
   return candidates;
 }
 
-/** The best, and the next best elsewhere; the guess if there is none. */
+/** The best, and the next best elsewhere if it is nearly as good; the guess if there is none. */
 MountStart chosenFrom(const std::vector<Candidate>& best_first, const Mount& guess)
 {
   constexpr double kElsewhere = 0.3;  // m (changeInMetres): farther than refinement leaves starts of one place apart
+  constexpr double kNearlyAsGood = 0.8;
   if (best_first.empty()) return {guess, std::nullopt};
   MountStart start{best_first.front().mount, std::nullopt};
-  const auto rival = std::find_if(best_first.begin(), best_first.end(),
-                                  [&](const Candidate& candidate)
-                                  { return changeInMetres(start.mount, candidate.mount).norm() > kElsewhere; });
-  if (rival != best_first.end()) start.rival = rival->mount;
+  for (const Candidate& other : best_first)
+    if (!start.rival && other.score > kNearlyAsGood * best_first.front().score &&
+        changeInMetres(start.mount, other.mount).norm() > kElsewhere)
+      start.rival = other.mount;
   return start;
 }
 

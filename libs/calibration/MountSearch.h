@@ -17,7 +17,7 @@ enum class PoseGiven
 struct MountStart
 {
   Mount mount;
-  std::optional<Mount> rival;  // the best start elsewhere
+  std::optional<Mount> rival;  // the next best elsewhere, if it is nearly as good
 };
 
 /**
