@@ -60,12 +60,11 @@ void LidarCheck::add(const Keyframe& keyframe)
   if (keyframes_.size() == kMost) keyframes_.erase(keyframes_.begin());
   keyframes_.push_back(
       std::make_shared<const Seen>(Seen{keyframe.map_T_body, splitByLidar(keyframe.points, lidars_.size())}));
-  if (keyframes_.size() >= kFewest) scans_ = {};
 }
 
 void LidarCheck::add(const Scan& scan)
 {
-  if (keyframes_.size() >= kFewest || scan.points.empty()) return;
+  if (scan.points.empty()) return;
   if (auto* const selected = scans_.at(scans_seen_++))
     *selected = std::make_shared<const PointsByLidar>(splitByLidar(scan.points, lidars_.size()));
 }
@@ -143,31 +142,41 @@ std::vector<SeenPoints> LidarCheck::seenInScans(std::size_t lidar) const
   return seen;
 }
 
-Findings LidarCheck::compareScans() const
+Finding LidarCheck::poseByScans(std::size_t lidar) const
+{
+  if (scans_seen_ == 0) return poseFinding(lidars_[lidar].name, lidars_[0].name, std::nullopt);
+  const std::vector<SeenPoints> own = seenInScans(lidar), by_first = seenInScans(0);
+  return poseFinding(lidars_[lidar].name, lidars_[0].name,
+                     cloudAgreement(pairsOf(own, by_first), lidars_[lidar].body_T_sensor, lidars_[0].body_T_sensor));
+}
+
+Finding LidarCheck::poseByKeyframes(std::size_t lidar) const
+{
+  const std::vector<SeenPoints> own = seenBy(lidar), by_first = seenAround(0, true);
+  return poseFinding(lidars_[lidar].name, lidars_[0].name,
+                     cloudAgreement(pairsOf(own, by_first), lidars_[lidar].body_T_sensor, lidars_[0].body_T_sensor));
+}
+
+Findings LidarCheck::compareBeforeKeyframes() const
 {
   Findings findings = compareGrounds();
   if (!findings.empty() || scans_seen_ == 0) return findings;
-  const std::vector<SeenPoints> by_first = seenInScans(0);
-  for (std::size_t i = 1; i < lidars_.size(); ++i)
-    findings.push_back(poseFinding(
-        lidars_[i].name, lidars_[0].name,
-        cloudAgreement(pairsOf(seenInScans(i), by_first), lidars_[i].body_T_sensor, lidars_[0].body_T_sensor)));
+  for (std::size_t i = 1; i < lidars_.size(); ++i) findings.push_back(poseByScans(i));
   return findings;
 }
 
 Findings LidarCheck::compare() const
 {
-  if (keyframes_.size() < kFewest) return compareScans();
+  if (keyframes_.size() < kFewest) return compareBeforeKeyframes();
   Findings findings;
-  const std::vector<SeenPoints> by_first = seenAround(0, true);
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
     const auto& [name, body_T_sensor] = lidars_[i];
     const std::vector<SeenPoints> own = seenBy(i), on_the_way = seenAround(i, false);
     findings.push_back(steadinessFinding(name, sharedView(pairsOf(own, on_the_way), Rigid::identity(), body_T_sensor)));
-    if (i > 0 && findings.front().verdict <= Verdict::Ok)  // else the first lidar is no measure of the others
-      findings.push_back(poseFinding(name, lidars_[0].name,
-                                     cloudAgreement(pairsOf(own, by_first), body_T_sensor, lidars_[0].body_T_sensor)));
+    if (i == 0 || findings.front().verdict > Verdict::Ok) continue;  // the first lidar is no measure of the others
+    Finding by_keyframes = poseByKeyframes(i), by_scans = poseByScans(i);
+    findings.push_back(std::move(by_scans.verdict > by_keyframes.verdict ? by_scans : by_keyframes));
   }
   return findings;
 }

@@ -14,10 +14,11 @@ namespace scanloom
 {
 /**
  * Whether the lidars' poses in the body fit what they see, by the last eight keyframes: what each lidar sees must stay
- * in place while the machine drives, and be where the first lidar sees it at the same keyframe or its neighbours.
- * Before there are three keyframes, what the lidars see in the same scans is compared, and a lidar is named if its
- * ground is tilted and is not the ground that another lidar sees: lidars that contradict each other so much keep a run
- * from making keyframes. A ground that all see alike may be a slope. With two lidars exchanged both are named.
+ * in place while the machine drives, and be where the first lidar sees it at the same keyframe or its neighbours, and
+ * in the same scans, up to twelve from the whole drive as `doctor` takes them: where there are few keyframes these are
+ * surer. Before there are three keyframes, a lidar is also named if its ground is tilted and is not the ground that
+ * another lidar sees: lidars that contradict each other so much keep a run from making keyframes. A ground that all see
+ * alike may be a slope. With two lidars exchanged both are named.
  */
 class LidarCheck
 {
@@ -27,7 +28,7 @@ class LidarCheck
 
   void add(const Keyframe&);
 
-  /** A few scans of the drive are kept until there are three keyframes. Those of lidars in the order of time. */
+  /** In the order of time. */
   void add(const Scan&);
 
   /** In the order of the lidars; without steadiness before there are three keyframes. */
@@ -45,7 +46,9 @@ class LidarCheck
     PointsByLidar points;  // in the body frame
   };
 
-  Findings compareScans() const;
+  Findings compareBeforeKeyframes() const;
+  Finding poseByScans(std::size_t lidar) const;
+  Finding poseByKeyframes(std::size_t lidar) const;
   std::vector<SeenPoints> seenInScans(std::size_t lidar) const;
   Findings compareGrounds() const;
   std::vector<const PointCloud*> cloudsOf(std::size_t lidar) const;
