@@ -1,6 +1,7 @@
 #include "estimation/slam/internal/LocalMap.h"
 
 #include "estimation/ndt/cellAt.h"
+#include "support/with.h"
 
 #include <gtest/gtest.h>
 
@@ -40,9 +41,7 @@ TEST(LocalMap, wantsAKeyframeFirstAndThenAfterTravelOrTurn)
 
 TEST(LocalMap, keepsTheLastKeyframes)
 {
-  LocalMapOptions options;
-  options.keyframes = 3;
-  LocalMap map(options, {});
+  LocalMap map(with(&LocalMapOptions::keyframes, 3), {});
   for (int i = 0; i < 5; ++i) map.add(cube(), at(10 * i), Matrix6d::Zero());
   EXPECT_EQ(map.ndt().points(), 3u * 27u);
   EXPECT_EQ(cellAt(map.ndt(), {10, 0, 0}), nullptr);
@@ -52,9 +51,7 @@ TEST(LocalMap, keepsTheLastKeyframes)
 
 TEST(LocalMap, keepsAllWithinTheRadiusAndTakesUpThoseOfAnEarlierPass)
 {
-  LocalMapOptions options;
-  options.radius = 15;
-  LocalMap map(options, {});
+  LocalMap map(with(&LocalMapOptions::radius, 15), {});
   for (const double x : {0, 10, 20, 30}) map.add(cube(), at(x), Matrix6d::Zero());
   EXPECT_EQ(cellAt(map.ndt(), {0, 0, 0}), nullptr);
   EXPECT_EQ(map.ndt().points(), 2u * 27u);
@@ -74,9 +71,7 @@ TEST(LocalMap, keyframesThatOverlapShareCells)
 
 TEST(LocalMap, creepsByEachAlignmentWhereOneKeyframeIsTheMap)
 {
-  LocalMapOptions options;
-  options.keyframes = 1;
-  LocalMap map(options, {});
+  LocalMap map(with(&LocalMapOptions::keyframes, 1), {});
   Matrix6d alignment = Matrix6d::Zero();
   alignment.diagonal() << 1e-4, 4e-4, 0, 0, 0, 1e-6;  // m2, rad2
   EXPECT_EQ(map.add(cube(), at(0), alignment).norm(), 0) << "the first keyframe is where the map begins";

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "support/messageOf.h"
+
 namespace scanloom::require_gravity_unittest
 {
 using testing::HasSubstr;
@@ -17,15 +19,7 @@ std::vector<ImuSample> atRest(const Eigen::Vector3d& force)
 
 std::string refusalOf(const Eigen::Vector3d& force)
 {
-  try
-  {
-    requireGravity(atRest(force), {});
-  }
-  catch (const std::runtime_error& e)
-  {
-    return e.what();
-  }
-  return "";
+  return messageOf<std::runtime_error>([&] { requireGravity(atRest(force), {}); });
 }
 }  // namespace
 
