@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "support/TestData.h"
 
 namespace scanloom::capture_info_unittest
