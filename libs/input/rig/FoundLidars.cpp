@@ -4,9 +4,7 @@
 #include "input/lidar/BuiltInModels.h"
 #include "input/lidar/LidarModels.h"
 #include "input/rig/RigOptions.h"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "input/rig/internal/streamMessages.h"
 
 #include <algorithm>
 #include <functional>
@@ -66,17 +64,6 @@ Fits fitsOf(const SampledStream& stream, const std::vector<MetadataCandidate>& c
   return fits;
 }
 
-std::string whence(const SampledStream& stream)
-{
-  return stream.topic.empty() ? fmt::format("from {} to port {}", stream.source.text(), stream.port)
-                              : "on topic " + stream.topic;
-}
-
-std::string whither(const SampledStream& stream)
-{
-  return stream.topic.empty() ? fmt::format("to port {}", stream.port) : "on topic " + stream.topic;
-}
-
 /** A bag's metadata stand beside the packets that they describe. */
 bool isOfSameNameSpace(const std::filesystem::path& metadata, const SampledStream& stream)
 {
@@ -98,38 +85,6 @@ bool isNamedLike(const std::filesystem::path& metadata, const Paths& captures)
                      [&](const auto& capture) { return capture.stem().stem() == metadata.stem(); });
 }
 
-[[noreturn]] void refuseSeveral(const SampledStream& stream, const Candidates& fitting,
-                                const std::vector<MetadataCandidate>& candidates)
-{
-  std::vector<std::string> files;
-  for (const std::size_t i : fitting) files.push_back(candidates[i].file.string());
-  throw UsageError(fmt::format("the packets {} fit each of {}: name the right one, --metadata FILE", whence(stream),
-                               fmt::join(files, ", ")));
-}
-
-/** Why a candidate is no lidar of these streams. */
-std::string whyNot(const MetadataCandidate& candidate, const std::vector<SampledStream>& streams)
-{
-  if (!candidate.decoder) return candidate.fault;
-  const LidarDescription& lidar = candidate.decoder->description();
-  const std::string described =
-      fmt::format("{}: a {}{}{}", candidate.file.string(), lidar.model, lidar.serial.empty() ? "" : " ", lidar.serial);
-  for (const SampledStream& stream : streams)
-    for (const SampledStream::Packet& packet : stream.samples)
-    {
-      const PacketKind kind = candidate.decoder->kind(packet);
-      if (kind == PacketKind::Foreign)
-      {
-        const auto serial = candidate.decoder->header(packet).serial;
-        return serial ? fmt::format("{}, but packets {} are of serial number {}", described, whither(stream), *serial)
-                      : fmt::format("{}, but packets {} are of another model", described, whither(stream));
-      }
-      if (kind == PacketKind::BadCrc)
-        return fmt::format("{}, but packets {} have a wrong checksum", described, whither(stream));
-    }
-  return fmt::format("{}: no packet has the format, size or pace of its packets", described);
-}
-
 std::optional<Timestamp> firstStampIn(const SampledStream& stream, const PacketDecoder& decoder)
 {
   std::optional<Timestamp> first;
@@ -142,44 +97,6 @@ std::optional<Timestamp> firstStampIn(const SampledStream& stream, const PacketD
       if (block.valid && (!first || block.stamp < *first)) first = block.stamp;
   }
   return first;
-}
-
-std::string describe(const SampledStream& stream)
-{
-  std::set<std::size_t> sizes;
-  for (const SampledStream::Packet& packet : stream.samples) sizes.insert(packet.size());
-  const std::string bytes =
-      sizes.size() == 1 ? fmt::format("{}", *sizes.begin()) : fmt::format("{} to {}", *sizes.begin(), *sizes.rbegin());
-  return fmt::format("{} datagrams of {} bytes {}", stream.datagrams, bytes, whence(stream));
-}
-
-/** What to write for a stream whose sensor's angles the program cannot know; empty for others. */
-std::string wayOut(const SampledStream& stream)
-{
-  if (stream.samples.empty()) return "";
-  const std::vector<std::string> texts = metadataToComplete(stream.samples.front());
-  if (texts.empty()) return "";
-  return fmt::format(
-      "; their sensor has beam angles of its own: put the maker's file of them (here ANGLES.csv) beside the recording, "
-      "and a file lidar.json with {}",
-      fmt::join(texts, " or "));
-}
-
-[[noreturn]] void refuseNone(const std::vector<SampledStream>& streams,
-                             const std::vector<MetadataCandidate>& candidates, const Paths& captures)
-{
-  std::string message = fmt::format("{}: no lidar is recognised", captures.front().string());
-  std::vector<std::string> held;
-  for (const SampledStream& stream : streams) held.push_back(describe(stream));
-  message += held.empty() ? "; there is no datagram" : fmt::format("; there are {}", fmt::join(held, ", "));
-  std::string ways_out;
-  for (const SampledStream& stream : streams) ways_out += wayOut(stream);
-  for (const MetadataCandidate& candidate : candidates) message += "\n  " + whyNot(candidate, streams);
-  if (candidates.empty() && ways_out.empty())
-    ways_out =
-        "; Velodyne, Hesai and Robosense are read, and Ouster: it needs its metadata (JSON) beside the capture, or "
-        "--metadata FILE";
-  throw UsageError(message + ways_out);
 }
 
 class Search
@@ -314,19 +231,6 @@ void addBuiltInModels(const std::vector<SampledStream>& streams, std::vector<Met
   for (MetadataCandidate& candidate : candidatesFrom(models)) candidates.push_back(std::move(candidate));
 }
 
-/** The file that describes packets for the stream's port, but not these; empty if there is none. */
-std::string otherDescription(const SampledStream& stream, const std::vector<MetadataCandidate>& unheard)
-{
-  const auto names_port = [&](const MetadataCandidate& candidate)
-  { return stream.port != 0 && candidate.decoder->description().lidar_port == stream.port; };
-  const auto found = std::find_if(unheard.begin(), unheard.end(), names_port);
-  if (found == unheard.end()) return "";
-  return fmt::format(
-      "; {} describes packets to this port, but of another size or format (Ouster: udp_profile_lidar): "
-      "fetch the sensor's metadata again",
-      found->file.string());
-}
-
 /** Its measurements, or what else its sensor sends: positions, state. */
 bool isOfALidar(const SampledStream& stream, const std::vector<FoundLidar>& lidars,
                 const std::vector<MetadataCandidate>& candidates)
@@ -404,8 +308,7 @@ LidarsFound findLidars(const std::vector<SampledStream>& streams, std::vector<Me
     if (stream.datagrams >= kWorthANote && !isOfALidar(stream, found.lidars, candidates))
     {
       found.left_streams_out = true;
-      found.notes.push_back(fmt::format("{} are of no lidar with known metadata: left out{}{}", describe(stream),
-                                        wayOut(stream), otherDescription(stream, found.unheard)));
+      found.notes.push_back(leftOut(stream, found.unheard));
     }
   std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(found.faulty),
                [](const MetadataCandidate& candidate) { return !candidate.decoder; });
