@@ -142,17 +142,9 @@ std::vector<SeenPoints> LidarCheck::seenInScans(std::size_t lidar) const
   return seen;
 }
 
-Finding LidarCheck::poseByScans(std::size_t lidar) const
+Finding LidarCheck::poseBy(std::size_t lidar, const std::vector<SeenPoints>& own,
+                           const std::vector<SeenPoints>& by_first) const
 {
-  if (scans_seen_ == 0) return poseFinding(lidars_[lidar].name, lidars_[0].name, std::nullopt);
-  const std::vector<SeenPoints> own = seenInScans(lidar), by_first = seenInScans(0);
-  return poseFinding(lidars_[lidar].name, lidars_[0].name,
-                     cloudAgreement(pairsOf(own, by_first), lidars_[lidar].body_T_sensor, lidars_[0].body_T_sensor));
-}
-
-Finding LidarCheck::poseByKeyframes(std::size_t lidar) const
-{
-  const std::vector<SeenPoints> own = seenBy(lidar), by_first = seenAround(0, true);
   return poseFinding(lidars_[lidar].name, lidars_[0].name,
                      cloudAgreement(pairsOf(own, by_first), lidars_[lidar].body_T_sensor, lidars_[0].body_T_sensor));
 }
@@ -161,7 +153,8 @@ Findings LidarCheck::compareBeforeKeyframes() const
 {
   Findings findings = compareGrounds();
   if (!findings.empty() || scans_seen_ == 0) return findings;
-  for (std::size_t i = 1; i < lidars_.size(); ++i) findings.push_back(poseByScans(i));
+  const std::vector<SeenPoints> first_in_scans = seenInScans(0);
+  for (std::size_t i = 1; i < lidars_.size(); ++i) findings.push_back(poseBy(i, seenInScans(i), first_in_scans));
   return findings;
 }
 
@@ -169,13 +162,14 @@ Findings LidarCheck::compare() const
 {
   if (keyframes_.size() < kFewest) return compareBeforeKeyframes();
   Findings findings;
+  const std::vector<SeenPoints> by_first = seenAround(0, true), first_in_scans = seenInScans(0);
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
     const auto& [name, body_T_sensor] = lidars_[i];
     const std::vector<SeenPoints> own = seenBy(i), on_the_way = seenAround(i, false);
     findings.push_back(steadinessFinding(name, sharedView(pairsOf(own, on_the_way), Rigid::identity(), body_T_sensor)));
     if (i == 0 || findings.front().verdict > Verdict::Ok) continue;  // the first lidar is no measure of the others
-    Finding by_keyframes = poseByKeyframes(i), by_scans = poseByScans(i);
+    Finding by_keyframes = poseBy(i, own, by_first), by_scans = poseBy(i, seenInScans(i), first_in_scans);
     findings.push_back(std::move(by_scans.verdict > by_keyframes.verdict ? by_scans : by_keyframes));
   }
   return findings;

@@ -47,8 +47,7 @@ class LidarCheck
   };
 
   Findings compareBeforeKeyframes() const;
-  Finding poseByScans(std::size_t lidar) const;
-  Finding poseByKeyframes(std::size_t lidar) const;
+  Finding poseBy(std::size_t lidar, const std::vector<SeenPoints>& own, const std::vector<SeenPoints>& by_first) const;
   std::vector<SeenPoints> seenInScans(std::size_t lidar) const;
   Findings compareGrounds() const;
   std::vector<const PointCloud*> cloudsOf(std::size_t lidar) const;
