@@ -1,6 +1,5 @@
 #include "base/formats/Trajectory.h"
 
-#include "base/core/Text.h"
 #include "base/formats/SecondsText.h"
 
 #include <fmt/format.h>
@@ -61,7 +60,7 @@ Trajectory readTum(const std::filesystem::path& path)
     if (!pose)
       throw std::invalid_argument(
           fmt::format("{}:{}: expected 't x y z qx qy qz qw' with a unit quaternion, found '{}'", path.string(), number,
-                      printable(line.substr(0, 80))));
+                      line.substr(0, 80)));
     if (!trajectory.empty() && pose->stamp <= trajectory.back().stamp)
       throw std::invalid_argument(fmt::format("{}:{}: stamp {} is not after {}: sort the file by time", path.string(),
                                               number, secondsText(pose->stamp), secondsText(trajectory.back().stamp)));

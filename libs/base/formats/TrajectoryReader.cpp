@@ -1,6 +1,5 @@
 #include "base/formats/TrajectoryReader.h"
 
-#include "base/core/Text.h"
 #include "base/formats/SecondsText.h"
 #include "base/formats/StampUnit.h"
 
@@ -201,9 +200,8 @@ Trajectory readTum(const Path& path, const Note& note)
               {
                 const auto pose = parseTum(unit ? inSeconds(line, *unit) : line);
                 if (!pose)
-                  throw std::invalid_argument(
-                      fmt::format("expected 't x y z qx qy qz qw', t in s and a unit quaternion, found '{}'",
-                                  printable(line.substr(0, 80))));
+                  throw std::invalid_argument(fmt::format(
+                      "expected 't x y z qx qy qz qw', t in s and a unit quaternion, found '{}'", line.substr(0, 80)));
                 poses.add(*pose);
               });
   return poses.finish(path, note);

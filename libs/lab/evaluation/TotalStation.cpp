@@ -62,7 +62,7 @@ class StationLines
         throw std::invalid_argument(
             fmt::format("expected time, x, y and z in the order of the header (without one: "
                         "t,x,y,z in s and m), found '{}'",
-                        printable(line.substr(0, 80))));
+                        line.substr(0, 80)));
       measured.position[axis] = *value * columns_.position_unit[a];
     }
     return measured;

@@ -71,7 +71,7 @@ Study readStudy(const std::filesystem::path& folder)
   }
   catch (const nlohmann::json::exception& e)
   {
-    throw std::runtime_error(fmt::format("{}: {}", (folder / "results.json").string(), printable(reasonOf(e))));
+    throw std::runtime_error(fmt::format("{}: {}", (folder / "results.json").string(), reasonOf(e)));
   }
 }
 
