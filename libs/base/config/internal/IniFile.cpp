@@ -23,7 +23,6 @@ struct Line
   int number;
 };
 
-bool beginsWith(std::string_view text, std::string_view start) { return text.substr(0, start.size()) == start; }
 bool isComment(std::string_view line)
 {
   return beginsWith(line, "//") || beginsWith(line, "#") || beginsWith(line, ";");
