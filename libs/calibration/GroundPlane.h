@@ -16,7 +16,7 @@ struct GroundPlane
   double body_height = 0;    // m of the body's origin above the plane
   double share = 0;          // of the points used: within 0.15 m of the plane
 
-  /** Of a point in the body frame above the plane (m). */
+  /** Height above the plane (m) of a point in the body frame. */
   double heightOf(const Eigen::Vector3d& p) const { return up.dot(p) + body_height; }
 };
 

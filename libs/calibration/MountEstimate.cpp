@@ -13,9 +13,9 @@ namespace
 {
 constexpr std::size_t kFewestStations = 10;
 constexpr double kLeastShared = 0.1, kMostShareLost = 0.02;
-// Of surfaces (surfaceDistance): 1.1 to 1.25 times distanceWithinReference where the pose is right; in a hall that is
-// mm.
-constexpr double kFarthestApart = 1.6, kAlwaysAllowed = 0.02;  // of distanceWithinReference; m
+// The largest surfaceDistance of a right pose: that many times distanceWithinReference (1.1 to 1.25 were measured), and
+// 2 cm more, because flat walls are within millimetres of themselves.
+constexpr double kFarthestApart = 1.6, kAlwaysAllowed = 0.02;  // a factor; m
 constexpr int kRounds = 15;
 constexpr double kFarthest = 1;      // m, from the start: so far off a level finds nothing any more
 constexpr double kNextLevel = 1e-2;  // m, a round's correction: enough for the next level

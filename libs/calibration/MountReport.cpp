@@ -51,9 +51,8 @@ std::string reasonOf(const std::string& reference, const MountEstimate& e)
           e.distance_after, e.distance_of_reference, reference);
     case MountOutcome::Contradicted:
       return fmt::format(
-          "where it fits best, the IMUs inside it and '{}' measure another rotation between them: drive where there "
-          "are "
-          "stems or walls on all sides, with turns, and see that the metadata are those of these lidars",
+          "where it fits best, the IMUs inside it and '{}' measure another rotation between them: drive where "
+          "there are stems or walls on all sides, with turns, and see that the metadata are those of these lidars",
           reference);
     default:
       return "";

@@ -110,8 +110,7 @@ Mount levelled(Mount mount, const std::optional<GroundPlane>& ground, const Grou
   if (!ground) return mount;
   Rigid& pose = mount.body_T_sensor;
   pose.rotation = (rotationBetween(ground->up, of_reference.up) * pose.rotation).normalized();
-  const double height = of_reference.up.dot(pose.translation) + of_reference.body_height;
-  pose.translation += (ground->sensor_height - height) * of_reference.up;
+  pose.translation += (ground->sensor_height - of_reference.heightOf(pose.translation)) * of_reference.up;
   return mount;
 }
 
