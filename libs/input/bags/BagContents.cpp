@@ -246,6 +246,16 @@ ImuOfEachStamp readBagImu(const BagPaths& paths, const std::string& topic)
   return imu;
 }
 
+std::optional<ImuSample> imuSampleIn(const BagTopic& topic, Bytes message)
+try
+{
+  return imuSampleOf(topic, message);
+}
+catch (const std::logic_error&)
+{
+  return std::nullopt;
+}
+
 BagPoses readBagPoses(const BagPaths& paths, const std::string& topic)
 {
   std::set<std::string> names;

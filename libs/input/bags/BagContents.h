@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,9 @@ std::string metadataIn(const BagPaths&, const std::string& topic);
 
 /** In order of stamps. Throws std::invalid_argument, naming the topics with IMU samples, if this is none. */
 ImuOfEachStamp readBagImu(const BagPaths&, const std::string& topic);
+
+/** Of one message; none if it ends too early. */
+std::optional<ImuSample> imuSampleIn(const BagTopic&, Bytes message);
 
 struct BagPoses
 {

@@ -19,11 +19,8 @@ namespace scanloom
 std::set<std::string> packetTopicsOf(const std::vector<std::filesystem::path>& recordings);
 
 /**
- * Captures and bags, each as a reader of datagrams. A packet of a bag has its topic,
- * no address and no port, and was received at the stamp that the driver gave the packet; where it gave none, at the
- * receive time of its message. Drivers put the packets of a turn into one message: they come in the order of stamps as
- * far as those of one turn differ. Throws as CaptureReader and BagReader::open do, and std::invalid_argument without
- * files.
+ * Captures and bags, each as a reader of datagrams; of bags they are those of MessagePackets. Throws as CaptureReader
+ * and BagReader::open do, and std::invalid_argument without files.
  */
 std::vector<std::unique_ptr<DatagramReader>> datagramsOf(const std::vector<std::filesystem::path>& recordings);
 }  // namespace scanloom

@@ -64,4 +64,11 @@ McapSchema pathSchema()
               within("geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n") + quaternionDefinition() +
               headerDefinition()};
 }
+
+McapSchema schemaOf(const std::string& type)
+{
+  for (const McapSchema& known : {pointCloudSchema(), imuSchema(), transformsSchema(), pathSchema()})
+    if (known.type == type) return known;
+  return {type, type == "std_msgs/msg/String" ? "string data\n" : ""};
+}
 }  // namespace scanloom

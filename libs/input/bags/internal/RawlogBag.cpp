@@ -126,7 +126,8 @@ class RawlogBag : public BagReader
     }
     const Timestamp received = timeOf(measurement);
     if (placed_.insert(topic.name).second)
-      waiting_.push_back({0, received, transformMessage(received, "base_link", topic.name, measurement.body_T_sensor)});
+      waiting_.push_back(
+          {0, received, transformsMessage({{received, "base_link", topic.name, measurement.body_T_sensor}})});
     const auto place = static_cast<std::size_t>(known - topics_.begin());
     waiting_.push_back({place, received, messageOf(measurement, topic.name)});
     return true;

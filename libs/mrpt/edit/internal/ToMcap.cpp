@@ -1,6 +1,7 @@
 #include "mrpt/edit/internal/ToMcap.h"
 
 #include "base/core/OutputFile.h"
+#include "base/core/rosName.h"
 #include "input/bags/MessageWriter.h"
 #include "input/bags/RosDefinitions.h"
 #include "input/rawlogs/Conversions.h"
@@ -10,7 +11,6 @@
 #include "mrpt/observations/Observations.h"
 
 #include <algorithm>
-#include <cctype>
 #include <memory>
 #include <set>
 
@@ -19,59 +19,6 @@ namespace scanloom
 namespace
 {
 const std::string kBodyFrame = "base_link", kMapFrame = "map";
-
-/** Letters, digits and '_': what ROS allows in names. */
-std::string rosName(std::string label)
-{
-  const auto is_allowed = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-  std::replace_if(
-      label.begin(), label.end(), [&](unsigned char c) { return !is_allowed(c); }, '_');
-  return label.empty() ? "unnamed" : label;
-}
-
-/** The points by `frame_T_body` in the frame of this name. */
-std::vector<std::uint8_t> cloudMessageOf(const Scan& scan, const std::string& frame, const Rigid& frame_T_body)
-{
-  struct Field
-  {
-    const char* name;
-    std::uint32_t offset;
-    std::uint8_t type;  // of sensor_msgs/PointField
-  };
-  constexpr Field kFields[] = {{"x", 0, 7},  {"y", 4, 7},     {"z", 8, 7},     {"intensity", 12, 7},
-                               {"t", 16, 6}, {"ring", 20, 4}, {"lidar", 22, 2}};
-  constexpr std::uint32_t kStep = 24;
-  const PointCloud& points = scan.points;
-  std::vector<std::uint8_t> data(points.size() * kStep);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    const Eigen::Vector3d in_body(points.x[i], points.y[i], points.z[i]);
-    const Eigen::Vector3f in_frame = (frame_T_body * in_body).cast<float>();
-    for (std::size_t axis = 0; axis < 3; ++axis) store(data, i * kStep + 4 * axis, in_frame[static_cast<int>(axis)]);
-    store(data, i * kStep + 12, static_cast<float>(points.intensity[i]));
-    store(data, i * kStep + 16, static_cast<std::uint32_t>(std::max(points.t[i], 0)));
-    store(data, i * kStep + 20, std::uint16_t{points.ring[i]});
-    data[i * kStep + 22] = points.sensor_id[i];
-  }
-  MessageWriter message;
-  message.header(scan.start, frame);
-  message.number(std::uint32_t{1});
-  message.number(static_cast<std::uint32_t>(points.size()));
-  message.number(static_cast<std::uint32_t>(std::size(kFields)));
-  for (const Field& field : kFields)
-  {
-    message.string(field.name);
-    message.number(field.offset);
-    message.number(field.type);
-    message.number(std::uint32_t{1});
-  }
-  message.number(std::uint8_t{0});  // little endian
-  message.number(kStep);
-  message.number(static_cast<std::uint32_t>(data.size()));
-  message.byteSequence(data);
-  message.number(std::uint8_t{1});  // no point without coordinates
-  return message.bytes();
-}
 
 std::vector<std::uint8_t> pathMessageOf(const Trajectory& trajectory)
 {
@@ -134,7 +81,7 @@ class McapExport
     const Rigid body_T_frame = lidar ? lidar->body_T_sensor : Rigid::identity();
     if (lidar) addFrame(scan.start, frame, body_T_frame);
     writer_.add(topic("/" + rosName(cloud.sensorLabel), pointCloudSchema()), scan.start,
-                cloudMessageOf(scan, frame, body_T_frame.inverse()));
+                cloudMessage(scan.points, scan.start, frame, body_T_frame.inverse()));
   }
 
   /** Of a cloud that splitLidars() made. */
@@ -148,7 +95,7 @@ class McapExport
   {
     if (frames_.insert(frame).second)
       writer_.add(topic("/tf_static", transformsSchema()), stamp,
-                  transformMessage(stamp, kBodyFrame, frame, body_T_frame));
+                  transformsMessage({{stamp, kBodyFrame, frame, body_T_frame}}));
   }
 
   void add(const RecordedImu& imu)
@@ -164,7 +111,7 @@ class McapExport
     {
       const StampedPose& pose = trajectory_[written_];
       writer_.add(topic("/tf", transformsSchema()), pose.stamp,
-                  transformMessage(pose.stamp, kMapFrame, kBodyFrame, pose.map_T_body));
+                  transformsMessage({{pose.stamp, kMapFrame, kBodyFrame, pose.map_T_body}}));
     }
   }
 
