@@ -1,5 +1,6 @@
 /** Our maps in the programs that people open them with. */
 #include "mrpt/maps/MapFiles.h"
+#include "mrpt/maps/SimpleMapFile.h"
 #include "screen.h"
 #include "stockTool.h"
 
@@ -42,10 +43,15 @@ struct StockMaps : testing::Test
   {
     const std::vector<MountedLidar> lidars{{"left", Rigid::fromXyzYawPitchRoll(0, 1, 1, 0, 0, 0)},
                                            {"right", Rigid::fromXyzYawPitchRoll(0, -1, 1, 0, 0, 0)}};
-    MapFiles files({folder / "m.bt", folder / "m.ot", folder / "m.simplemap", folder / "m.3Dscene"}, lidars,
-                   octoMapPreset("preview"));
-    for (int i = 0; i < 3; ++i) files.add(someKeyframe(i));
+    MapFiles files({folder / "m.bt", folder / "m.ot", folder / "m.3Dscene"}, lidars, octoMapPreset("preview"));
+    SimpleMapBuilder keyframes(lidars, CloudClass::CPointsMapXYZI);  // stock tools of MRPT 2.5 load no plugin
+    for (int i = 0; i < 3; ++i)
+    {
+      files.add(someKeyframe(i));
+      keyframes.add(someKeyframe(i));
+    }
     files.close();
+    keyframes.write(folder / "m.simplemap");
   }
   std::string in(const std::string& command) const
   {

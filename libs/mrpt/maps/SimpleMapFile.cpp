@@ -5,7 +5,6 @@
 #include "mrpt/observations/readByAll.h"
 
 #include <fmt/format.h>
-#include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <algorithm>
@@ -15,26 +14,35 @@ namespace scanloom
 {
 namespace
 {
-/** The points of one lidar, in its own frame. */
-std::shared_ptr<XyziReadByAll> cloudOf(const PointCloud& points, std::size_t lidar, const Rigid& sensor_T_body)
+/** The points of one lidar, in its own frame, as at one instant. */
+Scan scanOf(const Keyframe& keyframe, std::size_t lidar, const Rigid& sensor_T_body)
 {
-  auto cloud = std::make_shared<XyziReadByAll>();
-  cloud->resize(static_cast<std::size_t>(std::count(points.sensor_id.begin(), points.sensor_id.end(), lidar)));
+  const PointCloud& all = keyframe.points;
+  Scan scan;
+  scan.start = keyframe.stamp;
+  PointCloud& points = scan.points;
+  points.resize(static_cast<std::size_t>(std::count(all.sensor_id.begin(), all.sensor_id.end(), lidar)));
   std::size_t next = 0;
-  for (std::size_t i = 0; i < points.size(); ++i)
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    if (points.sensor_id[i] != lidar) continue;
-    const Eigen::Vector3f p = (sensor_T_body * points.position(i).cast<double>().eval()).cast<float>();
-    cloud->setPointFast(next, p.x(), p.y(), p.z());
-    cloud->setPointIntensity(next++, static_cast<float>(points.intensity[i]) / kFullIntensity);
+    if (all.sensor_id[i] != lidar) continue;
+    const Eigen::Vector3f p = (sensor_T_body * all.position(i).cast<double>().eval()).cast<float>();
+    points.x[next] = p.x();
+    points.y[next] = p.y();
+    points.z[next] = p.z();
+    points.intensity[next] = all.intensity[i];
+    points.ring[next] = all.ring[i];
+    points.column[next] = all.column[i];
+    points.sensor_id[next++] = all.sensor_id[i];
   }
-  return cloud;
+  return scan;
 }
 }  // namespace
 
-SimpleMapBuilder::SimpleMapBuilder(std::vector<MountedLidar> lidars)
-  : lidars_(std::move(lidars)), map_(std::make_unique<SimpleMapReadByAll>())
+SimpleMapBuilder::SimpleMapBuilder(std::vector<MountedLidar> lidars, CloudClass cloud_class)
+  : lidars_(std::move(lidars)), cloud_class_(cloud_class), map_(std::make_unique<SimpleMapReadByAll>())
 {
+  toObservation(Scan{}, cloud_class);  // throws here instead of at the first keyframe
 }
 
 SimpleMapBuilder::~SimpleMapBuilder() = default;
@@ -49,13 +57,10 @@ void SimpleMapBuilder::add(const Keyframe& keyframe)
   const auto frame = mrpt::obs::CSensoryFrame::Create();
   for (std::size_t lidar = 0; lidar < lidars_.size(); ++lidar)
   {
-    const auto cloud = cloudOf(keyframe.points, lidar, lidars_[lidar].body_T_sensor.inverse());
-    if (cloud->empty()) continue;
-    auto observation = mrpt::obs::CObservationPointCloud::Create();
-    observation->timestamp = toMrpt(keyframe.stamp);
-    observation->sensorLabel = lidars_[lidar].name;
+    const Scan scan = scanOf(keyframe, lidar, lidars_[lidar].body_T_sensor.inverse());
+    if (scan.points.empty()) continue;
+    const auto observation = toObservation(scan, cloud_class_, lidars_[lidar].name);
     observation->sensorPose = toMrpt(lidars_[lidar].body_T_sensor);
-    observation->pointcloud = cloud;
     frame->insert(observation);
   }
   map_->insert(mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(keyframe.map_T_body)), frame);

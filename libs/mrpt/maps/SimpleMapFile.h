@@ -1,11 +1,14 @@
 /**
- * keyframes.simplemap, for robot-map-gui and MOLA's sm2mm. They load no plugins, so it has classes of MRPT only. Each
- * keyframe is a pose and one CObservationPointCloud (CPointsMapXYZI, intensity 0 to 1) per lidar: its label is the
- * lidar's name, its points are in the lidar's frame at the keyframe's stamp, its sensorPose is body_T_sensor.
+ * keyframes.simplemap, for robot-map-gui and MOLA's sm2mm. Each keyframe is a pose with its covariance and one
+ * CObservationPointCloud per lidar: its label is the lidar's name, its points are in the lidar's frame at the
+ * keyframe's stamp, its sensorPose is body_T_sensor. The clouds are CGenericPointsMap (intensity 0 to 255, ring, t = 0:
+ * deskewed), which MRPT reads from 2.15.3 on, and older ones with our plugin; or CPointsMapXYZI (intensity 0 to 1),
+ * which MRPT 2 reads without it, and MRPT 3 does not have.
  */
 #pragma once
 #include "base/core/Keyframe.h"
 #include "base/core/MountedLidar.h"
+#include "mrpt/observations/Observations.h"
 
 #include <filesystem>
 #include <memory>
@@ -19,14 +22,11 @@ class CSimpleMap;
 
 namespace scanloom
 {
-/** The intensity of a scan that MRPT's intensity 1 stands for. */
-inline constexpr float kFullIntensity = 255.0F;
-
 class SimpleMapBuilder
 {
  public:
-  /** Lidars by sensor id. */
-  explicit SimpleMapBuilder(std::vector<MountedLidar>);
+  /** Lidars by sensor id. Throws std::invalid_argument for a class that this MRPT does not have. */
+  explicit SimpleMapBuilder(std::vector<MountedLidar>, CloudClass = CloudClass::CGenericPointsMap);
   ~SimpleMapBuilder();
 
   /** Throws std::invalid_argument if a point's sensor_id has no lidar. A lidar without points gives no observation. */
@@ -37,6 +37,7 @@ class SimpleMapBuilder
 
  private:
   std::vector<MountedLidar> lidars_;
+  CloudClass cloud_class_;
   std::unique_ptr<mrpt::maps::CSimpleMap> map_;
 };
 }  // namespace scanloom

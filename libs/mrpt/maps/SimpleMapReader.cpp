@@ -3,11 +3,10 @@
 #include "base/config/MrptMessage.h"
 #include "input/rawlogs/Conversions.h"
 #include "input/rawlogs/CountedArchive.h"
-#include "mrpt/maps/SimpleMapFile.h"
+#include "mrpt/observations/Observations.h"
 #include "mrpt/observations/registerClasses.h"
 
 #include <fmt/format.h>
-#include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
@@ -38,28 +37,21 @@ auto lidarNamed(const std::string& name, const std::vector<MountedLidar>& lidars
   return std::find_if(lidars.begin(), lidars.end(), [&](const MountedLidar& lidar) { return lidar.name == name; });
 }
 
-/** NaN becomes 0: fmax takes the other number. */
-std::uint8_t reflectivityOf(float share)
-{
-  return static_cast<std::uint8_t>(std::round(std::fmin(std::fmax(share, 0.0F), 1.0F) * kFullIntensity));
-}
-
 void append(PointCloud& points, const CObservationPointCloud& cloud, const Rigid& body_T_sensor, std::size_t lidar)
 {
-  const auto* with_intensity = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(cloud.pointcloud.get());
-  const std::size_t read = cloud.pointcloud->size();
+  const PointCloud read = pointsIn(*cloud.pointcloud);
   std::size_t next = points.size();
-  points.resize(next + read);
-  for (std::size_t i = 0; i < read; ++i)
+  points.resize(next + read.size());
+  for (std::size_t i = 0; i < read.size(); ++i)
   {
-    Eigen::Vector3f p;
-    cloud.pointcloud->getPointFast(i, p.x(), p.y(), p.z());
+    Eigen::Vector3f p = read.position(i);
     if (!p.allFinite()) continue;  // other programs store directions without a return as NaN
     p = (body_T_sensor * p.cast<double>().eval()).cast<float>();
     points.x[next] = p.x();
     points.y[next] = p.y();
     points.z[next] = p.z();
-    if (with_intensity) points.intensity[next] = reflectivityOf(with_intensity->getPointIntensity_fast(i));
+    points.intensity[next] = read.intensity[i];
+    points.ring[next] = read.ring[i];
     points.sensor_id[next++] = static_cast<std::uint8_t>(lidar);
   }
   points.resize(next);
@@ -135,7 +127,6 @@ SimpleMapReader::~SimpleMapReader() = default;
 
 void SimpleMapReader::addLidarOf(const CObservationPointCloud& cloud)
 {
-  constexpr std::size_t kMostLidars = 256;
   const std::string& name = cloud.sensorLabel;
   const Rigid body_T_sensor = poseOf(fmt::format("lidar '{}'", name), cloud.sensorPose);
   const auto known = lidarNamed(name, lidars_);

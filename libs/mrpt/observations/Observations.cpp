@@ -162,18 +162,22 @@ Duration untilAfterTheLast(const Array<std::int32_t>& t)
   return t.empty() ? Duration{0} : Duration{*std::max_element(t.begin(), t.end())} + 1ns;
 }
 
-PointCloud pointsOf(const mrpt::obs::CObservationPointCloud& observation)
+PointCloud pointsOf(const CPointsMap& map, const Rigid& frame_T_points)
 {
   PointCloud points;
-  observation.load();
-  const CPointsMap* map = observation.pointcloud.get();
-  if (!map) return points;
-  takePositions(*map, fromMrpt(observation.sensorPose), points);
-  if (const auto* generic = dynamic_cast<const CGenericPointsMap*>(map))
+  takePositions(map, frame_T_points, points);
+  if (const auto* generic = dynamic_cast<const CGenericPointsMap*>(&map))
     takeFields(*generic, points);
   else
-    takeIntensity(*map, points);
+    takeIntensity(map, points);
   return points;
+}
+
+PointCloud pointsOf(const mrpt::obs::CObservationPointCloud& observation)
+{
+  observation.load();
+  if (!observation.pointcloud) return {};
+  return pointsOf(*observation.pointcloud, fromMrpt(observation.sensorPose));
 }
 
 Scan scanOf(PointCloud points, Timestamp start, const std::optional<RecordingHeader>& header)
@@ -198,7 +202,7 @@ CloudClass cloudClassFromName(const std::string& name)
 {
   if (name == "CGenericPointsMap") return CloudClass::CGenericPointsMap;
   if (name == "CPointsMapXYZI") return CloudClass::CPointsMapXYZI;
-  throw std::invalid_argument(fmt::format("cloud_class = {}: must be CGenericPointsMap or CPointsMapXYZI", name));
+  throw std::invalid_argument(fmt::format("'{}': a class of clouds is CGenericPointsMap or CPointsMapXYZI", name));
 }
 
 bool isSlice(const mrpt::obs::CObservation& observation)
@@ -230,6 +234,8 @@ Scan measuredScan(const mrpt::obs::CObservationPointCloud& observation, const st
   removeImpossible(points);
   return scanOf(std::move(points), fromMrpt(observation.timestamp), header);
 }
+
+PointCloud pointsIn(const CPointsMap& map) { return pointsOf(map, Rigid::identity()); }
 
 void removeImpossible(PointCloud& points)
 {

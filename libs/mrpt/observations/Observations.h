@@ -51,6 +51,9 @@ Scan fromObservation(const mrpt::obs::CObservationPointCloud&, const std::option
 /** The same without the points that removeImpossible() removes, and without columns that lose all their points. */
 Scan measuredScan(const mrpt::obs::CObservationPointCloud&, const std::optional<RecordingHeader>&);
 
+/** The points of a map as they are, with the fields that it has. */
+PointCloud pointsIn(const mrpt::maps::CPointsMap&);
+
 /** Removes points that no lidar measures: not finite, or 100 km or more from the body along an axis. */
 void removeImpossible(PointCloud& points_in_body);
 

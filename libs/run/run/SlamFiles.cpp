@@ -51,7 +51,7 @@ SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<Reco
   csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
                    "surprise,trusted,recovered,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,sigma_rz,correction_m,"
                    "correction_deg,mark\n";
-  if (output.maps) maps_.emplace(folder, lidars, octomap);
+  if (output.maps) maps_.emplace(folder, lidars, octomap, cloudClassFromName(output.keyframe_class));
   if (!output.dense_map.empty()) dense_map_.emplace(folder, output);
 }
 

@@ -50,7 +50,7 @@ mrpt::opengl::COpenGLScene::Ptr someScene()
 
 std::filesystem::path writeSimpleMap(const std::filesystem::path& path)
 {
-  SimpleMapBuilder builder(lidarsOfHeader());
+  SimpleMapBuilder builder(lidarsOfHeader(), CloudClass::CPointsMapXYZI);
   builder.add(someKeyframe());
   builder.write(path);
   return path;

@@ -1,6 +1,8 @@
 #include "mrpt/maps/SimpleMapFile.h"
 
 #include "input/rawlogs/Conversions.h"
+#include "mrpt/observations/CGenericPointsMap.h"
+#include "mrpt/observations/registerClasses.h"
 #include "support/TemporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +32,7 @@ Keyframe onePointOfEach()
 TEST(SimpleMapBuilder, writesWhatMrptReadsBack)
 {
   const TemporaryFolder folder;
-  SimpleMapBuilder builder(twoLidars());
+  SimpleMapBuilder builder(twoLidars(), CloudClass::CPointsMapXYZI);
   builder.add(onePointOfEach());
   builder.write(folder / "keyframes.simplemap");
 
@@ -51,6 +53,23 @@ TEST(SimpleMapBuilder, writesWhatMrptReadsBack)
   Eigen::Vector3d p;
   cloud->getPoint(0, p.x(), p.y(), p.z());
   EXPECT_LT((fromMrpt(right->sensorPose) * p - Eigen::Vector3d(5, 0, 0)).norm(), 1e-6) << "sensorPose * point is body";
+}
+
+TEST(SimpleMapBuilder, writesTheClassWithAllFieldsUnlessAskedForTheOther)
+{
+  const TemporaryFolder folder;
+  registerClasses();
+  SimpleMapBuilder builder(twoLidars());
+  builder.add(onePointOfEach());
+  builder.write(folder / "keyframes.simplemap");
+  mrpt::maps::CSimpleMap map;
+  ASSERT_TRUE(map.loadFromFile((folder / "keyframes.simplemap").string()));
+  const auto right = map.begin()->sf->getObservationByIndexAs<mrpt::obs::CObservationPointCloud::Ptr>(1);
+  const auto cloud = std::dynamic_pointer_cast<mrpt::maps::CGenericPointsMap>(right->pointcloud);
+  ASSERT_TRUE(cloud);
+  ASSERT_EQ(cloud->size(), 1U);
+  EXPECT_EQ(cloud->getPointsBufferRef_float_field("intensity")->at(0), 255);
+  EXPECT_EQ(cloud->getPointsBufferRef_float_field("t")->at(0), 0) << "deskewed";
 }
 
 TEST(SimpleMapBuilder, writesTheSameBytesForTheSameKeyframes)

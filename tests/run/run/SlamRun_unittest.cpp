@@ -210,7 +210,7 @@ TEST(SlamMaps, thatCannotBeDrawnLeaveTheOthersWholeAndAreNamed)
   RunSummary summary;
   {
     std::vector<RecordedLidar> one(1);
-    SlamMaps maps(folder.path(), one, {});
+    SlamMaps maps(folder.path(), one, {}, CloudClass::CGenericPointsMap);
     maps.add(keyframeOf(Timestamp{1s}, 0));
     maps.add(keyframeOf(Timestamp{2s}, 1));  // neither keyframes.simplemap nor the OctoMap knows lidar 1
     maps.add(keyframeOf(Timestamp{3s}, 0));

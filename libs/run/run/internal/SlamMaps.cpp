@@ -18,10 +18,10 @@ constexpr const char *kPly = "map.ply", *kSimpleMap = "keyframes.simplemap", *kO
 std::vector<std::string> SlamMaps::names() { return {"keyframes.simplemap", "map.ply", "map.bt", "map.ot", "map.png"}; }
 
 SlamMaps::SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>& lidars,
-                   const OctoMapOptions& octomap)
+                   const OctoMapOptions& octomap, CloudClass of_keyframes)
   : folder_(folder),
     ply_(folder / "map.ply"),
-    simple_map_(mountedLidars(lidars)),
+    simple_map_(mountedLidars(lidars), of_keyframes),
     octomap_(std::in_place, octomap, posesOf(mountedLidars(lidars))),
     picture_(MapPictureOptions{}),
     queue_(kMostWaitingMaps),

@@ -27,7 +27,8 @@ class SlamMaps
   static std::vector<std::string> names();
 
   /** Throws std::runtime_error if the folder cannot be written. */
-  SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OctoMapOptions&);
+  SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OctoMapOptions&,
+           CloudClass of_keyframes);
   SlamMaps(const SlamMaps&) = delete;
   SlamMaps& operator=(const SlamMaps&) = delete;
   ~SlamMaps();
