@@ -4,6 +4,9 @@ set(share ${CMAKE_INSTALL_DATADIR}/scanloom)
 
 install(TARGETS scanloom RUNTIME COMPONENT program)
 install(TARGETS scanloom_program scanloom_devices LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/scanloom COMPONENT program)
+if(TARGET scanloom_dds)
+  install(TARGETS scanloom_dds LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/scanloom COMPONENT program)
+endif()
 install(DIRECTORY params DESTINATION ${share} COMPONENT program)
 install(DIRECTORY libs/run/page/assets/ DESTINATION ${share}/page COMPONENT program)
 install(FILES apps/scanloom/completions/scanloom.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
@@ -27,7 +30,7 @@ endif()
 
 # The libraries that others can build on; those behind them need MRPT's maps and sensors, and are the program's own.
 set(public_libraries base/core base/config base/formats input/lidar input/batching input/packets input/rawlogs
-    input/bags input/rig estimation/imu estimation/preprocessing estimation/ndt estimation/graph estimation/slam)
+    input/bags input/ros2 input/rig estimation/imu estimation/preprocessing estimation/ndt estimation/graph estimation/slam)
 foreach(folder ${public_libraries})
   get_filename_component(library ${folder} NAME)
   get_filename_component(module ${folder} DIRECTORY)

@@ -1,5 +1,6 @@
 /** `scanloom config`: prints all parameters, as a configuration file or as a page of the manual. */
 #include "Options.h"
+#include "Ros2.h"
 #include "Verb.h"
 #include "base/config/Names.h"
 #include "base/core/ConfigError.h"
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -30,6 +32,7 @@ struct ConfigArguments
   std::string default_of;
   std::vector<std::filesystem::path> recording;
   std::string parameters;  // empty: not wanted
+  bool ros2 = false;
 };
 
 const Verb& verbNamed(const std::string& name)
@@ -138,8 +141,32 @@ int printRigOf(const std::vector<std::filesystem::path>& recording)
   return kDone;
 }
 
+/** The configuration of live sensors. */
+std::string withoutCapture(const std::string& ini)
+{
+  std::string live;
+  std::istringstream lines(ini);
+  for (std::string line; std::getline(lines, line);)
+    if (!beginsWith(line, "pcap_input")) live += line + '\n';
+  return live;
+}
+
+/** Of topics: they are live, so the configuration names no file. */
+int printRigOnTopics()
+{
+  RecordingArguments topics;
+  const std::unique_ptr<HeardTopics> heard = hearInstead(true, 10s, topics);
+  const RecordingFiles files = filesOf(topics);
+  const std::filesystem::path folder = folderOfOutput();
+  const RecognisedRig rig = recogniseRig(files, folder);
+  for (const std::string& note : rig.notes) warn(printable(note));
+  std::cout << withoutCapture(rig.ini);
+  return kDone;
+}
+
 int run(const ConfigArguments& arguments)
 {
+  if (arguments.ros2) return printRigOnTopics();
   if (!arguments.recording.empty()) return printRigOf(arguments.recording);
   if (!arguments.parameters.empty())
     std::cout << parametersPage(arguments.parameters);
@@ -158,6 +185,7 @@ std::function<int()> addConfigOptions(CLI::App& app)
             "print a configuration file for these captures: lidars, ports, metadata, poses and IMU as recognised; what "
             "must be filled in is marked")
       .typeName("FILE...");
+  addFlag(app, "--ros2", arguments->ros2, "the same for the lidars whose topics are heard on ROS 2 now");
   addOption(app, "--parameters", arguments->parameters,
             "print the parameters of all verbs as Markdown, those of simulate and experiment as 'laboratory'")
       .optionalValue(kUsers)

@@ -1,6 +1,7 @@
 /** `scanloom doctor`: faults of a rig, and how to mend them. */
 #include "Arguments.h"
 #include "Options.h"
+#include "Ros2.h"
 #include "Settings.h"
 #include "Verb.h"
 #include "base/core/Interruption.h"
@@ -31,6 +32,7 @@ struct DoctorArguments
   RecordingArguments recording;
   double seconds = 0;  // 0: a whole capture, or kListen live
   bool json = false;
+  bool ros2 = false;
 };
 
 struct DoctorSettings
@@ -106,8 +108,10 @@ int examineRawlog(const std::filesystem::path& rawlog, const CropOptions& crop, 
   return report(check.findings, toJson(check), arguments);
 }
 
-int run(const DoctorArguments& arguments)
+int run(DoctorArguments arguments)
 {
+  const std::unique_ptr<HeardTopics> heard = hearInstead(
+      arguments.ros2, fromSeconds(arguments.seconds > 0 ? arguments.seconds : kListen), arguments.recording);
   if (!arguments.recording.given() && arguments.configuration.files.empty())
     throw UsageError("nothing to examine: name a recording, or give -c CONFIG for live lidars");
   const RecordingFiles recording =
@@ -138,6 +142,7 @@ std::function<int()> addDoctorOptions(CLI::App& app)
   auto arguments = std::make_shared<DoctorArguments>();
   addRecording(app, arguments->recording);
   addConfiguration(app, arguments->configuration);
+  addRos2Input(app, arguments->ros2);
   addOption(app, "--seconds", arguments->seconds,
             "how much to examine, in s: from the start of captures (default: all), or live (default: 10)")
       .positive();

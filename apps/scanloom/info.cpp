@@ -2,6 +2,7 @@
 #include "Arguments.h"
 #include "Options.h"
 #include "Recording.h"
+#include "Ros2.h"
 #include "Verb.h"
 #include "base/core/ConfigError.h"
 #include "input/bags/BagContents.h"
@@ -25,6 +26,7 @@ struct InfoArguments
 {
   RecordingArguments recording;
   bool json = false;
+  bool ros2 = false;
 };
 
 /** Those that fit the capture's packets; all that were named. */
@@ -107,8 +109,11 @@ int printRawlogInfo(const std::filesystem::path& rawlog, bool json)
   return info.damage.empty() ? kDone : kQualityGate;
 }
 
-int run(const InfoArguments& arguments)
+int run(InfoArguments arguments)
 {
+  constexpr Duration kHeard = 5s;
+  const std::unique_ptr<HeardTopics> heard = hearInstead(arguments.ros2, kHeard, arguments.recording);
+  if (!arguments.recording.given()) throw UsageError("RECORDING is required, or --ros2");
   const RecordingFiles files = filesOf(arguments.recording, Clouds::Taken);
   if (!files.clouds.empty()) return printCloudsInfo(files, arguments);
   if (!files.captures.empty()) return printCaptureInfo(files, arguments);
@@ -118,7 +123,8 @@ int run(const InfoArguments& arguments)
 std::function<int()> addInfoOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<InfoArguments>();
-  addRecording(app, arguments->recording).required();
+  addRecording(app, arguments->recording);
+  addRos2Input(app, arguments->ros2);
   addJson(app, arguments->json);
   return [arguments] { return run(*arguments); };
 }

@@ -2,6 +2,7 @@
 #include "Arguments.h"
 #include "Options.h"
 #include "Recording.h"
+#include "Ros2.h"
 #include "Settings.h"
 #include "Verb.h"
 #include "Web.h"
@@ -60,6 +61,7 @@ struct RecordArguments
   ConfigurationArguments configuration;
   RecordingArguments recording;
   WebArguments web;
+  Ros2Arguments ros2;
   std::filesystem::path output;  // empty: beside the recording
   std::vector<std::string> lidars;
   double seconds = 0;  // live: 0 until it is interrupted
@@ -74,13 +76,17 @@ std::unique_ptr<InputDisplay> displayOf(const InputSource& source, SensorInput& 
   return std::make_unique<InputDisplay>("record", input, megabytesOf(source.rig.captures), "MB");
 }
 
-Recorded record(SensorInput& input, const InputSource& source, const RecordArguments& arguments, RawlogWriter& writer)
+Recorded record(SensorInput& input, const InputSource& source, const RecordArguments& arguments, RawlogWriter& writer,
+                const Ros2* ros2)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Web> web =
       openWeb(arguments.web, {"record", source.isLive(), false}, input, arguments.output.parent_path());
-  SensorInput& watched = web ? web->input() : input;
+  SensorInput& seen = web ? web->input() : input;
+  const std::unique_ptr<RosTopics> topics = ros2 ? ros2->publish(false) : nullptr;
+  const std::unique_ptr<SensorInput> sent = topics ? published(seen, *topics, source.isLive()) : nullptr;
+  SensorInput& watched = sent ? *sent : seen;
   const std::unique_ptr<InputDisplay> display = displayOf(source, watched);
   const Recorded recorded =
       recordRig(watched, source.driver, writer,
@@ -163,7 +169,7 @@ std::vector<std::filesystem::path> filesReadFor(const InputSource& source, const
 }
 
 InputSource sourceFor(const RecordArguments& arguments, const RecordingFiles& recording,
-                      const Configuration& configuration)
+                      const Configuration& configuration, const Ros2* ros2)
 {
   RigSettings settings;  // none of clouds
   if (recording.clouds.empty()) settings = readRigSettings(configuration, rigSection(configuration));
@@ -172,6 +178,7 @@ InputSource sourceFor(const RecordArguments& arguments, const RecordingFiles& re
     outputs.emplace_back(settings.rig.pcap_output);
   refuseExisting(outputs, arguments.overwrite);
   InputSource source = sourceOf(recording, configuration, arguments.lidars);
+  if (ros2) source.rig = ros2->live(std::move(source.rig));
   refuseInputsAsOutputs(filesReadFor(source, settings, arguments), outputs);
   return source;
 }
@@ -185,10 +192,9 @@ RawlogOptions rawlogOptions(const RecordOptions& record, const DriverOptions& dr
   return options;
 }
 
-RecordingFiles recordingOf(const RecordingArguments& arguments)
+RecordingFiles recordingOf(const RecordingArguments& arguments, const Ros2* ros2)
 {
-  if (!arguments.given()) return {};
-  RecordingFiles files = filesOf(arguments, Clouds::Taken);
+  RecordingFiles files = filesOf(arguments, ros2);
   if (!files.rawlogs.empty())
     throw UsageError(fmt::format("{}: is a rawlog already: 'record' makes one of captures and clouds",
                                  arguments.paths.front().string()));
@@ -215,10 +221,11 @@ std::filesystem::path defaultRawlog(const RecordingArguments& recording)
 int run(RecordArguments arguments)
 {
   if (arguments.web.given()) webAddress(arguments.web);  // it may have swallowed the recording
-  const RecordingFiles recording = recordingOf(arguments.recording);
   if (arguments.output.empty()) arguments.output = defaultRawlog(arguments.recording);
+  const std::unique_ptr<Ros2> ros2 = openRos2(arguments.ros2, "record", arguments.configuration, arguments.recording);
+  const RecordingFiles recording = recordingOf(arguments.recording, ros2.get());
   const Loaded<RecordSettings> loaded = load<RecordSettings>(arguments.configuration, recording);
-  const InputSource source = sourceFor(arguments, recording, loaded.configuration);
+  const InputSource source = sourceFor(arguments, recording, loaded.configuration, ros2.get());
   refuseOtherFormat(arguments.output);
   const bool live = source.isLive();
   if (!live) refuseSeconds(arguments.seconds);
@@ -235,7 +242,7 @@ int run(RecordArguments arguments)
   RawlogWriter writer(arguments.output, input->setup().header, options);
   if (const auto& earlier = writer.earlierPart(); !earlier.empty())
     warn(fmt::format("an earlier recording did not end: what it left is now {}", earlier.string()));
-  const Recorded recorded = record(*input, source, arguments, writer);
+  const Recorded recorded = record(*input, source, arguments, writer, ros2.get());
   // Who interrupts lidars has recorded all that there was; without a scan it is not worth an earlier recording.
   const bool partial = (interrupted() && !live) || recorded.scans == 0;
   const auto rawlog = writer.close(partial ? Completeness::Partial : Completeness::Whole);
@@ -267,6 +274,7 @@ std::function<int()> addRecordOptions(CLI::App& app)
   addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas (default: all)")
       .commaSeparated();
   addWeb(app, arguments->web);
+  addRos2(app, arguments->ros2);
   addJson(app, arguments->json);
   return [arguments] { return run(*arguments); };
 }

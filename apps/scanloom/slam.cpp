@@ -1,5 +1,6 @@
 /** `scanloom slam`: trajectory and maps from a recording or live lidars. */
 #include "Arguments.h"
+#include "Ros2.h"
 #include "Settings.h"
 #include "SlamInput.h"
 #include "Verb.h"
@@ -31,6 +32,7 @@ struct SlamArguments
   OutputFolderArguments output;
   RecordingArguments recording;
   WebArguments web;
+  Ros2Arguments ros2;
   std::vector<std::string> lidars;
   int every_nth = 0;
   double seconds = 0;  // live lidars; 0: until it is interrupted
@@ -49,6 +51,7 @@ std::string commandOf(const SlamArguments& arguments)
   for (const auto& file : arguments.recording.metadata) command += fmt::format(" --metadata {}", file.string());
   if (!arguments.lidars.empty()) command += fmt::format(" --lidars {}", fmt::join(arguments.lidars, ","));
   if (arguments.seconds > 0) command += fmt::format(" --seconds {}", arguments.seconds);
+  if (arguments.ros2.given()) command += fmt::format(" --ros2={}", arguments.ros2.name_space);
   return command + fmt::format(" --out-dir {}", arguments.output.folder.string());
 }
 
@@ -94,13 +97,16 @@ void report(const SlamRunResult& result, const std::filesystem::path& folder)
 }
 
 SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings& settings, SlamFiles& files,
-                                 const SlamArguments& arguments)
+                                 const SlamArguments& arguments, const Ros2* ros2)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Web> web =
       openWeb(arguments.web, {"slam", input.live, true}, *input.sensors, arguments.output.folder.parent_path());
-  SensorInput& sensors = web ? web->input() : *input.sensors;
+  SensorInput& watched = web ? web->input() : *input.sensors;
+  const std::unique_ptr<RosTopics> topics = ros2 ? ros2->publish(true) : nullptr;
+  const std::unique_ptr<SensorInput> sent = topics ? published(watched, *topics, input.live) : nullptr;
+  SensorInput& sensors = sent ? *sent : watched;
   InputDisplay display = displayOf(input, sensors);
   SlamRunResult result = runSlam(
       sensors, settings,
@@ -108,6 +114,7 @@ SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings&
       {
         files.add(estimate);
         if (web) web->feed().add(estimate);
+        if (topics) topics->add(estimate);
       },
       [&](const RunProgress& progress)
       {
@@ -144,13 +151,13 @@ int statusOf(const SlamRunResult& result, std::size_t sensors_not_used)
 }
 
 int process(const SlamInput& input, const SlamArguments& arguments, const Loaded<SlamVerbSettings>& loaded,
-            const std::vector<std::string>& names)
+            const std::vector<std::string>& names, const Ros2* ros2)
 {
   const SlamVerbSettings& settings = loaded.settings;
   OutputFolder folder(arguments.output.folder);
   writeAtomically(folder.running() / kConfigurationFile, [&](std::ostream& file) { file << toIni(loaded); });
   SlamFiles files(folder.running(), input.sensors->setup().header.lidars, settings.output, settings.octomap);
-  SlamRunResult result = runShowingProgress(input, settings, files, arguments);
+  SlamRunResult result = runShowingProgress(input, settings, files, arguments, ros2);
   result.summary.command = commandOf(arguments);
   result.summary.counts["sensors_not_used"] = loaded.sensors.not_used;
   if (loaded.sensors.not_used > 0 && result.summary.outcome == "OK") result.summary.outcome = "SENSOR MISSING";
@@ -184,11 +191,13 @@ std::filesystem::path defaultFolder(const RecordingArguments& recording)
 }
 
 SlamInput inputOf(const RecordingFiles& recording, const SlamArguments& arguments,
-                  const Loaded<SlamVerbSettings>& loaded)
+                  const Loaded<SlamVerbSettings>& loaded, const Ros2* ros2)
 {
   InputSource source = sourceOf(recording, loaded.configuration, arguments.lidars);
   // With the samples that tell the start, scans need not wait for it in memory.
-  source.rig.body_imu_ahead = fromSeconds(loaded.settings.start.duration);
+  // Readers of topics expect them in the order of time.
+  if (!ros2) source.rig.body_imu_ahead = fromSeconds(loaded.settings.start.duration);
+  if (ros2) source.rig = ros2->live(std::move(source.rig));
   return openForSlam(source, loaded.configuration);
 }
 
@@ -197,14 +206,14 @@ int run(SlamArguments arguments)
   if (arguments.web.given()) webAddress(arguments.web);  // it may have swallowed the recording
   if (arguments.every_nth > 0)
     arguments.configuration.assignments.push_back(fmt::format("slam.every_nth={}", arguments.every_nth));
-  const RecordingFiles recording =
-      arguments.recording.given() ? filesOf(arguments.recording, Clouds::Taken) : RecordingFiles{};
   if (arguments.output.folder.empty()) arguments.output.folder = defaultFolder(arguments.recording);
+  const std::unique_ptr<Ros2> ros2 = openRos2(arguments.ros2, "slam", arguments.configuration, arguments.recording);
+  const RecordingFiles recording = filesOf(arguments.recording, ros2.get());
   const Loaded<SlamVerbSettings> loaded = load<SlamVerbSettings>(arguments.configuration, recording);
   std::vector<std::string> names{kConfigurationFile};
   for (std::string& name : SlamFiles::names(loaded.settings.output)) names.push_back(std::move(name));
   refuseExisting(arguments.output, names);
-  const SlamInput input = inputOf(recording, arguments, loaded);
+  const SlamInput input = inputOf(recording, arguments, loaded, ros2.get());
   if (!input.live) refuseSeconds(arguments.seconds);
   if (arguments.configuration.dry_run)
   {
@@ -213,7 +222,7 @@ int run(SlamArguments arguments)
     return kDone;
   }
   catchInterruption();
-  return process(input, arguments, loaded, names);
+  return process(input, arguments, loaded, names, ros2.get());
 }
 
 std::function<int()> addSlamOptions(CLI::App& app)
@@ -227,6 +236,7 @@ std::function<int()> addSlamOptions(CLI::App& app)
       .commaSeparated();
   addSeconds(app, arguments->seconds);
   addWeb(app, arguments->web);
+  addRos2(app, arguments->ros2);
   addOption(app, "--every-nth", arguments->every_nth, "use every N-th scan only; the IMU is used in full").positive();
   return [arguments] { return run(*arguments); };
 }

@@ -2,6 +2,7 @@
 #include "Arguments.h"
 #include "Devices.h"
 #include "Recording.h"
+#include "Ros2.h"
 #include "Verb.h"
 #include "Web.h"
 #include "base/core/ConfigError.h"
@@ -40,6 +41,7 @@ struct ViewArguments
 {
   Path file, png, trajectory;
   WebArguments web;
+  Ros2Arguments ros2;
   std::optional<std::uint64_t> scan;
   bool overwrite = false;
 };
@@ -133,13 +135,19 @@ int show(const mrpt::opengl::COpenGLScene::Ptr& scene, const ViewArguments& argu
 
 bool isRecording(const Path& file) { return file.extension() == ".rawlog" || isOfPackets(file); }
 
-Player::Open openerOf(const Path& file)
+/** What is played goes to `topics`, too, if there are any. */
+Player::Open openerOf(const Path& file, const Trajectory& poses, RosTopics* topics)
 {
   if (!isRecording(file))
-    throw UsageError(
-        fmt::format("{}: --web plays a capture, a bag, a folder of these or a .rawlog; others are shown in a window",
-                    file.string()));
-  return [source = sourceAt(file)] { return openInput(source); };
+    throw UsageError(fmt::format(
+        "{}: --web and --ros2 play a capture, a bag, a folder of these or a .rawlog; others are shown in a window",
+        file.string()));
+  return [source = sourceAt(file), poses, topics]() -> std::unique_ptr<SensorInput>
+  {
+    std::unique_ptr<SensorInput> input = openInput(source);
+    if (!topics) return input;
+    return std::make_unique<PublishedInput>(std::move(input), *topics, PublishedInput::Pace::OfInput, poses);
+  };
 }
 
 int play(const ViewArguments& arguments)
@@ -147,7 +155,9 @@ int play(const ViewArguments& arguments)
   Trajectory poses;
   if (!arguments.trajectory.empty()) poses = readTrajectory(arguments.trajectory, &warn);
   LiveExchange exchange;
-  Player player(openerOf(arguments.file), std::move(poses), exchange);
+  const std::unique_ptr<Ros2> ros2 = openRos2(arguments.ros2, "view", {}, RecordingArguments{{arguments.file}, {}});
+  const std::unique_ptr<RosTopics> topics = ros2 ? ros2->publish(!poses.empty()) : nullptr;
+  Player player(openerOf(arguments.file, poses, topics.get()), poses, exchange);
   const SensorAddress address = webAddress(arguments.web);
   const LiveServer server(address, exchange);
   announcePage(server, address);
@@ -172,7 +182,8 @@ int run(const ViewArguments& arguments)
     throw UsageError(fmt::format("{}: no such file", arguments.file.string()));
   catchInterruption();
   if (!arguments.png.empty()) return draw(arguments);
-  if (arguments.web.given() || (isRecording(arguments.file) && !arguments.scan)) return play(arguments);
+  if (arguments.web.given() || arguments.ros2.given() || (isRecording(arguments.file) && !arguments.scan))
+    return play(arguments);
   return show(sceneOf(arguments).finished(), arguments);
 }
 
@@ -187,6 +198,7 @@ std::function<int()> addViewOptions(CLI::App& app)
   addOption(app, "--png", arguments->png, "draw into this picture instead of a window; needs no display")
       .typeName("FILE");
   addWeb(app, arguments->web);
+  addRos2(app, arguments->ros2);
   addOption(app, "--trajectory", arguments->trajectory,
             "for a capture or rawlog: poses of the body, by which scans and map are drawn")
       .existingFile();

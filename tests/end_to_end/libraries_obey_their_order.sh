@@ -45,7 +45,7 @@ edges | awk '
     only("ndt", "core")
     only("config", "core")
     only("lidar", "core")
-    only("simulation", "core config formats lidar batching packets rawlogs bags rig imu")
+    only("simulation", "core config formats lidar batching packets rawlogs bags ros2 rig imu")
     never("observations", "slam")
     never("edit", "slam")
     never("diagnosis", "slam")
@@ -78,7 +78,7 @@ theirs=$(grep -rnE '^ *# *include "[a-z_/]*/internal/' . ../apps | sed 's#^\./##
 [ -z "$theirs" ] || fail "internal to another library:
 $theirs"
 
-for library in base/core input/lidar input/batching input/packets input/bags input/rig estimation lab/simulation; do
+for library in base/core input/lidar input/batching input/packets input/bags input/ros2 input/rig estimation lab/simulation; do
   ! grep -rn '# *include <mrpt' "$library" || fail "$library must not know MRPT"
 done
 # Two types of one name, each in a header of its own, are one to the linker: it keeps the functions of either.

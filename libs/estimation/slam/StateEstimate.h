@@ -1,6 +1,7 @@
 #pragma once
 #include "base/core/Keyframe.h"
 #include "base/core/StampedPose.h"
+#include "estimation/imu/NavState.h"
 #include "estimation/ndt/Registration.h"
 
 #include <optional>
@@ -31,6 +32,7 @@ struct StateEstimate
   Matrix6d since_start = Matrix6d::Zero();  // the same of the pose relative to the first one
   Vector6d correction = Vector6d::Zero();   // boxMinus(map_T_body, the IMU's prediction from the previous estimate)
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the IMU, in the map frame
+  ImuBias imu_bias;                                    // by which its next readings are predicted
   Health health = Health::Ok;
   bool scan_complete = true;
   bool imu_complete = true;  // false: the IMU did not cover the scan in time, its last reading was held

@@ -337,6 +337,12 @@ RecognisedRig recogniseRig(const RecordingFiles& files, const std::filesystem::p
   addImu("imu_topic", imu_topic, poses, rig, ini);
   addUnusedTopics(bags, found, imu_topic, rig);
   addScanTimes(found.lidars, ini);
+  if (std::any_of(found.lidars.begin(), found.lidars.end(),
+                  [](const FoundLidar& lidar) { return !lidar.topic.empty(); }))
+  {
+    ini.comment("messages arrive less evenly than datagrams, and are held back longer than this anyway");
+    ini.set("deadline_ms", "100");
+  }
   rig.ini = ini.text();
   return rig;
 }

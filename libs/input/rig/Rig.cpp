@@ -154,8 +154,23 @@ Rig makeRig(const RigSettings& settings, const std::vector<std::string>& only)
     rig.body_T_imu = poseOf("imu_pose", settings.rig.imu_pose, "imu", settings.rig, poses);
     ImuOfFile imu = bodyImuOf(settings.rig, rig.captures);
     rig.body_imu = std::move(imu.readings.samples);
+    rig.body_imu_topic = settings.rig.imu_topic;
     rig.notes = std::move(imu.notes);
   }
+  return rig;
+}
+
+Rig heardOn(std::shared_ptr<Ros2Node> node, Rig rig)
+{
+  for (LidarIndex i = 0; i < rig.lidars.size(); ++i)
+    if (rig.addresses[i].topic.empty())
+      throw ConfigError(fmt::format("lidar '{}' has no topic: name it by the key {}_topic, or leave out --ros2",
+                                    rig.lidars[i].name, rig.addresses[i].key));
+  if (!rig.body_imu.empty() && rig.body_imu_topic.empty())
+    throw ConfigError("imu_csv is a recording: for topics that are heard live give imu_topic");
+  rig.captures.clear();
+  rig.body_imu.clear();
+  rig.live.ros2 = std::move(node);
   return rig;
 }
 

@@ -7,19 +7,23 @@
 #include "input/rig/internal/RigSensor.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace scanloom
 {
+class Ros2Node;
+
 /** How a rig without captures receives. */
 struct LiveOptions
 {
   std::optional<IpAddress> bind_address;    // none: every address of this computer
   std::size_t receive_buffer = 16'000'000;  // bytes per port, asked of the kernel
   std::size_t scans_waiting = 10;           // at most, if the consumer is slow; then the oldest is dropped
-  std::filesystem::path capture;            // file for every datagram received; empty: none
+  std::filesystem::path capture;            // file for every datagram or message received; empty: none
+  std::shared_ptr<Ros2Node> ros2;           // the sensors' topics are heard there; null: datagrams come to ports
 };
 
 struct Rig
@@ -29,6 +33,7 @@ struct Rig
   std::vector<RigSensor> sensors;
   std::vector<std::filesystem::path> captures;
   std::vector<ImuSample> body_imu;  // as recorded; empty if there is none
+  std::string body_imu_topic;       // where they come from, if that is a topic
   Duration body_imu_ahead{0};       // these samples come so much earlier than scans of the same time
   std::optional<Rigid> body_T_imu;  // none if the body has no IMU of its own
   BatcherOptions batcher;
@@ -38,6 +43,12 @@ struct Rig
 
 /** For a PacketRouter; the rig must outlive it, or its decoders. */
 std::vector<RoutedLidar> routesOf(const Rig&);
+
+/**
+ * The same rig as it is heard live on the topics by which its recording was described. Throws ConfigError if its lidars
+ * have none.
+ */
+Rig heardOn(std::shared_ptr<Ros2Node>, Rig);
 
 /** Throws ConfigError if two lidars have metadata of one sensor: every packet would be of both or of neither. */
 void refuseOneSensorTwice(const Rig&);

@@ -7,6 +7,6 @@ namespace scanloom
 {
 struct Rig;
 
-/** RigReplay of the rig's captures, or RigLive if it has none. Throws what their constructors throw. */
+/** RigReplay of the rig's captures; if it has none, RigTopics or RigLive. Throws what their constructors throw. */
 std::unique_ptr<SensorInput> openRig(const Rig&);
 }  // namespace scanloom

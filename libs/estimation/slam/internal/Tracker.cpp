@@ -79,6 +79,7 @@ StateEstimate estimateOf(DeskewedScan seen, const Prediction& predicted, const C
   estimate.since_start = since_start + scaleError(scan.body.map_T_body);
   estimate.correction = boxMinus(scan.body.map_T_body, predicted.map_T_body);
   estimate.velocity = scan.body.velocity;
+  estimate.imu_bias = scan.body.window.smoother.newest().bias;
   estimate.health = scan.assessment.health;
   estimate.scan_complete = seen.complete;
   estimate.cloud = std::move(seen.cloud);

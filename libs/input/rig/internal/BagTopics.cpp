@@ -63,6 +63,9 @@ void resolveTopics(const RecordingPaths& recordings, std::vector<RigSensor>& lid
   { return !lidar.options.topic.empty() || !lidar.options.imu_topic.empty() || topicNamedBy(lidar.options.metadata); };
   if (!all_bags && std::none_of(lidars.begin(), lidars.end(), namesTopics)) return;
 
+  if (recordings.empty())
+    throw ConfigError(
+        "the lidars are on topics: give --ros2 to hear them, or name the bag that has them: pcap_input = FILE");
   const Topics topics = packetTopicsOf(recordings);
   for (RigSensor& lidar : lidars)
   {

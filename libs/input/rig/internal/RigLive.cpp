@@ -1,5 +1,6 @@
 #include "input/rig/internal/RigLive.h"
 
+#include "input/rig/internal/eventLimits.h"
 #include "input/rig/receiverOptions.h"
 
 #include <fmt/format.h>
@@ -18,22 +19,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kAccountPeriod = 100ms;
 constexpr std::size_t kWarningsKept = 1000;  // if nobody takes them
-
-template <typename Event>
-std::size_t kindOf()
-{
-  return SensorEvent(Event{}).index();
-}
-
-/** By kind: how many events wait for whoever calls next(). */
-std::vector<std::size_t> limitsOf(const Rig& rig)
-{
-  std::vector<std::size_t> limits(std::variant_size_v<SensorEvent>);
-  limits[kindOf<Scan>()] = rig.live.scans_waiting;
-  limits[kindOf<ScanPart>()] = rig.live.scans_waiting * static_cast<std::size_t>(rig.batcher.slices);
-  limits[kindOf<SensorImu>()] = 100'000;
-  return limits;
-}
 
 std::vector<std::string> warningsOfStart(const Rig& rig, const UdpReceiver& receiver)
 {
@@ -55,7 +40,7 @@ const Rig& withoutRecordedImu(const Rig& rig)
 
 RigLive::RigLive(const Rig& rig)
   : stream_(withoutRecordedImu(rig), RigStream::ReceiveTimes::Steady),
-    queue_(limitsOf(rig), [](const ReceivedEvent& event) { return event.event.index(); }),
+    queue_(eventLimits(rig), [](const ReceivedEvent& event) { return event.event.index(); }),
     capture_(rig.live.capture.empty() ? nullptr : std::make_unique<LiveCapture>(rig.live.capture)),
     receiver_(receiverOptions(rig)),
     sensors_(rig),
@@ -204,11 +189,8 @@ RigAccount RigLive::account() const
   account.input["datagrams_dropped_by_kernel"] = sum.kernel_drops;
   account.input["socket_errors"] = sum.errors;
   account.input["host_clock_steps"] = receiver_.clockSteps();
-  account.input["scans_dropped"] = queue_.dropped(kindOf<Scan>());
-  account.input["slices_dropped"] = queue_.dropped(kindOf<ScanPart>());
-  account.input["imu_samples_dropped"] += queue_.dropped(kindOf<SensorImu>());
   account.input["datagrams_not_captured"] = capture_ ? capture_->dropped() : 0;
-  account.scans_waiting = queue_.waiting(kindOf<Scan>());
+  addQueueCounts(queue_, account);
   return account;
 }
 
