@@ -8,14 +8,14 @@
 #include "base/core/OutputFile.h"
 #include "base/core/OutputFolder.h"
 #include "base/core/jsonText.h"
-#include "calibration/ImuMountReport.h"
-#include "calibration/MountReport.h"
-#include "calibration/StaticMount.h"
+#include "calibration/ExtrinsicsReport.h"
+#include "calibration/ImuExtrinsicsReport.h"
+#include "calibration/StaticExtrinsics.h"
 #include "input/rig/InputDisplay.h"
 #include "mrpt/observations/openInput.h"
 #include "run/run/Calibration.h"
+#include "run/run/ExtrinsicsPicture.h"
 #include "run/run/ImuCalibration.h"
-#include "run/run/MountPicture.h"
 #include "run/run/StaticClouds.h"
 #include "warn.h"
 
@@ -67,10 +67,10 @@ CalibrationDrive driven(const InputSource& source, const SlamSettings& settings,
   };
   const Warn warn = [&](const std::string& warning) { display->warn(warning); };
   if (!rig.body_T_imu) return driveForCalibration(*open(), calibration.reference, settings, {}, keepGoing, warn);
-  const Mount given{*rig.body_T_imu, 1e-3 * settings.slam.imu_delay_ms};
-  ImuCalibration told = calibrateImu(open, calibration.reference, settings, given, keepGoing, warn);
-  calibration.imu = std::move(told.imu);
-  return std::move(told.drive);
+  const Extrinsics given{*rig.body_T_imu, 1e-3 * settings.slam.imu_delay_ms};
+  ImuCalibration found = calibrateImu(open, calibration.reference, settings, given, keepGoing, warn);
+  calibration.imu = std::move(found.imu);
+  return std::move(found.drive);
 }
 
 /** Its turn about the lidar's axes tells a wrong pose, but not well enough for a better one. */
@@ -97,8 +97,8 @@ std::string lidarsInWords(const Calibration& calibration, const Rig* rig)
     if (i == calibration.reference) continue;
     TimeOffset time_offset;
     if (rig) time_offset = {rig->sensors[i].key + "_time_offset", rig->sensors[i].options.time_offset};
-    words += inWords(calibration.lidars[i].name, calibration.lidars[calibration.reference].name, calibration.mounts[i],
-                     time_offset);
+    words += inWords(calibration.lidars[i].name, calibration.lidars[calibration.reference].name,
+                     calibration.extrinsics[i], time_offset);
   }
   return words;
 }
@@ -116,7 +116,7 @@ std::vector<std::string> resultFiles(const std::vector<MountedLidar>& lidars)
 
 /** `scenes` by lidar; `configuration` is empty for clouds of one instant. */
 void writeFiles(const CalibrateArguments& arguments, const Calibration& calibration,
-                const std::vector<std::vector<MountScene>>& scenes, const std::string& configuration)
+                const std::vector<std::vector<ExtrinsicsScene>>& scenes, const std::string& configuration)
 {
   OutputFolder folder(arguments.output.folder);
   const auto write = [&](const char* name, const std::string& text)
@@ -125,8 +125,8 @@ void writeFiles(const CalibrateArguments& arguments, const Calibration& calibrat
   write("calibration.json", jsonText(toJson(calibration)) + "\n");
   for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
     if (!scenes[i].empty())
-      drawMount(folder.running() / pictureOf(calibration.lidars[i]), scenes[i],
-                {calibration.lidars[calibration.reference].name, calibration.lidars[i].name});
+      drawExtrinsics(folder.running() / pictureOf(calibration.lidars[i]), scenes[i],
+                     {calibration.lidars[calibration.reference].name, calibration.lidars[i].name});
   write("extrinsics.txt", extrinsicsText(calibration));
   const std::filesystem::path done = folder.commit(resultFiles(calibration.lidars), Completeness::Whole);
   fmt::print(stderr, "{}\n", (done / "extrinsics.txt").string());
@@ -141,12 +141,12 @@ int runStatic(const CalibrateArguments& arguments)
   calibration.lidars = clouds.lidars;
   calibration.reference = indexOf(arguments.reference, calibration.lidars);
   refuseExisting(arguments.output, resultFiles(calibration.lidars));
-  calibration.mounts = estimateStaticMounts(clouds.points, calibration.reference, clouds.poses);
-  std::vector<std::vector<MountScene>> scenes(calibration.lidars.size());
+  calibration.extrinsics = estimateStaticExtrinsics(clouds.points, calibration.reference, clouds.poses);
+  std::vector<std::vector<ExtrinsicsScene>> scenes(calibration.lidars.size());
   for (std::size_t i = 0; i < scenes.size(); ++i)
     if (i != calibration.reference)
       scenes[i] = {staticScene(clouds.points[calibration.reference], clouds.points[i],
-                               calibration.mounts[i].mount.body_T_sensor)};
+                               calibration.extrinsics[i].extrinsics.body_T_sensor)};
   writeFiles(arguments, calibration, scenes, {});
   std::cout << (arguments.json ? jsonText(toJson(calibration)) + "\n" : lidarsInWords(calibration, nullptr));
   return trusted(calibration) ? kDone : kQualityGate;
@@ -163,7 +163,7 @@ int noPath(const Calibration& calibration, const std::string& outcome)
   return kQualityGate;
 }
 
-int contradicted(const ImuMountEstimate& imu)
+int contradicted(const ImuExtrinsicsEstimate& imu)
 {
   fmt::print(stderr,
              "scanloom calibrate: the drive is localised with the IMU, which contradicts it, so nothing is calibrated: "
@@ -184,7 +184,7 @@ int runDrive(const CalibrateArguments& arguments)
   refuseExisting(arguments.output, resultFiles(calibration.lidars));
   calibration.reference = indexOf(arguments.reference, calibration.lidars);
   CalibrationDrive drive = driven(source, loaded.settings, calibration);
-  if (calibration.imu && calibration.imu->outcome == ImuMountOutcome::Contradicted)
+  if (calibration.imu && calibration.imu->outcome == ImuExtrinsicsOutcome::Contradicted)
     return contradicted(*calibration.imu);
   if (!isPath(drive)) return noPath(calibration, drive.run.summary.outcome);
 
@@ -192,13 +192,13 @@ int runDrive(const CalibrateArguments& arguments)
       arguments.poses_unknown || !loaded.sensors.poses_known ? PoseGiven::No : PoseGiven::Within20Degrees;
   if (known == PoseGiven::No) drive = withoutOwnParts(std::move(drive), calibration.lidars);
   const Clock clock = arguments.clocks ? Clock::Estimated : Clock::Kept;
-  std::vector<std::vector<MountScene>> scenes(calibration.lidars.size());
+  std::vector<std::vector<ExtrinsicsScene>> scenes(calibration.lidars.size());
   for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
   {
     LidarCalibration of_lidar;
     if (i != calibration.reference)
       of_lidar = calibrateLidar(i, calibration.lidars, calibration.reference, drive, clock, known);
-    calibration.mounts.push_back(std::move(of_lidar.estimate));
+    calibration.extrinsics.push_back(std::move(of_lidar.estimate));
     scenes[i] = std::move(of_lidar.scenes);
   }
   writeFiles(arguments, calibration, scenes, toIni(loaded));

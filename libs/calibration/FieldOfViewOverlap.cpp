@@ -30,13 +30,13 @@ Directions directionsOf(const View& view)
 }
 }  // namespace
 
-double commonField(const std::vector<Station>& stations, const Mount& mount, const Trajectory& trajectory)
+double commonField(const std::vector<Station>& stations, const Extrinsics& extrinsics, const Trajectory& trajectory)
 {
   double sum = 0, count = 0;
   for (const Station& station : stations)
   {
     if (station.reference.empty() || station.scans.empty()) continue;
-    const std::optional<View> view = viewFrom(*station.scans.front(), mount, trajectory, station.at);
+    const std::optional<View> view = viewFrom(*station.scans.front(), extrinsics, trajectory, station.at);
     if (!view) continue;
     const Directions a = directionsOf(*view), b = directionsOf(station.reference.front());
     sum += static_cast<double>((a & b).count()) / std::max<double>(1, (a | b).count());

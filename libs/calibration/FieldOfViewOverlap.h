@@ -9,5 +9,5 @@ namespace scanloom
  * do: 1 for two that see all around, 0 for one that looks ahead and one that looks back; the mean over the stations.
  * To each station only the scans of its own instant may belong.
  */
-double commonField(const std::vector<Station>&, const Mount&, const Trajectory&);
+double commonField(const std::vector<Station>&, const Extrinsics&, const Trajectory&);
 }  // namespace scanloom

@@ -73,8 +73,8 @@ RigFaults imuFaults(const RigMinute&);
 RigFaults rigFaults(const RigMinute&);
 
 /**
- * Examines the IMUs every 15 s, all once a minute and at the end, beside the run. What it finds is told 5 s later, by
- * the scans' time, so that it does not depend on threads. Warns once of each sensor.
+ * Examines the IMUs every 15 s, all once a minute and at the end, beside the run. What it finds is reported 5 s later,
+ * by the scans' time, so that it does not depend on threads. Warns once of each sensor.
  */
 class RigCheck
 {
@@ -102,7 +102,7 @@ class RigCheck
 
   bool warned() const { return !blamed_.empty(); }
 
-  /** The findings that were told last. */
+  /** The findings that were reported last. */
   const Findings& lidars() const { return lidars_told_; }
   const std::optional<GyroAgreement>& imu() const { return imu_told_; }
 

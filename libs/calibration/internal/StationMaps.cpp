@@ -16,7 +16,7 @@ namespace scanloom
 {
 namespace
 {
-NdtOptions optionsOf(const MountLevel& level)
+NdtOptions optionsOf(const ExtrinsicsLevel& level)
 {
   NdtOptions options;
   options.cell_size = level.cell_size;
@@ -51,7 +51,7 @@ std::vector<View> inThinCells(const std::vector<View>& views, const NdtMap& map,
   return kept;
 }
 
-NdtMap thinMap(const std::vector<View>& views, const MountLevel& level)
+NdtMap thinMap(const std::vector<View>& views, const ExtrinsicsLevel& level)
 {
   const NdtMap map(views, optionsOf(level));
   if (std::isinf(level.thickest)) return map;
@@ -70,7 +70,7 @@ const GaussianCell* nearestTo(const Eigen::Vector3d& mean, const CellCorresponde
 }
 }  // namespace
 
-std::vector<NdtMap> mapsOfReference(const std::vector<Station>& stations, const MountLevel& level)
+std::vector<NdtMap> mapsOfReference(const std::vector<Station>& stations, const ExtrinsicsLevel& level)
 {
   std::vector<NdtMap> maps;
   for (const Station& station : stations)
@@ -81,8 +81,8 @@ std::vector<NdtMap> mapsOfReference(const std::vector<Station>& stations, const 
   return maps;
 }
 
-StationCells cellsOfLidar(const std::vector<Station>& stations, const Mount& mount, const Trajectory& trajectory,
-                          const MountLevel& level)
+StationCells cellsOfLidar(const std::vector<Station>& stations, const Extrinsics& extrinsics,
+                          const Trajectory& trajectory, const ExtrinsicsLevel& level)
 {
   StationCells cells;
   for (const Station& station : stations)
@@ -90,7 +90,7 @@ StationCells cellsOfLidar(const std::vector<Station>& stations, const Mount& mou
     throwIfInterrupted();
     std::vector<View> views;
     for (const LidarScan* scan : someOf(station.scans, level.scans))
-      if (std::optional<View> view = viewFrom(*scan, mount, trajectory, station.at, station.stems))
+      if (std::optional<View> view = viewFrom(*scan, extrinsics, trajectory, station.at, station.stems))
         views.push_back(std::move(*view));
     cells.push_back(thinMap(views, level).cells());
   }

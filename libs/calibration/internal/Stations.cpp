@@ -58,12 +58,13 @@ std::vector<const LidarScan*> scansAround(const Placed& here, const std::vector<
   return scans;
 }
 
-std::vector<View> viewsOf(const std::vector<const LidarScan*>& scans, const Mount& mount, const Trajectory& trajectory,
-                          Timestamp at, Stems stems)
+std::vector<View> viewsOf(const std::vector<const LidarScan*>& scans, const Extrinsics& extrinsics,
+                          const Trajectory& trajectory, Timestamp at, Stems stems)
 {
   std::vector<View> views;
   for (const LidarScan* scan : scans)
-    if (std::optional<View> view = viewFrom(*scan, mount, trajectory, at, stems)) views.push_back(std::move(*view));
+    if (std::optional<View> view = viewFrom(*scan, extrinsics, trajectory, at, stems))
+      views.push_back(std::move(*view));
   return views;
 }
 }  // namespace
@@ -76,7 +77,7 @@ std::vector<const LidarScan*> scansApart(const std::vector<LidarScan>& scans, co
 }
 
 std::vector<Station> stationsOf(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
-                                const Mount& reference, const Trajectory& trajectory, const Surroundings& around)
+                                const Extrinsics& reference, const Trajectory& trajectory, const Surroundings& around)
 {
   const std::vector<Placed> all = placesOf(of_lidar, trajectory, kStationStep);
   const std::vector<Placed> own = placesOf(of_lidar, trajectory, kViewStep);

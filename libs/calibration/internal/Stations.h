@@ -1,6 +1,6 @@
 /** Places of a drive at which what two lidars saw there and near there is compared. */
 #pragma once
-#include "calibration/Mount.h"
+#include "calibration/Extrinsics.h"
 
 #include <vector>
 
@@ -31,7 +31,7 @@ struct Surroundings
  * many. One scan against many gave errors of 5 mm in a sparse stand and 20 mm and 0.1 deg in a dense one.
  */
 std::vector<Station> stationsOf(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
-                                const Mount& reference, const Trajectory&, const Surroundings&);
+                                const Extrinsics& reference, const Trajectory&, const Surroundings&);
 
 /** Those at least 1 m or 10 deg apart. */
 std::vector<const LidarScan*> scansApart(const std::vector<LidarScan>&, const Trajectory&);

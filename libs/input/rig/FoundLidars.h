@@ -49,7 +49,7 @@ struct LidarsFound
   std::vector<std::string> notes;          // what is left out, and why
 };
 
-/** Which of them share a port, and must be told apart by their addresses. */
+/** Which of them share a port, and must be distinguished by their addresses. */
 void markSharedPorts(std::vector<FoundLidar>&);
 
 /**

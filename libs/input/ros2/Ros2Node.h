@@ -11,7 +11,7 @@
 
 namespace scanloom
 {
-/** How a program of ROS 2 is told which other ones it hears. */
+/** Which other programs a node of ROS 2 hears, and by which means. */
 struct Ros2Network
 {
   enum class Range

@@ -59,11 +59,11 @@ std::vector<std::uint8_t> sensorIdsOf(const CObservationPointCloud& cloud, const
   if (!ids)
     throw std::invalid_argument(
         fmt::format("cloud '{}' has no field sensor_id: which lidar measured a point is unknown", cloud.sensorLabel));
-  const auto stranger =
+  const auto unknown =
       std::find_if(ids->begin(), ids->end(), [&](std::uint8_t id) { return id >= header.lidars.size(); });
-  if (stranger != ids->end())
+  if (unknown != ids->end())
     throw std::invalid_argument(fmt::format("cloud '{}' has points of sensor_id {}, but the header has {} lidars",
-                                            cloud.sensorLabel, *stranger, header.lidars.size()));
+                                            cloud.sensorLabel, *unknown, header.lidars.size()));
   return {ids->begin(), ids->end()};
 }
 

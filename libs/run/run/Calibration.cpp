@@ -1,8 +1,8 @@
 #include "run/run/Calibration.h"
 
+#include "calibration/ExtrinsicsReport.h"
 #include "calibration/FieldOfViewOverlap.h"
-#include "calibration/ImuMountReport.h"
-#include "calibration/MountReport.h"
+#include "calibration/ImuExtrinsicsReport.h"
 #include "input/rig/Extrinsics.h"
 
 #include <fmt/format.h>
@@ -20,12 +20,12 @@ namespace
  * not, and stems must be compared by their axes.
  */
 bool lookAlike(const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
-               const Mount& reference, const Trajectory& trajectory, const Mount& mount)
+               const Extrinsics& reference, const Trajectory& trajectory, const Extrinsics& extrinsics)
 {
   constexpr Surroundings kAtOnce{0};
   constexpr double kLeast = 0.4;  // 0.50 to 0.57 for lidars that see all around, 0.23 to 0.33 for half turns apart
   const std::vector<Station> stations = stationsOf(of_lidar, of_reference, reference, trajectory, kAtOnce);
-  return commonField(stations, mount, trajectory) > kLeast;
+  return commonField(stations, extrinsics, trajectory) > kLeast;
 }
 
 /** Beside the machine it saw nothing in most scans, so that its few places do not mean that the machine stood still. */
@@ -35,11 +35,11 @@ bool isCovered(const std::vector<LidarScan>& of_lidar, const std::vector<LidarSc
 }
 
 /** More of the drive, from farther away, does not tell a clock better. */
-bool tellsPose(const MountEstimate& estimate)
+bool tellsPose(const ExtrinsicsEstimate& estimate)
 {
   const auto isClock = [](const OpenDirection& open) { return open.isClock(); };
-  return trusted(estimate) ||
-         (estimate.outcome == MountOutcome::Open && std::all_of(estimate.open.begin(), estimate.open.end(), isClock));
+  return trusted(estimate) || (estimate.outcome == ExtrinsicsOutcome::Open &&
+                               std::all_of(estimate.open.begin(), estimate.open.end(), isClock));
 }
 }  // namespace
 
@@ -48,27 +48,27 @@ LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLida
 {
   constexpr Surroundings kNear{5, Stems::AsSeen}, kFar{7, Stems::OnAxes};
   const std::vector<LidarScan>&own = drive.scans[lidar], &others = drive.scans[reference];
-  const Mount of_reference{lidars[reference].body_T_sensor, 0}, given{lidars[lidar].body_T_sensor, 0};
+  const Extrinsics of_reference{lidars[reference].body_T_sensor, 0}, given{lidars[lidar].body_T_sensor, 0};
   LidarCalibration calibration;
-  calibration.estimate.mount = given;
-  calibration.estimate.outcome = MountOutcome::NothingShared;
+  calibration.estimate.extrinsics = given;
+  calibration.estimate.outcome = ExtrinsicsOutcome::NothingShared;
   if (isCovered(own, others)) return calibration;
   const RotationByImus imus =
       rotationByImus(drive.lidar_imus[lidar], drive.lidar_imus[reference], of_reference.body_T_sensor);
-  std::optional<Mount> near;  // by the scans from near around, stems as seen
+  std::optional<Extrinsics> near;  // by the scans from near around, stems as seen
   for (const Surroundings& around : {kNear, kFar})
   {
     const std::vector<Station> stations = stationsOf(own, others, of_reference, drive.trajectory, around);
     if (stations.empty()) return calibration;
-    const MountStart start =
+    const ExtrinsicsStart start =
         findStart(stations, given, known, own, others, of_reference.body_T_sensor, drive.trajectory, imus);
-    MountEstimate estimate = estimateMount(stations, given, start, drive.trajectory, clock, imus);
-    if (estimate.outcome == MountOutcome::StoodStill) return {estimate, {}};
+    ExtrinsicsEstimate estimate = estimateExtrinsics(stations, given, start, drive.trajectory, clock, imus);
+    if (estimate.outcome == ExtrinsicsOutcome::StoodStill) return {estimate, {}};
     if (near && tellsPose(estimate)) estimate = doubted(std::move(estimate), *near, given);
-    calibration = {estimate, mountScenes(stations, given, estimate.mount, drive.trajectory)};
+    calibration = {estimate, extrinsicsScenes(stations, given, estimate.extrinsics, drive.trajectory)};
     if (!tellsPose(estimate)) continue;
-    if (near || lookAlike(own, others, of_reference, drive.trajectory, estimate.mount)) break;
-    near = estimate.mount;
+    if (near || lookAlike(own, others, of_reference, drive.trajectory, estimate.extrinsics)) break;
+    near = estimate.extrinsics;
   }
   return calibration;
 }
@@ -77,7 +77,7 @@ bool trusted(const Calibration& calibration)
 {
   bool all = !calibration.imu || trusted(*calibration.imu);
   for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
-    all = all && (i == calibration.reference || trusted(calibration.mounts[i]));
+    all = all && (i == calibration.reference || trusted(calibration.extrinsics[i]));
   return all;
 }
 
@@ -92,11 +92,11 @@ std::string extrinsicsText(const Calibration& calibration)
     if (i == calibration.reference)
       add(lidar.name, lidar.body_T_sensor, "as given");
     else
-      add(lidar.name, calibration.mounts[i].mount.body_T_sensor,
-          trusted(calibration.mounts[i]) ? "calibrated" : "not calibrated");
+      add(lidar.name, calibration.extrinsics[i].extrinsics.body_T_sensor,
+          trusted(calibration.extrinsics[i]) ? "calibrated" : "not calibrated");
   }
   if (calibration.imu)
-    add("imu", calibration.imu->mount.body_T_sensor, trusted(*calibration.imu) ? "calibrated" : "not calibrated");
+    add("imu", calibration.imu->extrinsics.body_T_sensor, trusted(*calibration.imu) ? "calibrated" : "not calibrated");
   return text;
 }
 
@@ -105,7 +105,8 @@ nlohmann::json toJson(const Calibration& calibration)
   nlohmann::json json{{"reference", calibration.lidars[calibration.reference].name},
                       {"lidars", nlohmann::json::array()}};
   for (std::size_t i = 0; i < calibration.lidars.size(); ++i)
-    if (i != calibration.reference) json["lidars"].push_back(toJson(calibration.lidars[i].name, calibration.mounts[i]));
+    if (i != calibration.reference)
+      json["lidars"].push_back(toJson(calibration.lidars[i].name, calibration.extrinsics[i]));
   if (calibration.imu) json["imu"] = toJson(*calibration.imu);
   return json;
 }

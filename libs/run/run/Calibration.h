@@ -1,10 +1,10 @@
 /** What `scanloom calibrate` found, and its files. */
 #pragma once
 #include "base/core/MountedLidar.h"
-#include "calibration/ImuMountEstimate.h"
-#include "calibration/MountEstimate.h"
-#include "calibration/MountScene.h"
-#include "calibration/MountSearch.h"
+#include "calibration/ExtrinsicsEstimate.h"
+#include "calibration/ExtrinsicsScene.h"
+#include "calibration/ExtrinsicsSearch.h"
+#include "calibration/ImuExtrinsicsEstimate.h"
 #include "run/run/internal/CalibrationDrive.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -19,14 +19,14 @@ struct Calibration
 {
   std::vector<MountedLidar> lidars;  // as given
   std::size_t reference = 0;
-  std::vector<MountEstimate> mounts;    // by lidar; the reference's is not used
-  std::optional<ImuMountEstimate> imu;  // none: the body has no IMU of its own, or it is not calibrated
+  std::vector<ExtrinsicsEstimate> extrinsics;  // by lidar; the reference's is not used
+  std::optional<ImuExtrinsicsEstimate> imu;    // none: the body has no IMU of its own, or it is not calibrated
 };
 
 struct LidarCalibration
 {
-  MountEstimate estimate;
-  std::vector<MountScene> scenes;  // to look at; none where the machine stood still
+  ExtrinsicsEstimate estimate;
+  std::vector<ExtrinsicsScene> scenes;  // to look at; none where the machine stood still
 };
 
 /**
@@ -36,7 +36,7 @@ struct LidarCalibration
 LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLidar>&, std::size_t reference,
                                 const CalibrationDrive&, Clock, PoseGiven);
 
-/** Whether all lidars, and the IMU if there is one, are told. */
+/** Whether the drive shows the extrinsics of all lidars, and of the IMU if there is one. */
 bool trusted(const Calibration&);
 
 /** The poses that every verb reads, as rig/Extrinsics.h does, each with a comment: as given, calibrated or not. */

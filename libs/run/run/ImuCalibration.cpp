@@ -7,7 +7,7 @@ namespace scanloom
 namespace
 {
 /** A tenth of the start's error is left: by then less than the standard deviation. */
-bool isNear(const Mount& a, const Mount& b)
+bool isNear(const Extrinsics& a, const Extrinsics& b)
 {
   constexpr double kNear = 0.05, kTurn = 0.3 * kDegree, kClock = 2e-3;  // m, rad, s
   return (a.body_T_sensor.translation - b.body_T_sensor.translation).norm() < kNear &&
@@ -43,12 +43,12 @@ SlamSettings withDistrustedImu(const SlamSettings& settings)
 }  // namespace
 
 ImuCalibration calibrateImu(const OpenInput& open, std::size_t reference, const SlamSettings& settings,
-                            const Mount& given, const KeepGoing& keepGoing, const Warn& warn)
+                            const Extrinsics& given, const KeepGoing& keepGoing, const Warn& warn)
 {
   constexpr int kMostDrives = 3;
   ImuCalibration result;
   std::vector<std::string> warnings;  // those of the last drive count
-  const auto drive = [&](const SlamSettings& in_use, const std::optional<Mount>& imu)
+  const auto drive = [&](const SlamSettings& in_use, const std::optional<Extrinsics>& imu)
   {
     warnings.clear();
     result.drive = {};  // its scans are large
@@ -57,19 +57,19 @@ ImuCalibration calibrateImu(const OpenInput& open, std::size_t reference, const 
   };
 
   drive(withoutImu(settings), std::nullopt);
-  std::optional<Mount> start = imuMountByTurns(result.drive.registered, result.drive.imu, given);
-  result.imu = withoutImuMount(result.drive.registered, given);
+  std::optional<Extrinsics> start = imuExtrinsicsByTurns(result.drive.registered, result.drive.imu, given);
+  result.imu = withoutImuExtrinsics(result.drive.registered, given);
   // In a dense stand the lidar alone tells the turns badly. By the pose as given, a wrong IMU still fits nothing.
-  if (!start && result.imu.outcome == ImuMountOutcome::Contradicted) start = given;
+  if (!start && result.imu.outcome == ImuExtrinsicsOutcome::Contradicted) start = given;
   for (int i = 0; start && i < kMostDrives; ++i)
   {
     drive(withDistrustedImu(settings), start);
-    result.imu = estimateImuMount(result.drive.registered, result.drive.imu, given, *start, settings.imu);
-    if (!hasNumbers(result.imu) || isNear(result.imu.told, *start)) break;
-    start = result.imu.told;
+    result.imu = estimateImuExtrinsics(result.drive.registered, result.drive.imu, given, *start, settings.imu);
+    if (!hasNumbers(result.imu) || isNear(result.imu.by_drive, *start)) break;
+    start = result.imu.by_drive;
   }
   // Without a pose the lidars go by the drive before: by the given one, 3 deg off, a drive on flat ground was lost.
-  if (hasNumbers(result.imu)) drive(withImu(settings), result.imu.told);
+  if (hasNumbers(result.imu)) drive(withImu(settings), result.imu.by_drive);
   for (const std::string& warning : warnings) warn(warning);
   return result;
 }

@@ -1,7 +1,7 @@
 /** Clouds of several lidars at one instant, from files. */
 #pragma once
 #include "base/core/MountedLidar.h"
-#include "calibration/StaticMount.h"
+#include "calibration/StaticExtrinsics.h"
 
 #include <filesystem>
 #include <vector>

@@ -19,7 +19,7 @@ TEST(Calibration, ofALidarThatSawOnlyTheMachineIsNotThatOfAMachineAtRest)
   const std::vector<MountedLidar> lidars{{"left", {}}, {"right", {}}};
 
   const LidarCalibration covered = calibrateLidar(1, lidars, 0, drive, Clock::Kept, PoseGiven::Within20Degrees);
-  EXPECT_EQ(covered.estimate.outcome, MountOutcome::NothingShared);
+  EXPECT_EQ(covered.estimate.outcome, ExtrinsicsOutcome::NothingShared);
 }
 }  // namespace
 }  // namespace scanloom::calibration_unittest

@@ -40,7 +40,7 @@ Scan onlyOf(std::uint8_t lidar, const Scan& scan)
 class OneLidarInput final : public SensorInput
 {
  public:
-  OneLidarInput(SensorInput& input, std::size_t lidar, const Crop& crop, const std::optional<Mount>& body_imu)
+  OneLidarInput(SensorInput& input, std::size_t lidar, const Crop& crop, const std::optional<Extrinsics>& body_imu)
     : input_(input),
       lidar_(static_cast<std::uint8_t>(lidar)),
       crop_(crop),
@@ -98,7 +98,7 @@ class OneLidarInput final : public SensorInput
   SensorInput& input_;
   std::uint8_t lidar_;
   Crop crop_;
-  std::optional<Mount> body_imu_;
+  std::optional<Extrinsics> body_imu_;
   LidarScans scans_;
   std::map<int, ScreenedImu> imus_;
 };
@@ -115,7 +115,8 @@ std::vector<LidarImu> lidarImus(const SensorSetup& setup, const OneLidarInput& i
 }  // namespace
 
 CalibrationDrive driveForCalibration(SensorInput& input, std::size_t reference, const SlamSettings& settings,
-                                     const std::optional<Mount>& body_imu, const KeepGoing& keepGoing, const Warn& warn)
+                                     const std::optional<Extrinsics>& body_imu, const KeepGoing& keepGoing,
+                                     const Warn& warn)
 {
   OneLidarInput one(input, reference, cropOf(settings.crop, mountedLidars(input.setup().header.lidars)), body_imu);
   SlamSettings in_use = settings;

@@ -1,7 +1,7 @@
 /** A drive as calibration needs it: the path by one lidar, and the scans of all apart. */
 #pragma once
 #include "base/core/StampedPose.h"
-#include "calibration/Mount.h"
+#include "calibration/Extrinsics.h"
 #include "calibration/RotationByImus.h"
 #include "run/run/SlamRun.h"
 
@@ -25,7 +25,7 @@ struct CalibrationDrive
  * runSlam does.
  */
 CalibrationDrive driveForCalibration(SensorInput&, std::size_t reference, const SlamSettings&,
-                                     const std::optional<Mount>& body_imu, const KeepGoing&, const Warn&);
+                                     const std::optional<Extrinsics>& body_imu, const KeepGoing&, const Warn&);
 
 /** For lidars without given poses (calibration/ScansOfDrive.h). */
 CalibrationDrive withoutOwnParts(CalibrationDrive, const std::vector<MountedLidar>&);
