@@ -2,8 +2,7 @@
 #pragma once
 #include "base/config/Configuration.h"
 #include "input/rig/SensorInput.h"
-
-#include <mrpt/opengl/COpenGLScene.h>
+#include "mrpt/maps/MrptScene.h"
 
 #include <memory>
 #include <string>
@@ -29,7 +28,7 @@ class Devices
 
   /** A window of a scene that does not change. Closes at a key, too. Throws std::runtime_error if there is no display.
    */
-  virtual std::unique_ptr<Window> showScene(const std::string& title, const mrpt::opengl::COpenGLScene::Ptr&, int width,
+  virtual std::unique_ptr<Window> showScene(const std::string& title, const MrptScene::Ptr&, int width,
                                             int height) const = 0;
 
   /** The lidars' events with samples of the IMU whose driver the section describes: see ImuDriverInput.h. */

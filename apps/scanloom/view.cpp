@@ -125,7 +125,7 @@ SceneBuilder sceneOf(const ViewArguments& arguments)
   return scene;
 }
 
-int show(const mrpt::opengl::COpenGLScene::Ptr& scene, const ViewArguments& arguments)
+int show(const MrptScene::Ptr& scene, const ViewArguments& arguments)
 {
   const std::unique_ptr<Window> window =
       devices().showScene(arguments.file.filename().string(), scene, kWidth, kHeight);

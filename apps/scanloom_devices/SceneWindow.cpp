@@ -14,10 +14,10 @@ void requireDisplay()
 }
 }  // namespace
 
-SceneWindow::SceneWindow(const std::string& title, const mrpt::opengl::COpenGLScene::Ptr& scene, int width, int height)
+SceneWindow::SceneWindow(const std::string& title, const MrptScene::Ptr& scene, int width, int height)
   : window_((requireDisplay(), title), static_cast<unsigned>(width), static_cast<unsigned>(height))
 {
-  const mrpt::opengl::CCamera camera = scene->getViewport()->getCamera();
+  const viz::CCamera camera = scene->getViewport()->getCamera();
   window_.get3DSceneAndLock() = scene;
   window_.unlockAccess3DScene();
   window_.setCameraPointingToPoint(camera.getPointingAtX(), camera.getPointingAtY(), camera.getPointingAtZ());

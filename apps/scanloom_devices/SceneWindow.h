@@ -12,7 +12,7 @@ class SceneWindow : public Window
 {
  public:
   /** Throws std::runtime_error if there is no display. */
-  SceneWindow(const std::string& title, const mrpt::opengl::COpenGLScene::Ptr&, int width, int height);
+  SceneWindow(const std::string& title, const MrptScene::Ptr&, int width, int height);
 
   /** False, too, once a key was pressed. */
   bool isOpen() override { return window_.isOpen() && !window_.keyHit(); }

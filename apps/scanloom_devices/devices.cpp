@@ -15,7 +15,7 @@ namespace
 class MrptDevices : public Devices
 {
  public:
-  std::unique_ptr<Window> showScene(const std::string& title, const mrpt::opengl::COpenGLScene::Ptr& scene, int width,
+  std::unique_ptr<Window> showScene(const std::string& title, const MrptScene::Ptr& scene, int width,
                                     int height) const override
   {
     return std::make_unique<SceneWindow>(title, scene, width, height);

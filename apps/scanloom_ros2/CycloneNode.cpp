@@ -335,7 +335,7 @@ class CycloneNode : public Ros2Node
     dds_get_guid(participant_, &own);
     const auto topic =
         endpoint.topic_name && endpoint.type_name ? rosTopicOf(endpoint.topic_name, endpoint.type_name) : std::nullopt;
-    constexpr std::size_t kMostPublishers = 10'000;  // a stranger may announce without end
+    constexpr std::size_t kMostPublishers = 10'000;  // an unknown sender may announce without end
     const bool is_own = std::memcmp(own.v, endpoint.participant_key.v, sizeof own.v) == 0;
     if (!topic || is_own || publishers_.size() >= kMostPublishers) return;
     Publisher publisher{*topic};

@@ -2,6 +2,7 @@
 #include "base/formats/CloudFile.h"
 #include "base/formats/Trajectory.h"
 #include "mrpt/edit/smallRawlog.h"
+#include "mrpt/maps/MrptScene.h"
 #include "mrpt/maps/OctoMapFile.h"
 #include "mrpt/maps/SimpleMapReader.h"
 #include "support/ChildProcess.h"
@@ -9,7 +10,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
-#include <mrpt/opengl/COpenGLScene.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -60,9 +60,9 @@ TEST_F(Map, makesEveryKindOfARawlogAndItsTrajectory)
   octomap::OcTree stock(name("m.bt"));
   EXPECT_GT(stock.size(), 100U);
   EXPECT_DOUBLE_EQ(stock.getResolution(), 0.1);
-  mrpt::opengl::COpenGLScene scene;
+  MrptScene scene;
   EXPECT_TRUE(scene.loadFromFile(name("m.3Dscene")));
-  EXPECT_TRUE(scene.getByClass<mrpt::opengl::CRenderizable>());
+  EXPECT_TRUE(scene.getByClass<viz::CRenderizable>());
 }
 
 TEST_F(Map, ofKeyframesIsThatOfTheRawlog)

@@ -8,6 +8,7 @@
  *   scanloom_bench_live --sensors 2 --seconds 600 --busy 4    with all cores under stress
  *   scanloom_bench_live --sensors 2 --rawlog /tmp/live.rawlog  written to disk, as `record` does
  *   scanloom_bench_live --sensors 2 --web --pages 4           shown on pages (PageReaders)
+ *   scanloom_bench_live --sensors 2 --ros2                    published on /bench/points, as `record --ros2` does
  *   scanloom_bench_live --spoofed 10 --flood 1000             with strangers, without configured addresses
  */
 #include "LoopbackLidars.h"
@@ -16,6 +17,7 @@
 #include "mrpt/observations/RawlogWriter.h"
 #include "mrpt/observations/RigObservations.h"
 #include "run/page/WatchedInput.h"
+#include "run/topics/RosTopics.h"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -40,6 +42,7 @@ struct Arguments
   int busy = 0;
   bool web = false;
   int pages = 0;
+  bool ros2 = false;
   std::string rawlog;  // empty: none
   int compression_level = 0;
 };
@@ -141,7 +144,17 @@ struct ShownOnPage
   PageReaders readers;
 };
 
-Observed observe(RigLive& live, const LoopbackLidars& lidars, ShownOnPage* page, RawlogWriter* writer)
+/** The topics of a run. */
+struct ShownOnTopics
+{
+  explicit ShownOnTopics(SensorInput& live) : input(live, topics, PublishedInput::Pace::OfInput) {}
+
+  RosTopics topics{openRos2Node(ros2NetworkOfEnvironment(), "/bench", "live"), "/bench", false};
+  PublishedInput input;
+};
+
+Observed observe(RigLive& live, SensorInput& watched, const LoopbackLidars& lidars, ShownOnPage* page,
+                 RawlogWriter* writer)
 {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -149,7 +162,7 @@ Observed observe(RigLive& live, const LoopbackLidars& lidars, ShownOnPage* page,
   Observed observed;
   while (!live.ended())
   {
-    const auto event = page ? page->input.next(50ms) : live.next(50ms);
+    const auto event = watched.next(50ms);
     const Clock::time_point came = Clock::now();
     if (page) page->feed.offer();
     if (writer && event) writer->write(*toObservation(*event, live.setup(), DriverOptions{}));
@@ -266,7 +279,10 @@ int run(const Arguments& arguments)
                           ? nullptr
                           : std::make_unique<RawlogWriter>(arguments.rawlog, live.setup().header,
                                                            RawlogOptions{arguments.compression_level, 1s});
-  const Observed observed = observe(live, lidars, page.get(), writer.get());
+  const auto topics = arguments.ros2 ? std::make_unique<ShownOnTopics>(live) : nullptr;
+  SensorInput& watched = page ? page->input : topics ? static_cast<SensorInput&>(topics->input) : live;
+  const Observed observed = observe(live, watched, lidars, page.get(), writer.get());
+  if (topics) fmt::print("  scans not published {}\n", topics->topics.dropped());
   if (writer) writer->close();
   if (page) fmt::print("  {} pages, the first gets {:.2f} Mbit/s\n", arguments.pages, 1e-6 * page->readers.stop());
   lidars.wait();
@@ -290,6 +306,7 @@ int main(int argc, char** argv)
   app.add_option("--rawlog", arguments.rawlog, "write scans and IMU samples to this file");
   app.add_option("--compression-level", arguments.compression_level, "of the rawlog")->check(CLI::Range(0, 9));
   app.add_flag("--web", arguments.web, "show the run on a page");
+  app.add_flag("--ros2", arguments.ros2, "publish the scans on topics of ROS 2");
   app.add_option("--pages", arguments.pages, "readers of the page")->check(CLI::Range(0, 8));
   app.add_option("--spoofed", arguments.loopback.spoofed, "copies of the first lidar's packets per second")
       ->check(CLI::Range(0, 1000));

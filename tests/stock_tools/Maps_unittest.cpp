@@ -48,7 +48,7 @@ struct StockMaps : testing::Test
     for (int i = 0; i < 3; ++i)
     {
       files.add(someKeyframe(i));
-      keyframes.add(someKeyframe(i));
+      keyframes.add({someKeyframe(i)});
     }
     files.close();
     keyframes.write(folder / "m.simplemap");

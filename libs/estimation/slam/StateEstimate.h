@@ -1,4 +1,5 @@
 #pragma once
+#include "base/core/ImuSample.h"
 #include "base/core/Keyframe.h"
 #include "base/core/StampedPose.h"
 #include "estimation/imu/NavState.h"
@@ -33,6 +34,8 @@ struct StateEstimate
   Vector6d correction = Vector6d::Zero();   // boxMinus(map_T_body, the IMU's prediction from the previous estimate)
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // m/s, of the IMU, in the map frame
   ImuBias imu_bias;                                    // by which its next readings are predicted
+  std::optional<ImuSample> imu;  // its reading at `stamp`, interpolated; none where there is no IMU
+  Rigid body_T_imu;
   Health health = Health::Ok;
   bool scan_complete = true;
   bool imu_complete = true;  // false: the IMU did not cover the scan in time, its last reading was held

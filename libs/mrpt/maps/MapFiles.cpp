@@ -88,7 +88,7 @@ class MapFiles::SimpleMap : public File
     : path_(std::move(path)), builder_(lidars)
   {
   }
-  void add(const Keyframe& keyframe) override { builder_.add(keyframe); }
+  void add(const Keyframe& keyframe) override { builder_.add({keyframe}); }
   void close() override { builder_.write(path_); }
 
  private:

@@ -8,10 +8,6 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/img/color_maps.h>
 #include <mrpt/opengl/CFBORender.h>
-#include <mrpt/opengl/CGridPlaneXY.h>
-#include <mrpt/opengl/CPointCloudColoured.h>
-#include <mrpt/opengl/CSetOfLines.h>
-#include <mrpt/opengl/stock_objects.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -46,13 +42,13 @@ Heights heightsOf(const std::vector<Eigen::Vector3f>& points)
   return {quantile(0.01), quantile(0.99)};
 }
 
-mrpt::opengl::CPointCloudColoured::Ptr cloudOf(const std::vector<Eigen::Vector3f>& points)
+viz::CPointCloudColoured::Ptr cloudOf(const std::vector<Eigen::Vector3f>& points)
 {
   constexpr float kPointSize = 2.0F;  // pixels
   constexpr float kDarkest = 0.2F;    // the map of colours begins with blue too dark for the background
   const Heights heights = heightsOf(points);
   const float span = std::max(0.5F, heights.high - heights.low);
-  auto cloud = mrpt::opengl::CPointCloudColoured::Create();
+  auto cloud = viz::CPointCloudColoured::Create();
   cloud->setPointSize(kPointSize);
   cloud->reserve(points.size());
   for (const Eigen::Vector3f& p : points)
@@ -64,9 +60,9 @@ mrpt::opengl::CPointCloudColoured::Ptr cloudOf(const std::vector<Eigen::Vector3f
   return cloud;
 }
 
-mrpt::opengl::CSetOfLines::Ptr lineOf(const Trajectory& path)
+viz::CSetOfLines::Ptr lineOf(const Trajectory& path)
 {
-  auto lines = mrpt::opengl::CSetOfLines::Create();
+  auto lines = viz::CSetOfLines::Create();
   lines->setColor_u8(0xFF, 0xFF, 0xFF);
   lines->setLineWidth(3);
   for (std::size_t i = 1; i < path.size(); ++i)
@@ -77,15 +73,15 @@ mrpt::opengl::CSetOfLines::Ptr lineOf(const Trajectory& path)
   return lines;
 }
 
-mrpt::opengl::CGridPlaneXY::Ptr gridBelow(const Box& box)
+viz::CGridPlaneXY::Ptr gridBelow(const Box& box)
 {
   constexpr float kStep = 10;
   constexpr float kMostLines = 1000;  // along an axis; MRPT makes them one by one
   float step = kStep;
   while (box.sizes().head<2>().maxCoeff() > kMostLines * step) step *= 10;
   const auto down = [step](float value) { return step * std::floor(value / step); };
-  auto grid = mrpt::opengl::CGridPlaneXY::Create(down(box.min().x()), down(box.max().x()) + step, down(box.min().y()),
-                                                 down(box.max().y()) + step, box.min().z(), step);
+  auto grid = viz::CGridPlaneXY::Create(down(box.min().x()), down(box.max().x()) + step, down(box.min().y()),
+                                        down(box.max().y()) + step, box.min().z(), step);
   grid->setColor_u8(0x60, 0x60, 0x60);
   return grid;
 }
@@ -114,12 +110,12 @@ Box boxOf(const std::vector<Eigen::Vector3f>& points, const std::vector<Trajecto
   return {near(box.min()), near(box.max())};
 }
 
-void aimCamera(mrpt::opengl::COpenGLScene& scene, const Box& box)
+void aimCamera(MrptScene& scene, const Box& box)
 {
   constexpr float kAzimuth = -60, kElevation = 45;  // degrees
   const float size = std::max(4.0F, box.diagonal().norm());
   const auto view = scene.getViewport();
-  mrpt::opengl::CCamera& camera = view->getCamera();
+  viz::CCamera& camera = view->getCamera();
   camera.setPointingAt(box.center().x(), box.center().y(), box.center().z());
   camera.setZoomDistance(1.5F * size);
   camera.setAzimuthDegrees(kAzimuth);
@@ -149,22 +145,22 @@ void SceneBuilder::addOccupied(const octomap::OcTree& tree)
 
 void SceneBuilder::addPath(const Trajectory& path) { paths_.push_back(path); }
 
-mrpt::opengl::COpenGLScene::Ptr SceneBuilder::finished() const
+MrptScene::Ptr SceneBuilder::finished() const
 {
   const Box box = boxOf(points_, paths_);
   if (box.isEmpty()) throw std::invalid_argument("there is nothing to see: no points and no poses");
-  auto scene = mrpt::opengl::COpenGLScene::Create();
+  auto scene = MrptScene::Create();
   scene->insert(gridBelow(box));
-  scene->insert(mrpt::opengl::stock_objects::CornerXYZSimple(2.0F, 3.0F));
+  scene->insert(viz::stock_objects::CornerXYZSimple(2.0F, 3.0F));
   if (!points_.empty()) scene->insert(cloudOf(points_));
   for (const Trajectory& path : paths_) scene->insert(lineOf(path));
   aimCamera(*scene, box);
   return scene;
 }
 
-void writeScene(const std::filesystem::path& path, const mrpt::opengl::COpenGLScene& scene) { writeGzip(path, scene); }
+void writeScene(const std::filesystem::path& path, const MrptScene& scene) { writeGzip(path, scene); }
 
-void writePicture(const std::filesystem::path& path, const mrpt::opengl::COpenGLScene& scene, int width, int height)
+void writePicture(const std::filesystem::path& path, const MrptScene& scene, int width, int height)
 {
   mrpt::opengl::CFBORender renderer(static_cast<unsigned>(width), static_cast<unsigned>(height));
   renderer.getCamera(scene) = scene.getViewport()->getCamera();

@@ -2,8 +2,8 @@
 #pragma once
 #include "base/core/Keyframe.h"
 #include "base/formats/Trajectory.h"
+#include "mrpt/maps/MrptScene.h"
 
-#include <mrpt/opengl/COpenGLScene.h>
 #include <Eigen/Core>
 
 #include <filesystem>
@@ -28,7 +28,7 @@ class SceneBuilder
    * Points coloured by height, paths as lines, a grid of 10 m (or a power of ten more) below, and a camera that sees
    * all of it. Throws std::invalid_argument if there are neither points nor poses.
    */
-  mrpt::opengl::COpenGLScene::Ptr finished() const;
+  MrptScene::Ptr finished() const;
 
  private:
   std::vector<Eigen::Vector3f> points_;
@@ -36,8 +36,8 @@ class SceneBuilder
 };
 
 /** gzipped; opens in SceneViewer3D. Throws std::runtime_error if it cannot be written. */
-void writeScene(const std::filesystem::path&, const mrpt::opengl::COpenGLScene&);
+void writeScene(const std::filesystem::path&, const MrptScene&);
 
 /** Draws without a display. Throws std::runtime_error if it cannot be drawn or written. */
-void writePicture(const std::filesystem::path&, const mrpt::opengl::COpenGLScene&, int width, int height);
+void writePicture(const std::filesystem::path&, const MrptScene&, int width, int height);
 }  // namespace scanloom

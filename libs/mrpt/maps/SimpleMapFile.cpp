@@ -8,6 +8,7 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace scanloom
@@ -37,6 +38,24 @@ Scan scanOf(const Keyframe& keyframe, std::size_t lidar, const Rigid& sensor_T_b
   }
   return scan;
 }
+
+/**
+ * MRPT's covariance is of x, y, z, yaw, pitch, roll. A rotation w about the body's axes changes the angles by the
+ * inverse of the kinematics of R = Rz(yaw) Ry(pitch) Rx(roll).
+ */
+mrpt::math::CMatrixDouble66 mrptCovariance(const Rigid& map_T_body, const Matrix6d& along_body)
+{
+  const Eigen::Vector3d angles = map_T_body.yawPitchRoll();
+  const double cos_pitch = std::cos(angles[1]), sin_roll = std::sin(angles[2]), cos_roll = std::cos(angles[2]);
+  const double tan_pitch = std::tan(angles[1]);
+  Matrix6d change = Matrix6d::Zero();
+  change.topLeftCorner<3, 3>() = map_T_body.rotation.toRotationMatrix();
+  change.bottomRightCorner<3, 3>() << 0, sin_roll / cos_pitch, cos_roll / cos_pitch,  //
+      0, cos_roll, -sin_roll,                                                         //
+      1, sin_roll * tan_pitch, cos_roll * tan_pitch;
+  const Matrix6d of_angles = change * along_body * change.transpose();
+  return mrpt::math::CMatrixDouble66(of_angles);
+}
 }  // namespace
 
 SimpleMapBuilder::SimpleMapBuilder(std::vector<MountedLidar> lidars, CloudClass cloud_class)
@@ -47,14 +66,16 @@ SimpleMapBuilder::SimpleMapBuilder(std::vector<MountedLidar> lidars, CloudClass 
 
 SimpleMapBuilder::~SimpleMapBuilder() = default;
 
-void SimpleMapBuilder::add(const Keyframe& keyframe)
+void SimpleMapBuilder::add(const MeasuredKeyframe& measured)
 {
+  const Keyframe& keyframe = measured.keyframe;
   for (const std::uint8_t sensor_id : keyframe.points.sensor_id)
     if (sensor_id >= lidars_.size())
       throw std::invalid_argument(fmt::format(
           "keyframes.simplemap: a point has sensor_id = {}, but there are {} lidars", sensor_id, lidars_.size()));
 
   const auto frame = mrpt::obs::CSensoryFrame::Create();
+  if (measured.imu) frame->insert(toObservation(measured.imu->sample, measured.imu->body_T_imu));
   for (std::size_t lidar = 0; lidar < lidars_.size(); ++lidar)
   {
     const Scan scan = scanOf(keyframe, lidar, lidars_[lidar].body_T_sensor.inverse());
@@ -63,7 +84,9 @@ void SimpleMapBuilder::add(const Keyframe& keyframe)
     observation->sensorPose = toMrpt(lidars_[lidar].body_T_sensor);
     frame->insert(observation);
   }
-  map_->insert(mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(keyframe.map_T_body)), frame);
+  map_->insert(mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(keyframe.map_T_body),
+                                                       mrptCovariance(keyframe.map_T_body, measured.covariance)),
+               frame);
 }
 
 void SimpleMapBuilder::write(const std::filesystem::path& path) const { writeGzip(path, *map_); }

@@ -198,11 +198,11 @@ Scan scanOf(PointCloud points, Timestamp start, const std::optional<RecordingHea
 }
 }  // namespace
 
-CloudClass cloudClassFromName(const std::string& name)
+CloudClass cloudClassFromName(const std::string& name, const std::string& key)
 {
   if (name == "CGenericPointsMap") return CloudClass::CGenericPointsMap;
   if (name == "CPointsMapXYZI") return CloudClass::CPointsMapXYZI;
-  throw std::invalid_argument(fmt::format("'{}': a class of clouds is CGenericPointsMap or CPointsMapXYZI", name));
+  throw std::invalid_argument(fmt::format("{} = {}: must be CGenericPointsMap or CPointsMapXYZI", key, name));
 }
 
 bool isSlice(const mrpt::obs::CObservation& observation)

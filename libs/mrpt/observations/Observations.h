@@ -26,8 +26,8 @@ enum class CloudClass
   CPointsMapXYZI,     // x, y, z and intensity / 255 only: for stock tools of MRPT 2.x without the plugin
 };
 
-/** Throws std::invalid_argument, naming the choices, for any other text. */
-CloudClass cloudClassFromName(const std::string& name);
+/** Throws std::invalid_argument, naming the key and the choices, for any other text. */
+CloudClass cloudClassFromName(const std::string& name, const std::string& key = "cloud_class");
 
 /**
  * The points in the body frame with identity sensorPose; the stamp is the scan's start, rounded down to MRPT's 100 ns.

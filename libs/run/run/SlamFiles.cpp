@@ -30,6 +30,11 @@ std::string csvText(std::string text)
     if (c == ',' || c == '"' || c == '\n' || c == '\r') c = ' ';
   return text;
 }
+
+std::optional<RecordedImu> imuOf(const StateEstimate& e)
+{
+  return e.imu ? std::optional(RecordedImu{*e.imu, e.body_T_imu, kImuLabel}) : std::nullopt;
+}
 }  // namespace
 
 std::vector<std::string> SlamFiles::names(const OutputOptions& output)
@@ -51,7 +56,7 @@ SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<Reco
   csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
                    "surprise,trusted,recovered,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,sigma_rz,correction_m,"
                    "correction_deg,mark\n";
-  if (output.maps) maps_.emplace(folder, lidars, octomap, cloudClassFromName(output.keyframe_class));
+  if (output.maps) maps_.emplace(folder, lidars, octomap, cloudClassFromName(output.keyframe_class, "keyframe_class"));
   if (!output.dense_map.empty()) dense_map_.emplace(folder, output);
 }
 
@@ -71,7 +76,7 @@ void SlamFiles::add(const StateEstimate& e)
              e.correction.head<3>().norm(), 180 / M_PI * e.correction.tail<3>().norm(), marksUntil(e.stamp));
   for (TumWriter* writer : {&trajectory_, &trajectory_imu_}) writer->flush();
   csv_.flush();
-  if (maps_ && e.keyframe) maps_->add(*e.keyframe);
+  if (maps_ && e.keyframe) maps_->add({*e.keyframe, e.since_start, imuOf(e)});
   if (dense_map_) dense_map_->add(e);
 }
 

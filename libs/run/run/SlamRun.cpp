@@ -273,10 +273,11 @@ class SlamRun
     slam_.changeImu({{imuPose(), noise()}, imu_->recent(), imu_->previous()});
   }
 
-  void keep(const std::vector<StateEstimate>& estimates)
+  void keep(std::vector<StateEstimate> estimates)
   {
-    for (const StateEstimate& estimate : estimates)
+    for (StateEstimate& estimate : estimates)
     {
+      if (motion_) estimate.imu.reset();  // it was assumed
       counts_.add(estimate);
       if (motion_) motion_->update(estimate);
       times_.measure("rig_check", [&] { check_.add(localised(estimate)); });

@@ -108,7 +108,7 @@ RosTopics::RosTopics(std::shared_ptr<Ros2Node> node, const std::string& name_spa
       {
         while (std::optional<Outgoing> next = queue_.pop()) node_->publish(next->topic, std::move(next->message));
       });
-  ::pthread_setname_np(thread_.native_handle(), "scanloom-topics");
+  ::pthread_setname_np(thread_.native_handle(), "scanloom-pub");
 }
 
 RosTopics::~RosTopics()

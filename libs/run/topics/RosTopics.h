@@ -21,7 +21,7 @@ namespace scanloom
  * tf, tf_static and diagnostics. Frames by REP-105: map, odom, base_link (the body), and one of each sensor's name.
  *
  * Used from one thread, which waits for nobody: messages are made there if somebody reads their topic, and are written
- * by a thread of their own. More than a dozen members: the topics, and what each of them was told last.
+ * by a thread of their own. More than a dozen members: the topics, and what was last sent on each.
  */
 class RosTopics
 {

@@ -40,7 +40,7 @@ Keyframe someKeyframe()
   return {kSmallStart, Rigid::fromXyzYawPitchRoll(7, 8, 9, 0.5, 0.25, -0.125), someScan(kSmallStart).points};
 }
 
-mrpt::opengl::COpenGLScene::Ptr someScene()
+MrptScene::Ptr someScene()
 {
   SceneBuilder scene;
   scene.addKeyframe(someKeyframe());
@@ -51,7 +51,7 @@ mrpt::opengl::COpenGLScene::Ptr someScene()
 std::filesystem::path writeSimpleMap(const std::filesystem::path& path)
 {
   SimpleMapBuilder builder(lidarsOfHeader(), CloudClass::CPointsMapXYZI);
-  builder.add(someKeyframe());
+  builder.add({someKeyframe()});
   builder.write(path);
   return path;
 }
@@ -145,7 +145,7 @@ TEST(WrittenByMrpt258, aSceneIsWrittenInGzipByThisMrpt)
 
 TEST(WrittenByMrpt258, aSceneIsReadWithItsPointsAndItsPath)
 {
-  const auto read = mrpt::opengl::COpenGLScene::Create();
+  const auto read = MrptScene::Create();
   ASSERT_TRUE(read->loadFromFile(older(".3Dscene").string()));
   const auto points = read->getByClass<mrpt::opengl::CPointCloudColoured>();
   const auto written = someScene()->getByClass<mrpt::opengl::CPointCloudColoured>();

@@ -33,7 +33,7 @@ TEST(SimpleMapBuilder, writesWhatMrptReadsBack)
 {
   const TemporaryFolder folder;
   SimpleMapBuilder builder(twoLidars(), CloudClass::CPointsMapXYZI);
-  builder.add(onePointOfEach());
+  builder.add({onePointOfEach()});
   builder.write(folder / "keyframes.simplemap");
 
   mrpt::maps::CSimpleMap map;
@@ -60,7 +60,7 @@ TEST(SimpleMapBuilder, writesTheClassWithAllFieldsUnlessAskedForTheOther)
   const TemporaryFolder folder;
   registerClasses();
   SimpleMapBuilder builder(twoLidars());
-  builder.add(onePointOfEach());
+  builder.add({onePointOfEach()});
   builder.write(folder / "keyframes.simplemap");
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile((folder / "keyframes.simplemap").string()));
@@ -72,13 +72,53 @@ TEST(SimpleMapBuilder, writesTheClassWithAllFieldsUnlessAskedForTheOther)
   EXPECT_EQ(cloud->getPointsBufferRef_float_field("t")->at(0), 0) << "deskewed";
 }
 
+TEST(SimpleMapBuilder, givesTheErrorOfThePoseAlongTheMapsAxesAndInItsAngles)
+{
+  const TemporaryFolder folder;
+  SimpleMapBuilder builder(twoLidars(), CloudClass::CPointsMapXYZI);
+  MeasuredKeyframe measured{onePointOfEach()};
+  measured.keyframe.map_T_body = Rigid::fromXyzYawPitchRoll(7, 8, 9, M_PI / 2, 0, 0);
+  measured.covariance.diagonal() << 0.04, 0.01, 0.09, 1e-4, 4e-4, 9e-4;  // ahead, left, up, about them
+  builder.add(measured);
+  builder.write(folder / "keyframes.simplemap");
+  mrpt::maps::CSimpleMap map;
+  ASSERT_TRUE(map.loadFromFile((folder / "keyframes.simplemap").string()));
+  const auto covariance = map.begin()->pose->getCovariance();
+  EXPECT_NEAR(covariance(0, 0), 0.01, 1e-9) << "x of the map is right of the body";
+  EXPECT_NEAR(covariance(1, 1), 0.04, 1e-9);
+  EXPECT_NEAR(covariance(2, 2), 0.09, 1e-9);
+  EXPECT_NEAR(covariance(3, 3), 9e-4, 1e-9) << "yaw";
+  EXPECT_NEAR(covariance(4, 4), 4e-4, 1e-9) << "pitch";
+  EXPECT_NEAR(covariance(5, 5), 1e-4, 1e-9) << "roll";
+}
+
+TEST(SimpleMapBuilder, addsTheReadingOfTheImu)
+{
+  const TemporaryFolder folder;
+  SimpleMapBuilder builder(twoLidars(), CloudClass::CPointsMapXYZI);
+  MeasuredKeyframe measured{onePointOfEach()};
+  const ImuSample sample{measured.keyframe.stamp, {0.1, 0.2, 0.3}, {0, 0, 9.81}};
+  measured.imu = RecordedImu{sample, Rigid::fromXyzYawPitchRoll(0.2, 0, 0, 0, 0, 0), "imu"};
+  builder.add(measured);
+  builder.write(folder / "keyframes.simplemap");
+  mrpt::maps::CSimpleMap map;
+  ASSERT_TRUE(map.loadFromFile((folder / "keyframes.simplemap").string()));
+  const auto imu = map.begin()->sf->getObservationByClass<mrpt::obs::CObservationIMU>();
+  ASSERT_TRUE(imu);
+  const std::optional<RecordedImu> read = fromObservation(*imu);
+  ASSERT_TRUE(read);
+  EXPECT_LT((read->sample.gyro - sample.gyro).norm(), 1e-12);
+  EXPECT_DOUBLE_EQ(read->body_T_imu.translation.x(), 0.2);
+  EXPECT_EQ(map.begin()->sf->size(), 3U);
+}
+
 TEST(SimpleMapBuilder, writesTheSameBytesForTheSameKeyframes)
 {
   const TemporaryFolder folder;
   for (const char* name : {"a", "b"})
   {
     SimpleMapBuilder builder(twoLidars());
-    builder.add(onePointOfEach());
+    builder.add({onePointOfEach()});
     builder.write(folder / name);
   }
   EXPECT_EQ(contentOf(folder / "a"), contentOf(folder / "b"));
@@ -87,7 +127,7 @@ TEST(SimpleMapBuilder, writesTheSameBytesForTheSameKeyframes)
 TEST(SimpleMapBuilder, refusesAPointOfAnUnknownLidar)
 {
   SimpleMapBuilder builder({twoLidars().front()});
-  EXPECT_THROW(builder.add(onePointOfEach()), std::invalid_argument);
+  EXPECT_THROW(builder.add({onePointOfEach()}), std::invalid_argument);
 }
 }  // namespace
 }  // namespace scanloom::simple_map_file_unittest

@@ -60,7 +60,7 @@ TEST(SimpleMapReader, givesBackWhatTheBuilderWasGiven)
   written.points.intensity = {51, 255, 0};
   written.points.sensor_id = {0, 1, 1};
   SimpleMapBuilder builder(lidars);
-  builder.add(written);
+  builder.add({written});
   builder.write(folder / "keyframes.simplemap");
 
   const SimpleMapReader reader(folder / "keyframes.simplemap");
@@ -201,7 +201,7 @@ std::string ownMap(const TemporaryFolder& folder)
   keyframe.points.resize(2);
   keyframe.points.sensor_id = {0, 1};
   SimpleMapBuilder builder({{"left", {}}, {"right", {}}});
-  builder.add(keyframe);
+  builder.add({keyframe});
   builder.write(folder / "own.simplemap");
   return uncompressed(folder / "own.simplemap");
 }

@@ -126,6 +126,8 @@ TrackedScan Tracker::step(TrackerState before, Scan scan, const std::vector<ImuS
   const StageRuns times =
       predicted.times + seen.times + registered.times + smoothed.times + continued.times + map.times;
   StateEstimate estimate = estimateOf(std::move(seen), predicted, continued, map, since_start, motion);
+  estimate.imu = samples.back();
+  estimate.body_T_imu = before.window.smoother.body_T_imu();
   return {stateAfter(seen, continued, std::move(map), measured.shared_noise, last_good), std::move(estimate), times};
 }
 

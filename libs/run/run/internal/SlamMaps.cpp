@@ -31,7 +31,7 @@ SlamMaps::SlamMaps(const std::filesystem::path& folder, const std::vector<Record
 
 SlamMaps::~SlamMaps() { queue_.end(); }
 
-void SlamMaps::add(Keyframe keyframe)
+void SlamMaps::add(MeasuredKeyframe keyframe)
 {
   if (!queue_.push(std::move(keyframe))) drawn_.get();
 }
@@ -40,7 +40,7 @@ void SlamMaps::draw()
 {
   try
   {
-    while (const std::optional<Keyframe> keyframe = queue_.pop()) addToAll(*keyframe);
+    while (const std::optional<MeasuredKeyframe> keyframe = queue_.pop()) addToAll(*keyframe);
   }
   catch (...)
   {
@@ -62,12 +62,13 @@ void SlamMaps::attempt(const std::string& files, const std::function<void()>& st
   }
 }
 
-void SlamMaps::addToAll(const Keyframe& keyframe)
+void SlamMaps::addToAll(const MeasuredKeyframe& measured)
 {
+  const Keyframe& keyframe = measured.keyframe;
   const auto add = [&](const char* stage, const char* files, const std::function<void()>& step)
   { attempt(files, [&] { times_.measure(stage, step); }); };
   add("output.ply", kPly, [&] { ply_.add(keyframe.points, keyframe.stamp, keyframe.map_T_body); });
-  add("output.simplemap", kSimpleMap, [&] { simple_map_.add(keyframe); });
+  add("output.simplemap", kSimpleMap, [&] { simple_map_.add(measured); });
   add("output.octomap", kOctoMaps, [&] { octomap_->add(keyframe); });
   if (failures_.count(kOctoMaps) > 0) octomap_.reset();
   add("output.picture", kPicture, [&] { picture_.add(keyframe); });

@@ -37,7 +37,7 @@ class SlamMaps
    * Keyframes are drawn by a thread of their own, in order, because an occupancy map takes seconds for one. Waits while
    * eight of them wait.
    */
-  void add(Keyframe);
+  void add(MeasuredKeyframe);
 
   /**
    * Waits for the last keyframe, renames every file to its name, and adds map points and stages to the summary. A map
@@ -47,7 +47,7 @@ class SlamMaps
 
  private:
   void draw();
-  void addToAll(const Keyframe&);
+  void addToAll(const MeasuredKeyframe&);
   void writeAll(const Trajectory&);
 
   /** One step of a map. If it fails, the map is given up: its further steps are left out. */
@@ -61,7 +61,7 @@ class SlamMaps
   StageTimes times_;                             // of the thread
   std::map<std::string, std::string> failures_;  // by files
 
-  BoundedQueue<Keyframe> queue_;
+  BoundedQueue<MeasuredKeyframe> queue_;
   std::shared_future<void> drawn_;  // last: its thread uses all of the above, and it waits for that thread
 };
 }  // namespace scanloom
