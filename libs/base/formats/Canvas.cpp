@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <mrpt/img/CImage.h>
+#include <mrpt/version.h>
 
 #include <algorithm>
 #include <array>
@@ -25,6 +26,38 @@ double distanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& from, 
   const double share = length2 > 0 ? std::clamp((p - from).dot(along) / length2, 0.0, 1.0) : 0.0;
   return (p - from - share * along).norm();
 }
+// MRPT 3 takes pixels with their channels side by side, MRPT 2 a picture for each channel.
+#if MRPT_VERSION >= 0x030000
+mrpt::img::CImage imageOf(const std::vector<Color>& pixels, int width, int height)
+{
+  std::vector<std::uint8_t> bytes;
+  for (const Color& pixel : pixels)
+    for (const float channel : pixel) bytes.push_back(toByte(channel));
+  mrpt::img::CImage image;
+  image.loadFromMemoryBuffer(width, height, mrpt::img::CH_RGB, bytes.data());
+  return image;
+}
+
+void textOut(mrpt::img::CImage& image, int x, int y, const std::string& text, mrpt::img::TColor color)
+{
+  image.textOut({x, y}, text, color);
+}
+#else
+mrpt::img::CImage imageOf(const std::vector<Color>& pixels, int width, int height)
+{
+  std::array<std::vector<std::uint8_t>, 3> channels;
+  for (const Color& pixel : pixels)
+    for (int channel = 0; channel < 3; ++channel) channels[channel].push_back(toByte(pixel[channel]));
+  mrpt::img::CImage image;
+  image.loadFromMemoryBuffer(width, height, width, channels[0].data(), channels[1].data(), channels[2].data());
+  return image;
+}
+
+void textOut(mrpt::img::CImage& image, int x, int y, const std::string& text, mrpt::img::TColor color)
+{
+  image.textOut(x, y, text, color);
+}
+#endif
 }  // namespace
 
 Canvas::Canvas(int width, int height, const Color& background)
@@ -74,16 +107,11 @@ int Canvas::textWidth(const std::string& text, Font font)
 
 void Canvas::savePng(const std::filesystem::path& path) const
 {
-  std::array<std::vector<std::uint8_t>, 3> channels;
-  for (const Color& pixel : pixels_)
-    for (int channel = 0; channel < 3; ++channel) channels[channel].push_back(toByte(pixel[channel]));
-
-  mrpt::img::CImage image;
-  image.loadFromMemoryBuffer(width_, height_, width_, channels[0].data(), channels[1].data(), channels[2].data());
+  mrpt::img::CImage image = imageOf(pixels_, width_, height_);
   for (const Label& label : labels_)
   {
     image.selectTextFont(label.font == Font::Small ? "6x13" : "9x15");
-    image.textOut(label.x, label.y, label.text, toMrpt(label.color));
+    textOut(image, label.x, label.y, label.text, toMrpt(label.color));
   }
   OutputFile file(path);
   if (!image.saveToFile(file.temporary().string()))

@@ -8,6 +8,7 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/img/color_maps.h>
 #include <mrpt/opengl/CFBORender.h>
+#include <mrpt/version.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -163,7 +164,11 @@ void writeScene(const std::filesystem::path& path, const MrptScene& scene) { wri
 void writePicture(const std::filesystem::path& path, const MrptScene& scene, int width, int height)
 {
   mrpt::opengl::CFBORender renderer(static_cast<unsigned>(width), static_cast<unsigned>(height));
+#if MRPT_VERSION >= 0x030000
+  renderer.setCamera(scene.getViewport()->getCamera());
+#else
   renderer.getCamera(scene) = scene.getViewport()->getCamera();
+#endif
   mrpt::img::CImage image;
   renderer.render_RGB(scene, image);
   OutputFile file(path);
