@@ -213,9 +213,9 @@ class CycloneNode : public Ros2Node
     return writers_.size() - 1;
   }
 
-  void publish(std::size_t topic, std::vector<std::uint8_t> message) override
+  bool publish(std::size_t topic, std::vector<std::uint8_t> message) override
   {
-    write(writer(topic), std::move(message));
+    return write(writer(topic), std::move(message));
   }
 
   bool hasReaders(std::size_t topic) const override
@@ -266,9 +266,9 @@ class CycloneNode : public Ros2Node
     return writers_.at(topic);
   }
 
-  static void write(const Writer& writer, std::vector<std::uint8_t> message)
+  static bool write(const Writer& writer, std::vector<std::uint8_t> message)
   {
-    checked(dds_writecdr(writer.entity, rawMessage(writer.type, std::move(message))), "not published");
+    return dds_writecdr(writer.entity, rawMessage(writer.type, std::move(message))) == DDS_RETCODE_OK;
   }
 
   static Guid guidOf(dds_entity_t entity)

@@ -98,9 +98,9 @@ class Ros2Node
 
   /**
    * A message with its encapsulation (4 bytes, MessageWriter). A reader that does not keep up loses what is older than
-   * the newest messages; nobody else notices.
+   * the newest messages; nobody else notices. @return false if DDS could not send it.
    */
-  virtual void publish(std::size_t topic, std::vector<std::uint8_t> message) = 0;
+  virtual bool publish(std::size_t topic, std::vector<std::uint8_t> message) = 0;
 
   /** Whether somebody reads the topic, so that it is worth to make a message. */
   virtual bool hasReaders(std::size_t topic) const = 0;

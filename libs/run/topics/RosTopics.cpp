@@ -106,7 +106,8 @@ RosTopics::RosTopics(std::shared_ptr<Ros2Node> node, const std::string& name_spa
   thread_ = std::thread(
       [this]
       {
-        while (std::optional<Outgoing> next = queue_.pop()) node_->publish(next->topic, std::move(next->message));
+        while (std::optional<Outgoing> next = queue_.pop())
+          if (!node_->publish(next->topic, std::move(next->message))) ++refused_;
       });
   ::pthread_setname_np(thread_.native_handle(), "scanloom-pub");
 }

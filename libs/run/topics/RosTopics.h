@@ -7,6 +7,7 @@
 #include "input/ros2/Ros2Node.h"
 #include "run/topics/internal/PredictedMotion.h"
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -51,8 +52,8 @@ class RosTopics
   /** The state of the lidars, once a second. */
   void update(const RigAccount&, Clock::time_point now = Clock::now());
 
-  /** Messages of scans and maps that were not written because the network was too slow. */
-  std::uint64_t dropped() const { return queue_.dropped(kLarge); }
+  /** Messages that were not sent: of scans and maps because the network was too slow, or that DDS did not take. */
+  std::uint64_t dropped() const { return queue_.dropped(kLarge) + refused_; }
 
  private:
   static constexpr std::size_t kLarge = 0, kSmall = 1;  // kinds of messages, with room of their own
@@ -82,7 +83,8 @@ class RosTopics
   Clock::time_point diagnosed_{};
   Timestamp newest_;
   BoundedQueue<Outgoing> queue_{{3, 10'000}, [](const Outgoing& outgoing) { return outgoing.kind; }};
-  std::thread thread_;  // last: it uses the node and the queue
+  std::atomic<std::uint64_t> refused_{0};
+  std::thread thread_;  // last: it uses all of the above
 };
 
 /** Another input, whose events are published on their way to the one who asks for them. */

@@ -38,7 +38,7 @@ class FakeNode : public Ros2Node
   void subscribe(const std::string& topic) override { subscribed_.push_back(topic); }
   Ros2Losses losses() const override { return {}; }
   std::size_t advertise(const Ros2Topic&, const Ros2Keep&) override { return 0; }
-  void publish(std::size_t, std::vector<std::uint8_t>) override {}
+  bool publish(std::size_t, std::vector<std::uint8_t>) override { return true; }
   bool hasReaders(std::size_t) const override { return false; }
 
   std::optional<Ros2Message> next(Duration patience) override

@@ -87,7 +87,7 @@ void RigTopics::receive()
     takePackets();
     stream_.finish();
     while (std::optional<SensorEvent> event = stream_.next()) queue_.pushDroppingOldest(*std::move(event));
-    if (recording_) recording_->close();
+    closeRecording();
   }
   catch (...)
   {
@@ -95,6 +95,21 @@ void RigTopics::receive()
   }
   publish();
   queue_.end(error);
+}
+
+/** The scans were given out: a full disk does not make them wrong. */
+void RigTopics::closeRecording()
+{
+  if (!recording_) return;
+  try
+  {
+    recording_->close();
+  }
+  catch (const std::exception& failure)
+  {
+    const std::lock_guard lock(mutex_);
+    warnings_.push_back(fmt::format("{}: not all that was heard is recorded", failure.what()));
+  }
 }
 
 void RigTopics::receiveOne()

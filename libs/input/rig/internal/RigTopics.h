@@ -42,6 +42,7 @@ class RigTopics : public SensorInput
 
  private:
   void receive();
+  void closeRecording();
   void receiveOne();
   void take(const Ros2Message&);
   void takePackets();
@@ -53,7 +54,7 @@ class RigTopics : public SensorInput
   RigStream stream_;
   MessagePackets packets_;
   BoundedQueue<SensorEvent> queue_;
-  std::unique_ptr<TopicRecording> recording_;  // none if it is not wanted, or the disk did not take it
+  std::unique_ptr<TopicRecording> recording_;                       // none if it is not wanted
   std::map<std::pair<std::string, std::string>, BagTopic> topics_;  // as bags declare them, by name and type
   Timestamp newest_imu_ = Timestamp::min();
   std::uint64_t unreadable_imu_ = 0;
