@@ -277,6 +277,14 @@ TEST(RigTopics, aRecordingOfTopicsIsAnMcap)
   EXPECT_THROW(RigTopics{live}, ConfigError);
 }
 
+TEST(RigTopics, aRecordingThatIsThereIsNotOverwritten)
+{
+  const TemporaryFolder folder;
+  Rig live = heardOn(std::make_shared<FakeNode>(), describedBy(drive(10), folder));
+  live.live.capture = folder / "heard.mcap";
+  EXPECT_THROW(RigTopics{live}, std::runtime_error);
+}
+
 TEST(RigTopics, aRigOfPortsIsNotHeardOnTopics)
 {
   const TemporaryFolder folder;

@@ -20,16 +20,17 @@ constexpr auto kFlushPeriod = 1s;
 // Datagrams are written in portions: the payloads of one are used again while the next one is written.
 constexpr auto kPortion = 50ms;
 
-std::filesystem::path newFile(const std::filesystem::path& path)
+}  // namespace
+
+std::filesystem::path newCapture(const std::filesystem::path& path)
 {
   if (isTaken(path))  // also a link, which would be followed
     throw std::runtime_error(fmt::format("{} exists: give another pcap_output, or move it away", path.string()));
   return path;
 }
-}  // namespace
 
 LiveCapture::LiveCapture(const std::filesystem::path& path, std::size_t memory)
-  : memory_(memory), writer_(newFile(path)), thread_([this] { write(); })
+  : memory_(memory), writer_(newCapture(path)), thread_([this] { write(); })
 {
   ::pthread_setname_np(thread_.native_handle(), "scanloom-pcap");
 }

@@ -10,6 +10,9 @@
 
 namespace scanloom
 {
+/** The path. Throws std::runtime_error if there is such a file: a recording is never overwritten. */
+std::filesystem::path newCapture(const std::filesystem::path&);
+
 /**
  * Writes datagrams to a capture in a thread of its own, so that nobody waits for the disk: above the memory limit
  * datagrams are dropped and counted. Flushed every second: after a crash of the program the file is readable up to its

@@ -2,6 +2,7 @@
 
 #include "base/core/ConfigError.h"
 #include "input/bags/BagContents.h"
+#include "input/rig/internal/LiveCapture.h"
 #include "input/rig/internal/eventLimits.h"
 
 #include <fmt/format.h>
@@ -37,7 +38,7 @@ std::unique_ptr<TopicRecording> recordingOf(const Rig& rig)
   if (file.extension() != ".mcap")
     throw ConfigError(
         fmt::format("pcap_output = {}: topics are recorded in an MCAP: name a file .mcap", file.string()));
-  return std::make_unique<TopicRecording>(file);
+  return std::make_unique<TopicRecording>(newCapture(file));
 }
 }  // namespace
 
