@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace scanloom
 {
@@ -17,13 +16,6 @@ namespace
 {
 constexpr const char* kDefaultNamespace = "/scanloom";
 constexpr Duration kDescribed = 5s;  // several messages of each topic, and metadata that come once in a while
-
-std::filesystem::path temporaryFolder()
-{
-  std::string name = (std::filesystem::temp_directory_path() / "scanloom_topics_XXXXXX").string();
-  if (!::mkdtemp(name.data())) throw std::runtime_error(fmt::format("cannot make a temporary folder {}", name));
-  return name;
-}
 
 /** Whether a rig of this configuration is heard on topics: it names some, or no lidar at all. */
 bool isOnTopics(const ConfigurationArguments& arguments)
@@ -55,38 +47,20 @@ void addRos2Input(CLI::App& app, bool& wanted)
   addFlag(app, "--ros2", wanted, "instead of a RECORDING: the topics of ROS 2, heard for a while");
 }
 
-HeardTopics::HeardTopics(Duration duration) : folder_(temporaryFolder()), file_(folder_ / "topics.mcap")
+HeardTopics::HeardTopics(Duration duration) : folder_(std::filesystem::temp_directory_path(), "scanloom_topics")
 {
   catchInterruption();
   fmt::print(stderr, "listens to the topics of ROS 2 for {:g} s\n", seconds(duration));
-  std::uint64_t messages = 0;
-  std::size_t others = 0;
-  try
-  {
-    // A node of its own: the one of the run gets what is kept for latecomers, too.
-    const std::unique_ptr<Ros2Node> node = openRos2Node(ros2NetworkOfEnvironment(), "/", "scanloom_listener");
-    messages = recordTopics(*node, duration, file_, [] { return !interrupted(); });
-    others = node->publications().size();
-  }
-  catch (...)
-  {
-    std::filesystem::remove_all(folder_);
-    throw;
-  }
-  if (messages > 0) return;
-  std::filesystem::remove_all(folder_);
+  // A node of its own: the one of the run gets what is kept for latecomers, too.
+  const std::unique_ptr<Ros2Node> node = openRos2Node(ros2NetworkOfEnvironment(), "/", "scanloom_listener");
+  if (recordTopics(*node, duration, file(), [] { return !interrupted(); }) > 0) return;
+  const std::size_t others = node->publications().size();
   throw std::runtime_error(
       others == 0
           ? "no topic of ROS 2 was heard: check that the drivers run, that ROS_DOMAIN_ID is theirs, and, where they "
             "run on another computer, that neither ROS_LOCALHOST_ONLY nor a firewall is in between"
           : fmt::format("{} topics of ROS 2 were discovered, but none with packets or clouds of lidars gave a message",
                         others));
-}
-
-HeardTopics::~HeardTopics()
-{
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
 }
 
 std::unique_ptr<HeardTopics> hearInstead(bool wanted, Duration duration, RecordingArguments& recording)

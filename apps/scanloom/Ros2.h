@@ -2,6 +2,7 @@
 #pragma once
 #include "Arguments.h"
 #include "Recording.h"
+#include "base/core/ScratchFolder.h"
 #include "input/rig/Rig.h"
 #include "input/ros2/Ros2Node.h"
 #include "run/topics/RosTopics.h"
@@ -33,14 +34,11 @@ class HeardTopics
   /** Says on stderr that it listens. Throws std::runtime_error if no topic of a sensor was heard, and as
    * openRos2Node(). */
   explicit HeardTopics(Duration);
-  HeardTopics(const HeardTopics&) = delete;
-  HeardTopics& operator=(const HeardTopics&) = delete;
-  ~HeardTopics();
 
-  const std::filesystem::path& file() const { return file_; }
+  std::filesystem::path file() const { return folder_.path() / "topics.mcap"; }
 
  private:
-  std::filesystem::path folder_, file_;
+  ScratchFolder folder_;
 };
 
 /** For verbs that only listen: what was heard for this long replaces the recording, if `wanted`. */

@@ -5,6 +5,7 @@
 #include "Settings.h"
 #include "SlamInput.h"
 #include "base/core/ConfigError.h"
+#include "base/core/ScratchFolder.h"
 #include "lab/simulation/RecordingFolder.h"
 #include "lab/simulation/checkedScene.h"
 #include "lab/study/PlannedDrive.h"
@@ -40,24 +41,14 @@ class RecordingVariable
 class ShortDrive
 {
  public:
-  explicit ShortDrive(const Scene& scene)
+  explicit ShortDrive(const Scene& scene) : folder_(std::filesystem::temp_directory_path(), "scanloom_drive")
   {
-    std::string name = (std::filesystem::temp_directory_path() / "scanloom_drive_XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw std::runtime_error(fmt::format("cannot make a temporary folder {}", name));
-    folder_ = name;
-    writeRecording(scene, folder_, [](double) {});
+    writeRecording(scene, folder_.path(), [](double) {});
   }
-  ShortDrive(const ShortDrive&) = delete;
-  ShortDrive& operator=(const ShortDrive&) = delete;
-  ~ShortDrive()
-  {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
 
  private:
-  std::filesystem::path folder_;
+  ScratchFolder folder_;
 };
 
 std::vector<std::string> assignmentsOf(const std::vector<std::pair<std::string, std::string>>& settings)

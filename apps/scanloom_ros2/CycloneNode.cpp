@@ -1,7 +1,8 @@
 /** libscanloom_dds.so: what libs/input/ros2/Ros2Node.h promises, by Cyclone DDS. */
 #include "RawMessages.h"
-#include "input/bags/MessageWriter.h"
+#include "cycloneConfiguration.h"
 #include "input/ros2/Ros2Node.h"
+#include "nodeMessage.h"
 
 #include <dds/dds.h>
 #include <fmt/format.h>
@@ -23,7 +24,6 @@ namespace scanloom
 namespace
 {
 using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
-using Guid = std::array<std::uint8_t, 16>;
 using Steady = std::chrono::steady_clock;
 
 constexpr std::size_t kMemory = 256'000'000;  // bytes of messages that wait: two seconds of eight lidars
@@ -49,67 +49,6 @@ Qos qosOf(bool reliable, bool for_latecomers, int messages)
                                 DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return qos;
-}
-
-/**
- * Cyclone's configuration: what the environment says overrides ours.
- * - A writer never waits for a reader: the watermark is above all that it keeps.
- * - A scan is ten times what the kernel keeps for a socket by default, so some of its fragments get lost on the way to
- *   a reader of this computer already. Fragments as long as a message, instead of ten in each, let a reader follow;
- *   heartbeats every 10 ms, instead of 100, let it ask for what it lacks before the next scan. With Cyclone's defaults
- *   19 of 111 scans reached a Fast DDS with its own defaults, with these 111 (tests/end_to_end/ros2.sh).
- * - Up to 32 programs of a computer find each other without multicast, as in ROS 2.
- */
-std::string configurationOf(const Ros2Network& network)
-{
-  using Range = Ros2Network::Range;
-  std::string config =
-      "<General><FragmentSize>14000 B</FragmentSize></General>"
-      "<Internal><Watermarks><WhcHigh>1 GB</WhcHigh><WhcHighInit>1 GB</WhcHighInit>"
-      "<WhcAdaptive>false</WhcAdaptive></Watermarks><MaxSampleSize>256 MB</MaxSampleSize>"
-      "<MaxQueuedRexmitBytes>64 MB</MaxQueuedRexmitBytes>"
-      "<HeartbeatInterval min=\"2 ms\" minsched=\"2 ms\" max=\"1 s\">10 ms</HeartbeatInterval></Internal>";
-  if (network.range == Range::Localhost || network.range == Range::Off)
-    config += "<General><AllowMulticast>false</AllowMulticast></General>";
-  if (network.range == Range::Off)  // only who has the same tag is heard
-    config += fmt::format(
-        "<Discovery><ParticipantIndex>none</ParticipantIndex><Tag>ros_discovery_off_{}</Tag></Discovery>", ::getpid());
-  else if (network.range != Range::Default)
-  {
-    std::string peers = network.range == Range::Localhost ? "<Peer address=\"localhost\"/>" : "";
-    for (const std::string& peer : network.peers) peers += fmt::format("<Peer address=\"{}\"/>", peer);
-    config +=
-        "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>";
-    if (!peers.empty()) config += "<Peers>" + peers + "</Peers>";
-    config += "</Discovery>";
-  }
-  return "<CycloneDDS><Domain>" + config + "</Domain></CycloneDDS>," + network.configuration;
-}
-
-/** What `ros2 node list` and `ros2 topic info` show: rmw_dds_common/msg/ParticipantEntitiesInfo. */
-std::vector<std::uint8_t> nodeMessage(bool long_ids, const std::string& name_space, const std::string& name,
-                                      const Guid& participant, const std::vector<Guid>& readers,
-                                      const std::vector<Guid>& writers)
-{
-  MessageWriter message;
-  const auto id = [&](const Guid& guid)
-  {
-    std::vector<std::uint8_t> bytes(guid.begin(), guid.end());
-    bytes.resize(long_ids ? 24 : guid.size());
-    message.byteArray(bytes);
-  };
-  const auto ids = [&](const std::vector<Guid>& guids)
-  {
-    message.number(static_cast<std::uint32_t>(guids.size()));
-    for (const Guid& guid : guids) id(guid);
-  };
-  id(participant);
-  message.number(std::uint32_t{1});  // nodes
-  message.string(name_space);
-  message.string(name);
-  ids(readers);
-  ids(writers);
-  return message.bytes();
 }
 
 class CycloneNode : public Ros2Node

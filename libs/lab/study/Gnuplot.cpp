@@ -35,22 +35,9 @@ std::string gnuplotString(const std::string& text)
   return quoted + '\'';
 }
 
-Gnuplot::Gnuplot(const std::filesystem::path& parent)
-{
-  std::string name = (parent / "report_XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error(fmt::format("cannot write into {}", parent.string()));
-  folder_ = name;
-}
-
-Gnuplot::~Gnuplot()
-{
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
-
 void Gnuplot::run(const std::string& terminal, const std::filesystem::path& output, const std::string& script) const
 {
-  const auto file = folder_ / "figure.gp", log = folder_ / "log.txt";
+  const auto file = folder_.path() / "figure.gp", log = folder_.path() / "log.txt";
   std::ofstream(file) << fmt::format("set terminal {} noenhanced font 'sans-serif,13'\nset output {}\n{}", terminal,
                                      gnuplotString(std::filesystem::absolute(output).string()), script);
   if (runCommand({{"gnuplot", file}, {}}, log) != 0)
@@ -59,7 +46,7 @@ void Gnuplot::run(const std::string& terminal, const std::filesystem::path& outp
 
 std::string Gnuplot::draw(const std::string& script)
 {
-  const auto svg = folder_ / "figure.svg";
+  const auto svg = folder_.path() / "figure.svg";
   run("svg size 900,420 dynamic", svg, script);
   const std::string drawn = contentOf(svg);
   const std::string element = drawn.substr(std::min(drawn.find("<svg"), drawn.size()));  // no XML declaration

@@ -1,5 +1,7 @@
 /** Draws gnuplot scripts, which have no `set terminal`. */
 #pragma once
+#include "base/core/ScratchFolder.h"
+
 #include <filesystem>
 #include <string>
 
@@ -18,10 +20,7 @@ class Gnuplot
 {
  public:
   /** Throws std::runtime_error if no folder can be created in `parent`. */
-  explicit Gnuplot(const std::filesystem::path& parent);
-  Gnuplot(const Gnuplot&) = delete;
-  Gnuplot& operator=(const Gnuplot&) = delete;
-  ~Gnuplot();
+  explicit Gnuplot(const std::filesystem::path& parent) : folder_(parent, "report") {}
 
   /**
    * An <svg> element whose ids differ from those of all earlier ones, so that several can be on one page.
@@ -38,7 +37,7 @@ class Gnuplot
  private:
   void run(const std::string& terminal, const std::filesystem::path& output, const std::string& script) const;
 
-  std::filesystem::path folder_;
+  ScratchFolder folder_;
   int figures_ = 0;
 };
 }  // namespace scanloom

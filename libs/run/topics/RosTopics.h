@@ -3,7 +3,7 @@
 #include "base/core/BoundedQueue.h"
 #include "estimation/slam/StateEstimate.h"
 #include "input/bags/MessageWriter.h"
-#include "input/rig/SensorInput.h"
+#include "input/rig/ForwardedInput.h"
 #include "input/ros2/Ros2Node.h"
 #include "run/topics/internal/PredictedMotion.h"
 
@@ -88,7 +88,7 @@ class RosTopics
 };
 
 /** Another input, whose events are published on their way to the one who asks for them. */
-class PublishedInput : public SensorInput
+class PublishedInput : public ForwardedInput
 {
  public:
   enum class Pace
@@ -98,29 +98,24 @@ class PublishedInput : public SensorInput
   };
 
   /** Both must outlive it. */
-  PublishedInput(SensorInput& input, RosTopics& topics, Pace pace) : input_(input), topics_(topics), pace_(pace) {}
+  PublishedInput(SensorInput& input, RosTopics& topics, Pace pace) : ForwardedInput(input), topics_(topics), pace_(pace)
+  {
+  }
 
   /** The same of an input of its own, with the poses at the ends of its scans, as far as `poses` has them. */
   PublishedInput(std::unique_ptr<SensorInput> input, RosTopics& topics, Pace pace, Trajectory poses)
-    : owned_(std::move(input)), input_(*owned_), topics_(topics), pace_(pace), poses_(std::move(poses))
+    : ForwardedInput(*input), owned_(std::move(input)), topics_(topics), pace_(pace), poses_(std::move(poses))
   {
   }
 
   using SensorInput::next;
   std::optional<SensorEvent> next(Duration patience) override;
-  bool ended() const override { return input_.ended(); }
-  void stop() override { input_.stop(); }
-  SensorSetup setup() const override { return input_.setup(); }
-  double progress() const override { return input_.progress(); }
   RigAccount account() const override;
-  std::map<std::string, StageTime> stages() const override { return input_.stages(); }
-  std::vector<std::string> takeWarnings() override { return input_.takeWarnings(); }
 
  private:
   void keepPace(const SensorEvent&);
 
   std::unique_ptr<SensorInput> owned_;  // null: somebody else's
-  SensorInput& input_;
   RosTopics& topics_;
   Pace pace_;
   Trajectory poses_;
