@@ -1,9 +1,9 @@
 /**
- * Damages one sound file at a time and gives it to a verb: `scanloom_attack SCANLOOM --seconds 30`. No verb may crash,
- * hang, take more memory than ten times the file and what it takes for a sound one (at least 200 MB), or fail without
- * a word, or send control characters to the terminal. The same seed gives the same damage. Status 1 if there are
- * findings; their files are kept. Of a program with sanitizers, whose shadow takes terabytes of addresses, memory is
- * not limited.
+ * Damages one sound file at a time and gives it to a verb: `scanloom_attack SCANLOOM --seconds 30`, where SCANLOOM is
+ * the program or, ten times faster, libscanloom_program.so. No verb may crash, hang, take more memory than ten times
+ * the file and what it takes for a sound one (at least 200 MB), or fail without a word, or send control characters to
+ * the terminal. The same seed gives the same damage. Status 1 if there are findings; their files are kept. Of a program
+ * with sanitizers, whose shadow takes terabytes of addresses, memory is not limited.
  */
 #include "LimitedRun.h"
 #include "World.h"
@@ -43,12 +43,6 @@ struct Arguments
   std::string only;
 };
 
-struct Sound
-{
-  std::string content;
-  RunResult run;
-};
-
 class Attack
 {
  public:
@@ -82,16 +76,15 @@ class Attack
   {
     const std::size_t index = chosen_[number % chosen_.size()];
     const Target& target = targets()[index];
-    const Sound& sound = soundOf(index);
+    const RunResult& sound = soundRunOf(index);
     std::seed_seq seed{arguments_.seed, static_cast<std::uint64_t>(index), number};
     std::mt19937_64 random(seed);
-    const std::string damaged = mutated(sound.content, target.content, random);
     const fs::path file = world_ / "hit" / fs::path(target.file).filename();
-    std::ofstream(file, std::ios::binary) << damaged;
+    std::ofstream(file, std::ios::binary) << mutated(contentOf(world_ / target.file), target.content, random);
 
-    const RunLimits limits{10 + 10 * sound.run.cpu_seconds, 300, kMostAddresses};
+    const RunLimits limits{10 + 10 * sound.cpu_seconds, 300, kMostAddresses};
     const RunResult result = runOn(target, file, limits);
-    const std::optional<std::string> fault = faultOf(result, sound, damaged.size());
+    const std::optional<std::string> fault = faultOf(result, sound, fs::file_size(file));
     if (!fault) return false;
     const fs::path kept = world_.parent_path() / fmt::format("finding-{}-{}", number, file.filename().string());
     fs::copy_file(file, kept, fs::copy_options::overwrite_existing);
@@ -100,14 +93,12 @@ class Attack
     return true;
   }
 
-  const Sound& soundOf(std::size_t index)
+  const RunResult& soundRunOf(std::size_t index)
   {
-    std::optional<Sound>& sound = sound_[index];
-    if (sound) return *sound;
-    const fs::path file = world_ / targets()[index].file;
-    sound = Sound{contentOf(file), runOn(targets()[index], file, kForSound)};
-    const RunResult& run = sound->run;
-    if (run.signal != 0) throw std::runtime_error(targets()[index].name() + " fails on sound files: " + run.errors);
+    std::optional<RunResult>& sound = sound_[index];
+    if (!sound) sound = runOn(targets()[index], world_ / targets()[index].file, kForSound);
+    if (sound->signal != 0)
+      throw std::runtime_error(targets()[index].name() + " fails on sound files: " + sound->errors);
     return *sound;
   }
 
@@ -123,18 +114,18 @@ class Attack
     return limitedRun(command, world_, limits);
   }
 
-  static std::optional<std::string> faultOf(const RunResult& run, const Sound& sound, std::size_t size)
+  static std::optional<std::string> faultOf(const RunResult& run, const RunResult& sound, std::uintmax_t size)
   {
-    const std::uint64_t most = std::max(200 * kMegabyte, sound.run.peak_bytes) + 10 * size;
+    const std::uint64_t most = std::max(200 * kMegabyte, sound.peak_bytes) + 10 * size;
     if (run.signal == SIGXCPU || run.signal == SIGKILL)
       return fmt::format("does not end within {:.0f} s ({:.0f} s of a core), {:.1f} s for a sound file", run.seconds,
-                         run.cpu_seconds, sound.run.cpu_seconds);
+                         run.cpu_seconds, sound.cpu_seconds);
     if (run.signal != 0) return fmt::format("crashes with signal {}: {}", run.signal, run.errors);
     if (run.errors.find("Sanitizer") != std::string::npos || run.errors.find("runtime error:") != std::string::npos)
       return run.errors;
     if ((!kSanitized && run.peak_bytes > most) || run.errors.find("bad_alloc") != std::string::npos)
       return fmt::format("takes {} MB for a file of {:.1f} MB, {} MB for a sound one", run.peak_bytes / kMegabyte,
-                         1e-6 * static_cast<double>(size), sound.run.peak_bytes / kMegabyte);
+                         1e-6 * static_cast<double>(size), sound.peak_bytes / kMegabyte);
     constexpr std::array kStatus{0, 1, 2, 3};
     if (std::find(kStatus.begin(), kStatus.end(), run.status) == kStatus.end())
       return fmt::format("ends with status {}", run.status);
@@ -149,7 +140,7 @@ class Attack
   Arguments arguments_;
   fs::path world_;
   std::vector<std::size_t> chosen_;
-  std::vector<std::optional<Sound>> sound_;  // when first needed
+  std::vector<std::optional<RunResult>> sound_;  // of the sound file of each target, when first needed
 };
 
 /** Removed at the end unless there are findings. */
@@ -166,7 +157,9 @@ try
 {
   Arguments arguments;
   CLI::App app("Gives damaged files to every verb of scanloom.");
-  app.add_option("SCANLOOM", arguments.scanloom, "the program")->required()->check(CLI::ExistingFile);
+  app.add_option("SCANLOOM", arguments.scanloom, "the program, or libscanloom_program.so")
+      ->required()
+      ->check(CLI::ExistingFile);
   app.add_option("--seconds", arguments.seconds, "how long, in s, after the sound files are made")
       ->capture_default_str();
   app.add_option("--seed", arguments.seed, "of the damage")->capture_default_str();
