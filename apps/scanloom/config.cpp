@@ -9,6 +9,7 @@
 #include "diagnosis/DoctorFindings.h"
 #include "diagnosis/Listening.h"
 #include "input/rig/RecognisedRig.h"
+#include "input/rig/RigOptions.h"
 #include "warn.h"
 
 #include <fmt/format.h>
@@ -118,7 +119,8 @@ std::string cropSectionOf(const RecognisedRig& recognised, const std::filesystem
 {
   constexpr Duration kLookedAt = 120s;  // of the recording: longer than most stand before they drive
   if (!recognised.unknown_poses.empty()) return "";
-  const auto ini = Configuration::fromText(recognised.ini, (ini_folder / "recognised").string());
+  auto ini = Configuration::fromText(recognised.ini, (ini_folder / "recognised").string());
+  ini.makePathsAbsolute(rigSchema(kRecognisedSection).front());
   const Rig rig = makeRig(readRigSettings(ini, kRecognisedSection));
   RigListener listener(rig, true);
   listenToCaptures(rig, kLookedAt, listener, [](double) { return !interrupted(); });

@@ -78,6 +78,20 @@ TEST(Recording, configForItNamesFilesFromTheFolderThatItIsWrittenTo)
   EXPECT_EQ(recorded.status, 0) << recorded.output;
 }
 
+TEST(Recording, configForItLooksForTheMachineFromAnyFolder)
+{
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "rigs");
+  ASSERT_EQ(
+      scanloom(folder.path(),
+               "simulate --set simulated_drive.duration=9 --set simulated_lidars.lidar1_model=OS0-16 --out-dir drive")
+          .status,
+      0);
+  const Ended ended = scanloom(folder.path(), "config --for drive > rigs/rig.ini");
+  EXPECT_EQ(ended.status, 0) << ended.output;
+  EXPECT_THAT(contentOf(folder / "rigs/rig.ini"), HasSubstr("[crop]"));
+}
+
 TEST(Recording, isReadFromAnotherFolderByItsOwnConfiguration)
 {
   SCANLOOM_NEEDS_DATA(capture, kVelodynes);
