@@ -47,14 +47,13 @@ void addRos2Input(CLI::App& app, bool& wanted)
   addFlag(app, "--ros2", wanted, "instead of a RECORDING: the topics of ROS 2, heard for a while");
 }
 
-HeardTopics::HeardTopics(Duration duration) : folder_(std::filesystem::temp_directory_path(), "scanloom_topics")
+HeardTopics::HeardTopics(Ros2Node& node, Duration duration)
+  : folder_(std::filesystem::temp_directory_path(), "scanloom_topics")
 {
   catchInterruption();
   fmt::print(stderr, "listens to the topics of ROS 2 for {:g} s\n", seconds(duration));
-  // A node of its own: the one of the run gets what is kept for latecomers, too.
-  const std::unique_ptr<Ros2Node> node = openRos2Node(ros2NetworkOfEnvironment(), "/", "scanloom_listener");
-  if (recordTopics(*node, duration, file(), [] { return !interrupted(); }) > 0) return;
-  const std::size_t others = node->publications().size();
+  if (recordTopics(node, duration, file(), [] { return !interrupted(); }) > 0) return;
+  const std::size_t others = node.publications().size();
   throw std::runtime_error(
       others == 0
           ? "no topic of ROS 2 was heard: check that the drivers run, that ROS_DOMAIN_ID is theirs, and, where they "
@@ -67,7 +66,8 @@ std::unique_ptr<HeardTopics> hearInstead(bool wanted, Duration duration, Recordi
 {
   if (!wanted) return nullptr;
   if (recording.given()) throw UsageError("--ros2 is instead of a RECORDING: give one of them");
-  auto heard = std::make_unique<HeardTopics>(duration);
+  const std::unique_ptr<Ros2Node> node = openRos2Node(ros2NetworkOfEnvironment(), "/", "scanloom_listener");
+  auto heard = std::make_unique<HeardTopics>(*node, duration);
   recording.paths = {heard->file()};
   return heard;
 }
@@ -81,8 +81,8 @@ Ros2::Ros2(const Ros2Arguments& arguments, const std::string& verb, const Config
         fmt::format("--ros2 {}: is no namespace of ROS 2 (letters, digits, _ and /); without one write "
                     "--ros2 last, or --ros2={}",
                     arguments.name_space, kDefaultNamespace));
-  if (!recording.given() && isOnTopics(configuration)) heard_ = std::make_unique<HeardTopics>(kDescribed);
   node_ = openRos2Node(ros2NetworkOfEnvironment(), name_space_, verb);
+  if (!recording.given() && isOnTopics(configuration)) heard_ = std::make_unique<HeardTopics>(*node_, kDescribed);
 }
 
 Rig Ros2::live(Rig rig) const { return heard_ ? heardOn(node_, std::move(rig)) : std::move(rig); }

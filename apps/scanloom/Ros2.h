@@ -31,9 +31,8 @@ void addRos2Input(CLI::App&, bool&);
 class HeardTopics
 {
  public:
-  /** Says on stderr that it listens. Throws std::runtime_error if no topic of a sensor was heard, and as
-   * openRos2Node(). */
-  explicit HeardTopics(Duration);
+  /** Says on stderr that it listens. Throws std::runtime_error if no topic of a sensor was heard. */
+  HeardTopics(Ros2Node&, Duration);
 
   std::filesystem::path file() const { return folder_.path() / "topics.mcap"; }
 

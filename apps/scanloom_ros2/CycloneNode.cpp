@@ -1,5 +1,6 @@
 /** libscanloom_dds.so: what libs/input/ros2/Ros2Node.h promises, by Cyclone DDS. */
 #include "RawMessages.h"
+#include "base/core/Text.h"
 #include "cycloneConfiguration.h"
 #include "input/ros2/Ros2Node.h"
 #include "nodeMessage.h"
@@ -36,6 +37,19 @@ dds_entity_t checked(dds_entity_t result, const std::string& what)
   return result;
 }
 
+/** What Cyclone warns of. Any sender of the network can cause a line for each packet: a person sees the first few. */
+void logToPerson(void*, const dds_log_data_t* line)
+{
+  constexpr int kShown = 5;
+  constexpr std::size_t kLongest = 200;  // characters
+  static std::atomic<int> number{0};
+  const int n = ++number;
+  if (n > kShown) return;
+  const std::string_view text(line->message, std::min(line->size, kLongest));
+  fmt::print(stderr, "warning: ROS 2 (DDS): {}{}\n", printable(std::string(trimmed(text))),
+             n == kShown ? " (no more of these are shown)" : "");
+}
+
 Qos newQos() { return {dds_create_qos(), &dds_delete_qos}; }
 
 Qos qosOf(bool reliable, bool for_latecomers, int messages)
@@ -58,6 +72,7 @@ class CycloneNode : public Ros2Node
     : long_ids_(network.long_ids), name_space_(std::move(name_space)), name_(std::move(name))
   {
     const auto domain = static_cast<dds_domainid_t>(network.domain);
+    dds_set_log_sink(&logToPerson, nullptr);
     domain_ =
         checked(dds_create_domain(domain, configurationOf(network).c_str()), "no network, or a wrong CYCLONEDDS_URI");
     try
@@ -119,6 +134,17 @@ class CycloneNode : public Ros2Node
     const std::lock_guard lock(mutex_);
     wanted_.push_back(topic);
     followPublishers();
+  }
+
+  void unsubscribe() override
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_.clear();
+    while (!readers_.empty()) removeReader(std::prev(readers_.end()));
+    introduce();
+    const std::lock_guard queue_lock(queue_mutex_);
+    queue_.clear();
+    waiting_ = 0;
   }
 
   std::optional<Ros2Message> next(Duration patience) override

@@ -97,7 +97,6 @@ class Inventory
   {
     std::vector<Timestamp> stamps;  // of their earliest points
     int channels = 1;
-    std::size_t faulty = 0;  // without times of points, or damaged
 
     /** By stamps: clouds may be received late, all at once, or twice. */
     CloudMetadata metadata() const
@@ -116,7 +115,7 @@ class Inventory
   void lookIntoCloud(const BagTopic& topic, const BagMessage& message, TopicContents& known)
   {
     Clouds& clouds = clouds_[topic.name];
-    if (clouds.stamps.size() + clouds.faulty >= kCloudsLookedInto) return;
+    if (clouds.stamps.size() >= kCloudsLookedInto) return;
     try
     {
       const TimedCloud cloud = timedCloudOf(topic, message.data);
@@ -128,7 +127,6 @@ class Inventory
     }
     catch (const std::invalid_argument& no_time)
     {
-      ++clouds.faulty;
       if (clouds.stamps.empty()) known.note = no_time.what();
     }
   }
@@ -153,7 +151,7 @@ template <typename Value>
 struct TopicValues
 {
   std::vector<Value> values;
-  std::size_t unreadable = 0;  // messages that end too early
+  std::size_t unreadable = 0;  // messages
 };
 
 /** The messages of a topic as values, in order of stamps. */
@@ -170,6 +168,7 @@ TopicValues<Value> valuesOf(const BagPaths& paths, const std::string& name, bool
         fmt::format("{}; topics with {}: {}",
                     name.empty() ? "no topic is named" : fmt::format("the bag has no topic '{}' with {}", name, what),
                     what, possible.empty() ? "none" : fmt::format("{}", fmt::join(possible, ", "))));
+  std::string not_understood;  // of the first such message
   forEachMessage(paths,
                  [&](const BagTopic& topic, const BagMessage& message)
                  {
@@ -182,8 +181,14 @@ TopicValues<Value> valuesOf(const BagPaths& paths, const std::string& name, bool
                    {
                      ++found.unreadable;
                    }
+                   catch (const std::invalid_argument& reason)
+                   {
+                     ++found.unreadable;
+                     if (not_understood.empty()) not_understood = reason.what();
+                   }
                    return true;
                  });
+  if (found.values.empty() && !not_understood.empty()) throw std::invalid_argument(not_understood);
   const auto earlier = [](const Value& a, const Value& b) { return a.stamp < b.stamp; };
   std::stable_sort(found.values.begin(), found.values.end(), earlier);
   return found;

@@ -54,16 +54,18 @@ void MessagePackets::take(const BagTopic& topic, const BagMessage& message)
 /** The first clouds of each topic are read ahead, so that the very first is not taken for punctual. */
 void MessagePackets::lookAt(const BagTopic& topic, const BagMessage& message)
 {
-  ahead_.push_back({topic, message.received, {message.data.begin(), message.data.end()}});
-  ahead_bytes_ += message.data.size();
   try
   {
     if (const TimedCloud cloud = timedCloudOf(topic, message.data); !cloud.points.empty())
       punctual_[topic.name].received(message.received, cloud.span().second);
   }
-  catch (const std::logic_error&)  // counted where it is opened
+  catch (const std::logic_error&)  // as in open()
   {
+    ++counters_.malformed;
+    return;
   }
+  ahead_.push_back({topic, message.received, {message.data.begin(), message.data.end()}});
+  ahead_bytes_ += message.data.size();
 }
 
 bool MessagePackets::seesAhead() const

@@ -88,6 +88,9 @@ class Ros2Node
    */
   virtual void subscribe(const std::string& topic) = 0;
 
+  /** From all topics; what waits is dropped. A later subscribe() gives what is kept for latecomers again. */
+  virtual void unsubscribe() = 0;
+
   /** In the order of arrival; nothing if none came within `patience`. */
   virtual std::optional<Ros2Message> next(Duration patience) = 0;
 

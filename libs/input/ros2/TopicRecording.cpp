@@ -53,6 +53,7 @@ std::uint64_t recordTopics(Ros2Node& node, Duration longest, const std::filesyst
     bytes += message->data.size();
     ++messages;
   }
+  node.unsubscribe();
   recording.close();
   return messages;
 }

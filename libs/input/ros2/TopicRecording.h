@@ -34,7 +34,7 @@ class TopicRecording
 
 /**
  * Records all topics of sensors that others publish, for this long, but not more than 400 MB; less if `keepOn` says so.
- * @return the number of messages. Throws as TopicRecording does.
+ * The node has no subscriptions afterwards. @return the number of messages. Throws as TopicRecording does.
  */
 std::uint64_t recordTopics(Ros2Node&, Duration, const std::filesystem::path&, const std::function<bool()>& keepOn);
 }  // namespace scanloom

@@ -97,8 +97,7 @@ std::vector<Scan> WholeTurns::push(const Scan& by_time)
       turn.reset();
       has_begun_[column.sensor_id] = true;
     }
-    if (!turn) turn.emplace();
-    append(by_time, column, *turn);
+    append(by_time, column, turn ? *turn : turn.emplace());
   }
   return std::exchange(released_, {});
 }

@@ -36,6 +36,7 @@ class FakeNode : public Ros2Node
 
   std::vector<Ros2Publication> publications() const override { return {}; }
   void subscribe(const std::string& topic) override { subscribed_.push_back(topic); }
+  void unsubscribe() override { subscribed_.clear(); }
   Ros2Losses losses() const override { return {}; }
   std::size_t advertise(const Ros2Topic&, const Ros2Keep&) override { return 0; }
   bool publish(std::size_t, std::vector<std::uint8_t>) override { return true; }

@@ -2,13 +2,17 @@
  * Another vendor's DDS among the topics of ROS 2, as raw bytes: what is no code of ours, on the other side.
  *
  *   fastdds_peer hear OUT.mcap SECONDS [--reliable] [--stall-after S] TOPIC=TYPE...
- *   fastdds_peer play BAG|CAPTURE [METADATA.json...] [--best-effort]
+ *   fastdds_peer play BAG|CAPTURE [METADATA.json...] [--best-effort] [--only TOPIC] [--from S] [--to S]
+ *     [--at UNIX_S]
+ *   fastdds_peer flood SECONDS TOPIC=TYPE...
  *   fastdds_peer compare BAG TOPIC BAG TOPIC
  *
  * `hear` writes what it receives and prints a line per topic: messages, bytes, and the time between the sending and the
  * reception in ms (median, 99.9 %, largest). `play` publishes a bag's messages at the pace of the recording, or the
- * packets of a capture as Ouster's driver does.
+ * packets of a capture as Ouster's driver does; `--only` those of one topic, from S to S of the recording (s), which
+ * begins at UNIX_S: several peers may share it. `flood` publishes random bytes, 1 kB every ms on each topic.
  */
+#include "FastddsRawType.h"
 #include "base/core/OutputFile.h"
 #include "input/bags/BagReader.h"
 #include "input/bags/MessageWriter.h"
@@ -26,7 +30,6 @@
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 
 #include <algorithm>
@@ -42,53 +45,16 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <random>
 #include <stdexcept>
 #include <thread>
 
 using namespace scanloom;
-namespace fdds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
 
 namespace
 {
 std::atomic<bool> ended{false};
-
-class RawType : public fdds::TopicDataType
-{
- public:
-  using Data = std::vector<std::uint8_t>;
-
-  explicit RawType(const std::string& dds_type)
-  {
-    setName(dds_type.c_str());
-    m_typeSize = 64 << 20;
-    m_isGetKeyDefined = false;
-  }
-
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override
-  {
-    const Data& bytes = *static_cast<Data*>(data);
-    payload->encapsulation = CDR_LE;
-    payload->length = static_cast<std::uint32_t>(bytes.size());
-    std::memcpy(payload->data, bytes.data(), bytes.size());
-    return true;
-  }
-
-  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override
-  {
-    static_cast<Data*>(data)->assign(payload->data, payload->data + payload->length);
-    return true;
-  }
-
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override
-  {
-    return [data] { return static_cast<std::uint32_t>(static_cast<Data*>(data)->size()); };
-  }
-
-  void* createData() override { return new Data; }
-  void deleteData(void* data) override { delete static_cast<Data*>(data); }
-  bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
-};
 
 Timestamp now()
 {
@@ -139,7 +105,7 @@ class Listener : public fdds::DataReaderListener
   {
     RawType::Data data;
     fdds::SampleInfo info;
-    while (reader->take_next_sample(&data, &info) == ReturnCode_t::RETCODE_OK)
+    while (reader->take_next_sample(&data, &info) == kFastddsOk)
       if (info.valid_data) take_(data, Timestamp{Duration{info.source_timestamp.to_ns()}});
   }
 
@@ -306,18 +272,62 @@ fdds::DataWriterQos qosOf(const Ros2Topic& topic, bool best_effort)
   return qos;
 }
 
+struct Played
+{
+  std::vector<std::string> files;
+  bool best_effort = false;
+  std::string only;
+  double from = 0, to = 1e9;                                       // s of the recording
+  double at = 1e-9 * static_cast<double>(nanoseconds(now())) + 2;  // Unix time in s: others have discovered it by then
+};
+
+Played playedOf(const std::vector<std::string>& arguments)
+{
+  Played played;
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    if (arguments[i] == "--best-effort")
+      played.best_effort = true;
+    else if (arguments[i] == "--only")
+      played.only = arguments.at(++i);
+    else if (arguments[i] == "--from")
+      played.from = std::stod(arguments.at(++i));
+    else if (arguments[i] == "--to")
+      played.to = std::stod(arguments.at(++i));
+    else if (arguments[i] == "--at")
+      played.at = std::stod(arguments.at(++i));
+    else
+      played.files.push_back(arguments[i]);
+  return played;
+}
+
 int play(const std::vector<std::string>& arguments)
 {
-  using Clock = std::chrono::steady_clock;
-  bool best_effort = false;
-  std::vector<std::string> files;
-  for (const std::string& argument : arguments)
-    if (argument == "--best-effort")
-      best_effort = true;
-    else
-      files.push_back(argument);
-  const std::string recording = files.at(0);
-  const std::vector<std::filesystem::path> metadata(files.begin() + 1, files.end());
+  using Clock = std::chrono::system_clock;
+  const Played played = playedOf(arguments);
+  const Clock::time_point start{std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(played.at))};
+  const std::string recording = played.files.at(0);
+  const std::vector<std::filesystem::path> metadata(played.files.begin() + 1, played.files.end());
+
+  std::optional<Timestamp> first;
+  const auto forEach = [&](const std::function<bool(Recorded, Duration)>& send)
+  {
+    const auto sendChosen = [&](Recorded message)
+    {
+      if (!first) first = message.received;
+      const Duration at = message.received - *first;
+      if (seconds(at) > played.to || ended) return false;
+      const bool is_chosen = played.only.empty() || message.topic.name == played.only;
+      return !is_chosen || seconds(at) < played.from || send(std::move(message), at);
+    };
+    isBag(recording) ? forEachMessage(recording, sendChosen) : forEachPacket(recording, metadata, sendChosen);
+  };
+  const auto waitUntil = [&](Duration at)
+  {
+    while (!ended && Clock::now() < start + at)
+      std::this_thread::sleep_until(std::min(start + at, Clock::now() + std::chrono::milliseconds(50)));
+  };
+  // A driver that is started late is discovered late.
+  waitUntil(std::chrono::duration_cast<Duration>(std::chrono::duration<double>(played.from - 2)));
 
   Participant participant;
   fdds::Publisher* const publisher = participant->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
@@ -325,32 +335,54 @@ int play(const std::vector<std::string>& arguments)
   const auto advertise = [&](const Ros2Topic& topic)
   {
     fdds::DataWriter*& writer = writers[topic.name];
-    if (!writer) writer = publisher->create_datawriter(participant.topic(topic), qosOf(topic, best_effort));
+    if (!writer) writer = publisher->create_datawriter(participant.topic(topic), qosOf(topic, played.best_effort));
     return writer;
   };
-  const auto forEach = [&](const std::function<bool(Recorded)>& send)
-  { isBag(recording) ? forEachMessage(recording, send) : forEachPacket(recording, metadata, send); };
   int looked_at = 0;
-  forEach([&](const Recorded& message) { return advertise(message.topic), !ended && ++looked_at < 1000; });
-  std::this_thread::sleep_for(std::chrono::seconds(2));  // to be discovered
+  forEach([&](const Recorded& message, Duration) { return advertise(message.topic), ++looked_at < 1000; });
 
-  std::optional<Timestamp> first;
-  const Clock::time_point start = Clock::now();
   std::uint64_t messages = 0;
   forEach(
-      [&](Recorded message)
+      [&](Recorded message, Duration at)
       {
-        if (!first) first = message.received;
-        std::this_thread::sleep_until(start + (message.received - *first));
+        waitUntil(at);
         advertise(message.topic)->write(&message.data);
         ++messages;
-        return !ended.load();
+        return true;
       });
   std::this_thread::sleep_for(std::chrono::seconds(1));
   fmt::print("{} messages\n", messages);
   std::fflush(stdout);
   std::_Exit(0);
 }
+
+int flood(const std::vector<std::string>& arguments)
+{
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(std::stod(arguments.at(0)));
+  Participant participant;
+  fdds::Publisher* const publisher = participant->create_publisher(fdds::PUBLISHER_QOS_DEFAULT);
+  std::vector<fdds::DataWriter*> writers;
+  for (const std::string& argument : std::vector<std::string>(arguments.begin() + 1, arguments.end()))
+  {
+    const Ros2Topic topic{argument.substr(0, argument.find('=')), argument.substr(argument.find('=') + 1)};
+    writers.push_back(publisher->create_datawriter(participant.topic(topic), qosOf(topic, true)));
+  }
+  std::mt19937 random(1);
+  RawType::Data data(1000);
+  std::uint64_t messages = 0;
+  for (; !ended && std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    for (fdds::DataWriter* const writer : writers)
+    {
+      std::generate(data.begin(), data.end(), [&] { return static_cast<std::uint8_t>(random()); });
+      if (messages % 2 == 0) std::copy_n("\0\1\0", 4, data.begin());  // of CDR, which another node may look at
+      writer->write(&data);
+      ++messages;
+    }
+  fmt::print("{} messages\n", messages);
+  std::fflush(stdout);
+  std::_Exit(0);
+}
+
 /** A cloud of ours with its points' times apart, which a rawlog rounds: it keeps float32, in s. */
 struct ComparedCloud
 {
@@ -407,9 +439,9 @@ try
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.size() > 2 && arguments[0] == "hear") return hear({arguments.begin() + 1, arguments.end()});
   if (arguments.size() > 1 && arguments[0] == "play") return play({arguments.begin() + 1, arguments.end()});
+  if (arguments.size() > 2 && arguments[0] == "flood") return flood({arguments.begin() + 1, arguments.end()});
   if (arguments.size() == 5 && arguments[0] == "compare") return compare({arguments.begin() + 1, arguments.end()});
-  fmt::print(stderr,
-             "usage: fastdds_peer hear OUT.mcap SECONDS TOPIC=TYPE... | play BAG | compare BAG TOPIC BAG TOPIC\n");
+  fmt::print(stderr, "usage: fastdds_peer hear|play|flood|compare ARGUMENTS (see the head of its source)\n");
   return 2;
 }
 catch (const std::exception& e)

@@ -1,0 +1,47 @@
+#!/bin/sh
+# A rig of two lidars whose drivers of ROS 2 publish PointCloud2, on another vendor's DDS: the right one starts late, falls
+# silent, is restarted and falls silent, while somebody else publishes nonsense on the same topics.
+# Usage: ros2_drivers.sh SCANLOOM REPOSITORY [FASTDDS_PEER]; 77 without a peer, or where two programs cannot meet by DDS.
+set -eu
+scanloom=$1 repository=$2 peer=${3:-}
+[ -n "$peer" ] || { echo "skipped: Cyclone DDS or Fast DDS is missing"; exit 77; }
+export ROS_DOMAIN_ID=79  # nobody else's
+folder=$(mktemp -d)
+trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$folder"' EXIT
+cd "$folder"
+fail() { echo "FAILED: $*"; for log in ./*.log; do echo "== $log"; tail -n 20 "$log" | cut -c1-300; done; exit 1; }
+
+"$scanloom" simulate -c "$repository/params/simulation/sparse.ini" --set simulated_drive.duration=14 \
+  --set simulated_drive.standstill=2 --set simulated_drive.route=winding --set simulated_lidars.lidar1_model=OS0-16 \
+  --set simulated_lidars.lidar2_model=OS0-16 --out-dir drive >simulate.log 2>&1 || fail "no drive"
+"$scanloom" record drive -o drive.rawlog >record.log 2>&1 || fail "no rawlog"
+"$scanloom" edit -q -i drive.rawlog -o split.rawlog --split-lidars
+"$scanloom" edit -q -i split.rawlog --to-mcap drivers.mcap
+{
+  "$scanloom" config --for drivers.mcap 2>config.log | sed -e '/^pcap_input/d' -e '/^$/,$d'
+  echo "pcap_output = heard.mcap"
+} >rig.ini
+
+points=sensor_msgs/msg/PointCloud2
+play() { "$peer" play drivers.mcap --at "$begin" --only "$@" >>drivers.log 2>&1 & }
+"$peer" flood 25 /lidar_left=$points /lidar_right=$points /imu=sensor_msgs/msg/Imu >flood.log 2>&1 &
+"$scanloom" record -c rig.ini --ros2=/test --seconds 11 -o live.rawlog >live.log 2>&1 &
+recording=$!
+for _ in $(seq 300); do grep -q "^listens" live.log && break || sleep 0.1; done
+begin=$(($(date +%s) + 1))  # five seconds of listening describe both lidars
+for topic in /lidar_left /tf_static /imu; do play $topic; done
+play /lidar_right --from 1 --to 5
+play /lidar_right --from 7.5 --to 10
+wait $recording || fail "record ends with $?"
+grep -q Assertion drivers.log && { echo "skipped: Fast DDS stopped"; exit 77; }  # as in ros2.sh
+emitted() { awk -v lidar="$1:" '$1 == lidar { print $5 }' live.log; }
+[ "$(emitted lidar1)" -ge $((60 * 512)) ] || fail "the left lidar has $(emitted lidar1) columns of 50,000"
+[ "$(emitted lidar2)" -ge $((20 * 512)) ] || fail "the right lidar has $(emitted lidar2) columns of 18,000"
+grep -q "'lidar2': silent" live.log || fail "its silence is not said"
+grep -q "'lidar2': back" live.log || fail "its return is not said"
+grep -q "messages_malformed: [1-9]" live.log || fail "the nonsense is not counted"
+[ "$(wc -c <live.log)" -lt 5000 ] || fail "the nonsense floods the terminal"
+"$scanloom" record -c rig.ini heard.mcap --set lidars.pcap_output= -o replay.rawlog >replay.log 2>&1 || fail "no replay"
+zcat live.rawlog >live.bytes
+zcat replay.rawlog >replay.bytes
+grep -q scans_dropped live.log || cmp live.bytes replay.bytes || fail "live and replay differ"
