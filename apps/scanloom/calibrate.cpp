@@ -190,7 +190,7 @@ int runDrive(const CalibrateArguments& arguments)
 
   const PoseGiven known =
       arguments.poses_unknown || !loaded.sensors.poses_known ? PoseGiven::No : PoseGiven::Within20Degrees;
-  if (known == PoseGiven::No) drive = withoutOwnParts(std::move(drive), calibration.lidars);
+  drive = withoutOwnParts(std::move(drive), calibration.lidars);
   const Clock clock = arguments.clocks ? Clock::Estimated : Clock::Kept;
   std::vector<std::vector<ExtrinsicsScene>> scenes(calibration.lidars.size());
   for (std::size_t i = 0; i < calibration.lidars.size(); ++i)

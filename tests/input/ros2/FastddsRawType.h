@@ -1,6 +1,11 @@
 /** Messages of any type as their bytes, for Fast DDS 2 and 3, which name the same functions differently. */
 #pragma once
 #include <fastdds/dds/topic/TopicDataType.hpp>
+#if SCANLOOM_FASTDDS >= 3
+#include <fastdds/dds/core/ReturnCode.hpp>
+#else
+#include <fastrtps/types/TypesBase.h>
+#endif
 
 #include <cstdint>
 #include <cstring>
