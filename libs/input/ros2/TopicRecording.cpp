@@ -5,6 +5,7 @@
 #include "input/bags/MessagePackets.h"
 
 #include <chrono>
+#include <optional>
 #include <set>
 
 namespace scanloom
@@ -38,17 +39,23 @@ std::uint64_t recordTopics(Ros2Node& node, Duration longest, const std::filesyst
 {
   using Clock = std::chrono::steady_clock;
   constexpr std::size_t kMostBytes = 400'000'000;
+  // Fast DDS 3.1 (Debian 13) tells of itself three seconds after its start, and of its topics two seconds later.
+  constexpr Duration kDiscovery = 6s;
   TopicRecording recording(path);
   std::set<std::string> subscribed;
   std::uint64_t messages = 0;
   std::size_t bytes = 0;
-  for (const auto start = Clock::now(); Clock::now() - start < longest && bytes < kMostBytes && keepOn();)
+  const auto start = Clock::now();
+  std::optional<Clock::time_point> first;
+  const auto lasts = [&] { return first ? Clock::now() - *first < longest : Clock::now() - start < kDiscovery; };
+  while (lasts() && bytes < kMostBytes && keepOn())
   {
     for (const Ros2Publication& publication : node.publications())
       if (isOfSensors(publication.topic) && subscribed.insert(publication.topic.name).second)
         node.subscribe(publication.topic.name);
     const std::optional<Ros2Message> message = node.next(50ms);
     if (!message) continue;
+    if (!first) first = Clock::now();
     recording.add(*message);
     bytes += message->data.size();
     ++messages;

@@ -33,7 +33,8 @@ class TopicRecording
 };
 
 /**
- * Records all topics of sensors that others publish, for this long, but not more than 400 MB; less if `keepOn` says so.
+ * Records all topics of sensors that others publish, for this long from the first message on, but not more than 400 MB;
+ * less if `keepOn` says so, or if no message comes within six seconds.
  * The node has no subscriptions afterwards. @return the number of messages. Throws as TopicRecording does.
  */
 std::uint64_t recordTopics(Ros2Node&, Duration, const std::filesystem::path&, const std::function<bool()>& keepOn);
