@@ -239,8 +239,8 @@ std::string metadataIn(const BagPaths& paths, const std::string& name)
     for (const auto& [topic, text] : contents.metadata) possible.push_back(topic);
   }
   throw std::invalid_argument(fmt::format(
-      "topic:{}: the bag has no lidar's metadata (std_msgs/String) or timed clouds there; it has some on: {}", name,
-      possible.empty() ? "none" : fmt::format("{}", fmt::join(possible, ", "))));
+      "topic:{}: no lidar's metadata (std_msgs/String) or timed clouds were recorded or heard there; some are on: {}",
+      name, possible.empty() ? "none" : fmt::format("{}", fmt::join(possible, ", "))));
 }
 
 ImuOfEachStamp readBagImu(const BagPaths& paths, const std::string& topic)

@@ -92,7 +92,7 @@ TEST(BagContents, sayWhatTheTimeOfCloudsIs)
   EXPECT_THAT(contents.topics[1].note, HasSubstr("its fields are: x, y, z, q, ring"));
   EXPECT_EQ(contents.metadata.at("/a"), R"({"lidar": "cloud", "rate": 20, "channels": 6})");
   EXPECT_EQ(metadataIn({folder / "bag"}, "/a"), contents.metadata.at("/a"));
-  EXPECT_THAT(problemOf([&] { metadataIn({folder / "bag"}, "/c"); }), HasSubstr("it has some on: /a"));
+  EXPECT_THAT(problemOf([&] { metadataIn({folder / "bag"}, "/c"); }), HasSubstr("some are on: /a"));
 }
 
 TEST(BagContents, countMessagesThatEndTooEarly)

@@ -27,8 +27,8 @@ void refuseUnknown(const std::string& key, const std::string& topic, const Topic
 {
   if (!topic.empty() && topics.count(topic) == 0)
     throw ConfigError(
-        fmt::format("{} = {}: no bag of pcap_input has such a topic with packets of a lidar; there are: {}", key, topic,
-                    listed(topics)));
+        fmt::format("{} = {}: no such topic with packets or clouds of a lidar was recorded, or heard; there are: {}",
+                    key, topic, listed(topics)));
 }
 
 void readMetadata(const RecordingPaths& recordings, RigSensor& lidar)

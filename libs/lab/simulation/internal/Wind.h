@@ -44,7 +44,6 @@ class Wind
   Wind(const WindOptions&, double diameter, double height, std::uint64_t seed);
 
   bool isCalm() const { return speed_ == 0; }
-  double swayRate() const { return sway_rate_; }  // Hz
 
   /** At a place `height` m above the ground, `t` s after the start of the recording. Pure. */
   WindShift at(const Eigen::Vector2d& place, double height, double t) const;
