@@ -51,7 +51,7 @@ decltype(EvaluationInput::reference) referenceOf(const EvaluateArguments& argume
   {
     BagPoses found = readBagPoses({arguments.reference}, arguments.reference_topic);
     if (found.unreadable > 0)
-      warn(fmt::format("{}: {} messages with poses end too early: left out", arguments.reference.string(),
+      warn(fmt::format("{}: {} messages with poses cannot be read: left out", arguments.reference.string(),
                        found.unreadable));
     if (!found.have_rotations) return positionsOf(found.poses);
     return std::move(found.poses);

@@ -13,7 +13,7 @@ std::optional<std::string> ImuOfEachStamp::leftOut() const
                                 conflicts, samples.size() + copies + conflicts));
   else if (copies > 0)
     parts.push_back(fmt::format("{} samples are there twice: left out", copies));
-  if (unreadable > 0) parts.push_back(fmt::format("{} messages end too early: left out", unreadable));
+  if (unreadable > 0) parts.push_back(fmt::format("{} messages cannot be read: left out", unreadable));
   if (parts.empty()) return std::nullopt;
   return fmt::format("{}", fmt::join(parts, "; "));
 }

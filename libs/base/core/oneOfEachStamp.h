@@ -15,7 +15,7 @@ struct ImuOfEachStamp
   std::vector<ImuSample> samples;
   std::size_t copies = 0;      // that were left out: the same stamp and values
   std::size_t conflicts = 0;   // that were left out: the same stamp, other values
-  std::size_t unreadable = 0;  // messages of a bag that end too early
+  std::size_t unreadable = 0;  // messages of a bag that cannot be read
 
   /** What was left out; nothing if all are there. */
   std::optional<std::string> leftOut() const;

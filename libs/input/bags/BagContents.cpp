@@ -151,7 +151,7 @@ template <typename Value>
 struct TopicValues
 {
   std::vector<Value> values;
-  std::size_t unreadable = 0;  // messages
+  std::size_t unreadable = 0;  // messages that end too early, or are not understood
 };
 
 /** The messages of a topic as values, in order of stamps. */

@@ -51,14 +51,14 @@ std::string metadataIn(const BagPaths&, const std::string& topic);
 /** In order of stamps. Throws std::invalid_argument, naming the topics with IMU samples, if this is none. */
 ImuOfEachStamp readBagImu(const BagPaths&, const std::string& topic);
 
-/** Of one message; none if it ends too early. */
+/** Of one message; none if it cannot be read. */
 std::optional<ImuSample> imuSampleIn(const BagTopic&, Bytes message);
 
 struct BagPoses
 {
   Trajectory poses;
   bool have_rotations = true;  // PointStamped has none
-  std::size_t unreadable = 0;  // messages that end too early
+  std::size_t unreadable = 0;  // messages that cannot be read
 };
 
 /**

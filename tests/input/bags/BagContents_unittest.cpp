@@ -106,7 +106,21 @@ TEST(BagContents, countMessagesThatEndTooEarly)
   EXPECT_EQ(readBagPoses({folder / "bag"}, "/prism").unreadable, 1u);
   const ImuOfEachStamp imu = readBagImu({folder / "bag"}, "/imu");
   EXPECT_TRUE(imu.samples.empty());
-  EXPECT_THAT(imu.leftOut().value_or(""), HasSubstr("1 messages end too early"));
+  EXPECT_THAT(imu.leftOut().value_or(""), HasSubstr("1 messages cannot be read"));
+}
+
+TEST(BagContents, passOverMessagesInAnotherForm)
+{
+  const TemporaryFolder folder;
+  const char* type = "geometry_msgs/msg/PointStamped";
+  const std::string content = std::string(8, '\1') + std::string("\1\0\0\0\0\0\0\0", 8) + std::string(24, '\0');
+  const HandmadeMessage plain{"/prism", type, 1, std::string("\0\1\0\0", 4) + content},
+      other{"/prism", type, 2, std::string("\0\7\0\0", 4) + content};
+  writeFile(folder / "a.mcap", mcapOf({other, plain}));
+  EXPECT_EQ(readBagPoses({folder / "a.mcap"}, "/prism").poses.size(), 1u);
+  EXPECT_EQ(readBagPoses({folder / "a.mcap"}, "/prism").unreadable, 1u);
+  writeFile(folder / "b.mcap", mcapOf({other}));
+  EXPECT_THAT(problemOf([&] { readBagPoses({folder / "b.mcap"}, "/prism"); }), HasSubstr("another form of CDR"));
 }
 
 TEST(BagContents, givePosesInTheOrderOfStampsEachOnce)
