@@ -54,11 +54,11 @@ std::optional<GroundPlane> groundOf(const std::vector<LidarScan>& scans, const R
 std::vector<LidarScan> withoutOwnParts(std::vector<LidarScan> scans, const Trajectory& trajectory,
                                        const Eigen::Vector3d& up_in_lidar)
 {
-  constexpr double kReach = 5;  // m
+  constexpr double kReachOfMachine = 5;  // m
   constexpr std::size_t kFewestPlaces = 8, kMostPlaces = 20;
   const std::vector<const LidarScan*> places = someOf(scansApart(scans, trajectory), kMostPlaces);
   if (places.size() < kFewestPlaces) return scans;
-  OwnParts parts(groundOf(scans, Rigid::identity(), up_in_lidar), kReach);
+  OwnParts parts(groundOf(scans, Rigid::identity(), up_in_lidar), kReachOfMachine);
   for (const LidarScan* place : places) parts.addPlace(cloudOf(*place, Rigid::identity()));
   std::vector<LidarScan> rest;
   for (LidarScan& scan : scans)
