@@ -120,7 +120,7 @@ std::string cropSectionOf(const RecognisedRig& recognised, const std::filesystem
   constexpr Duration kLookedAt = 120s;  // of the recording: longer than most stand before they drive
   if (!recognised.unknown_poses.empty()) return "";
   auto ini = Configuration::fromText(recognised.ini, (ini_folder / "recognised").string());
-  ini.makePathsAbsolute(rigSchema(kRecognisedSection).front());
+  makeRigPathsAbsolute(ini);
   const Rig rig = makeRig(readRigSettings(ini, kRecognisedSection));
   RigListener listener(rig, true);
   listenToCaptures(rig, kLookedAt, listener, [](double) { return !interrupted(); });

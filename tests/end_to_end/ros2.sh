@@ -1,19 +1,10 @@
 #!/bin/sh
 # Topics of ROS 2 both ways, with another vendor's DDS (Fast DDS) on the other side.
 # Usage: ros2.sh SCANLOOM REPOSITORY [FASTDDS_PEER]; 77 without a peer, or where two programs cannot meet by DDS.
-set -eu
-scanloom=$1 repository=$2 peer=${3:-}
-[ -n "$peer" ] || { echo "skipped: Cyclone DDS or Fast DDS is missing"; exit 77; }
+. "$(dirname "$0")/ros2_common.sh"
 export ROS_DOMAIN_ID=78  # nobody else's
-folder=$(mktemp -d)
-trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$folder"' EXIT
-cd "$folder"
-fail() { echo "FAILED: $*"; cat ./*.log; exit 1; }
 count() { awk -v topic="$1" '$1 == topic { print $2 }' heard.log; }
-
-"$scanloom" simulate -c "$repository/params/simulation/sparse.ini" --set simulated_drive.duration=9 \
-  --set simulated_drive.standstill=2 --set simulated_drive.route=winding --set simulated_lidars.lidar1_model=OS0-16 \
-  --set simulated_lidars.lidar2_model=OS0-16 --out-dir drive >simulate.log 2>&1 || fail "no drive"
+simulate 9
 
 # What is wrong is said, with the status for it.
 ROS_DOMAIN_ID=300 "$scanloom" info --ros2 2>wrong.log && fail "a domain of 300 is taken"

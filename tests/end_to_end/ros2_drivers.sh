@@ -2,18 +2,9 @@
 # A rig of two lidars whose drivers of ROS 2 publish PointCloud2, on another vendor's DDS: the right one starts late, falls
 # silent and is restarted, twice, while somebody else publishes nonsense on the same topics.
 # Usage: ros2_drivers.sh SCANLOOM REPOSITORY [FASTDDS_PEER]; 77 without a peer, or where two programs cannot meet by DDS.
-set -eu
-scanloom=$1 repository=$2 peer=${3:-}
-[ -n "$peer" ] || { echo "skipped: Cyclone DDS or Fast DDS is missing"; exit 77; }
+. "$(dirname "$0")/ros2_common.sh"
 export ROS_DOMAIN_ID=79  # nobody else's
-folder=$(mktemp -d)
-trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$folder"' EXIT
-cd "$folder"
-fail() { echo "FAILED: $*"; for log in ./*.log; do echo "== $log"; tail -n 20 "$log" | cut -c1-300; done; exit 1; }
-
-"$scanloom" simulate -c "$repository/params/simulation/sparse.ini" --set simulated_drive.duration=20 \
-  --set simulated_drive.standstill=2 --set simulated_drive.route=winding --set simulated_lidars.lidar1_model=OS0-16 \
-  --set simulated_lidars.lidar2_model=OS0-16 --out-dir drive >simulate.log 2>&1 || fail "no drive"
+simulate 20
 "$scanloom" record drive -o drive.rawlog >record.log 2>&1 || fail "no rawlog"
 "$scanloom" edit -q -i drive.rawlog -o split.rawlog --split-lidars
 "$scanloom" edit -q -i split.rawlog --to-mcap drivers.mcap

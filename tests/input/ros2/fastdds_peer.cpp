@@ -113,6 +113,13 @@ class Listener : public fdds::DataReaderListener
   Take take_;
 };
 
+/** "/points=sensor_msgs/msg/PointCloud2" */
+Ros2Topic topicOf(const std::string& argument)
+{
+  const std::size_t equals = argument.find('=');
+  return {argument.substr(0, equals), argument.substr(equals + 1)};
+}
+
 struct Heard
 {
   Ros2Topic topic;
@@ -149,7 +156,7 @@ int hear(const std::vector<std::string>& arguments)
     else if (argument == "--stall-after")
       stall_after = std::stod(arguments.at(++i));
     else
-      topics.push_back({argument.substr(0, argument.find('=')), argument.substr(argument.find('=') + 1)});
+      topics.push_back(topicOf(argument));
   }
   OutputFile file(out);
   McapWriter writer(file.stream());
@@ -364,7 +371,7 @@ int flood(const std::vector<std::string>& arguments)
   std::vector<fdds::DataWriter*> writers;
   for (const std::string& argument : std::vector<std::string>(arguments.begin() + 1, arguments.end()))
   {
-    const Ros2Topic topic{argument.substr(0, argument.find('=')), argument.substr(argument.find('=') + 1)};
+    const Ros2Topic topic = topicOf(argument);
     writers.push_back(publisher->create_datawriter(participant.topic(topic), qosOf(topic, true)));
   }
   std::mt19937 random(1);
