@@ -4,6 +4,7 @@
 #include "estimation/preprocessing/Thin.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -63,12 +64,13 @@ std::optional<Plane> through(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   return plane;
 }
 
+/** The planes with most points. */
 struct Found
 {
-  Plane any, level;
+  Plane any, below, above;  // the last two nearly level, below and above the sensor
 };
 
-Found search(const Points& points)
+Found search(const Points& points, const Eigen::Vector3d& sensor)
 {
   std::mt19937 random(1);
   const auto draw = [&] { return points[random() % points.size()]; };
@@ -80,9 +82,20 @@ Found search(const Points& points)
     if (!plane) continue;
     plane->points = pointsOn(*plane, points);
     if (plane->points > found.any.points) found.any = *plane;
-    if (std::abs(plane->normal.z()) > kLevel && plane->points > found.level.points) found.level = *plane;
+    if (std::abs(plane->normal.z()) < kLevel) continue;
+    Plane& level = plane->distance(sensor) * plane->normal.z() > 0 ? found.below : found.above;
+    if (plane->points > level.points) level = *plane;
   }
   return found;
+}
+
+/** Under a ceiling the ground is the plane below the sensor, even if fewer points are on it. */
+const Plane& groundAmong(const Found& found, std::size_t points)
+{
+  const std::size_t enough =
+      std::max(kFewestPoints, static_cast<std::size_t>(kLeastShare * static_cast<double>(points)));
+  const Plane& level = found.below.points >= enough ? found.below : found.above;
+  return found.any.points > 2 * std::max(found.below.points, found.above.points) ? found.any : level;
 }
 
 Plane refined(const Plane& plane, const Points& points)
@@ -111,8 +124,7 @@ std::optional<GroundPlane> groundPlane(const std::vector<const PointCloud*>& poi
 {
   const Points points = pointsAround(points_in_body, sensor_in_body);
   if (points.size() < kFewestPoints) return std::nullopt;
-  const Found found = search(points);
-  Plane plane = found.any.points > 2 * found.level.points ? found.any : found.level;
+  Plane plane = groundAmong(search(points, sensor_in_body), points.size());
   if (plane.points < kFewestPoints) return std::nullopt;
   for (int i = 0; i < kRefinements; ++i) plane = refined(plane, points);
 

@@ -23,8 +23,9 @@ struct GroundPlane
 /**
  * The plane with most points among those through random triples (M. Fischler, R. Bolles: RANSAC, 1981; fixed seed),
  * then least squares on its points. Uses one point per 0.25 m cube within 12 m of the sensor, so that near rings do not
- * outweigh far ones. Planes that are nearly level in the body frame are preferred, unless another plane has more than
- * twice the points: then the pose is wrong. None if no plane has 100 points and a tenth of all.
+ * outweigh far ones. Planes that are nearly level in the body frame are preferred, first those below the sensor, unless
+ * another plane has more than twice the points: then the pose is wrong. None if no plane has 100 points and a tenth of
+ * all. Where only a ceiling is seen, it looks like the ground of a lidar that hangs upside down.
  */
 std::optional<GroundPlane> groundPlane(const std::vector<const PointCloud*>& points_in_body,
                                        const Eigen::Vector3d& sensor_in_body);

@@ -21,6 +21,12 @@ constexpr Duration kUntilTold = 5s;   // longer than an examination takes, so th
 /** Registrations of short drives are noisy: right rigs show up to 12 ms and some degrees, and too small a scale. */
 constexpr TurnLimits kBesideLidars{0.9, 5};  // a wrong unit; deg
 
+/**
+ * Lidars whose squared turns are left to this share by the IMU's, turned and scaled at will, measured something else:
+ * in a corridor 0.15 to 0.70, by the errors of registrations. Elsewhere, right or wrong, an IMU leaves 0.02 at most.
+ */
+constexpr double kTurnsByNoise = 0.1;
+
 /** The IMUs beside each other. Others' stamps do not matter of an IMU that is not in use. */
 RigFaults comparisonFaults(const RigMinute& minute)
 {
@@ -89,7 +95,8 @@ RigFaults rigFaults(const RigMinute& minute)
   found.imu = gyroAgreement(minute.turns, {minute.samples.at(*minute.in_use), imu.body_T_imu});
   const ImuComparison beside_lidars{0, 0, imu.body_T_imu.rotation, found.imu, true};
   const Finding turns = turnsFinding(beside_lidars, imu.name, "the lidars", kBesideLidars);
-  if (lidars_agree && turns.verdict >= Verdict::Warning) found.faults.push_back({imu.name, turns});
+  const bool lidars_turn_alike = found.imu && found.imu->unexplained < kTurnsByNoise;
+  if (lidars_agree && lidars_turn_alike && turns.verdict >= Verdict::Warning) found.faults.push_back({imu.name, turns});
   return found;
 }
 

@@ -9,6 +9,11 @@
 
 namespace scanloom
 {
+namespace
+{
+constexpr double kOverheadDeg = 145;  // slopes of 35 deg are ground
+}
+
 std::string groundInWords(const GroundPlane& ground)
 {
   return fmt::format("{:.0f} % of the points within 12 m are on a plane {:.2f} m from the sensor, its normal ",
@@ -22,6 +27,9 @@ Finding groundFinding(const MountedLidar& lidar, const std::optional<GroundPlane
   Finding finding{lidar.name, "ground", grade(tilt, limits::kGroundTiltWarningDeg, limits::kGroundTiltNotFitDeg),
                   fmt::format("{}{:.1f} deg off the body's z; the body's origin {:.2f} m above it",
                               groundInWords(*ground), tilt, ground->body_height)};
+  // Where the ground is hidden or too far, a ceiling looks like it. An IMU knows better (upFinding).
+  const bool is_overhead = tilt > kOverheadDeg;
+  if (is_overhead) finding.verdict = Verdict::Warning;
   if (finding.verdict == Verdict::NotFit)
     finding.says += fmt::format(": up is along {} of the body", nearestAxis(ground->up));
   if (const auto radians = mendOfRadians(lidar.body_T_sensor, ground->up))
@@ -31,7 +39,9 @@ Finding groundFinding(const MountedLidar& lidar, const std::optional<GroundPlane
   }
   else if (finding.verdict != Verdict::Ok)
     finding.mend = fmt::format("the lidar's pose is wrong by {}{}", turnUpwards(ground->up),
-                               finding.verdict == Verdict::Warning ? ", or it stood before a slope" : "");
+                               is_overhead                           ? ", unless that plane is a ceiling"
+                               : finding.verdict == Verdict::Warning ? ", or it stood before a slope"
+                                                                     : "");
   return finding;
 }
 }  // namespace scanloom

@@ -1,11 +1,13 @@
 #include "diagnosis/internal/LidarCheck.h"
 
 #include "base/core/Angle.h"
+#include "base/core/VoxelKey.h"
 #include "diagnosis/SelfReturns.h"
 #include "diagnosis/internal/GroundFinding.h"
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_set>
 
 namespace scanloom
 {
@@ -101,6 +103,33 @@ std::optional<GroundPlane> LidarCheck::groundOf(std::size_t lidar) const
   return groundPlane(cloudsOf(lidar), lidars_[lidar].body_T_sensor.translation);
 }
 
+/**
+ * Whether most of what looks like the machine at a keyframe is still there when the machine has driven on: the walls of
+ * a corridor stay in place in the body frame, too.
+ */
+bool LidarCheck::staysBehind(std::size_t lidar, const SelfReturns& parts) const
+{
+  constexpr double kDrivenOn = 12;  // m: farther than any part of a machine reaches
+  constexpr float kCube = 1;        // m: far away beams are so far apart
+  std::size_t asked = 0, found = 0;
+  for (std::size_t k = 0; k < keyframes_.size(); ++k)
+    for (std::size_t i = 0; i < keyframes_.size(); ++i)
+    {
+      const Rigid there_T_here = keyframes_[i]->map_T_body.inverse() * keyframes_[k]->map_T_body;
+      if (there_T_here.translation.norm() < kDrivenOn) continue;
+      std::unordered_set<std::uint64_t> seen;
+      const PointCloud &there = keyframes_[i]->points[lidar], &here = keyframes_[k]->points[lidar];
+      for (std::size_t n = 0; n < there.size(); ++n) seen.insert(voxelKey(there.position(n), kCube));
+      for (std::size_t n = 0; n < here.size(); ++n)
+      {
+        if (parts.marks[k][n] == 0) continue;
+        ++asked;
+        found += seen.count(voxelKey((there_T_here * here.position(n).cast<double>()).cast<float>(), kCube));
+      }
+    }
+  return 2 * found > asked;
+}
+
 Finding LidarCheck::crop() const
 {
   std::vector<SelfReturns> parts;
@@ -108,6 +137,7 @@ Finding LidarCheck::crop() const
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
     parts.push_back(selfReturns(cloudsOf(i), groundOf(i)));
+    if (parts.back().known && staysBehind(i, parts.back())) parts.back() = {};
     for (const PointCloud* cloud : cloudsOf(i)) points[i] += cloud->size();
   }
   return cropFinding(together(parts, points));

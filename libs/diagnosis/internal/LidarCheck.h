@@ -2,6 +2,7 @@
 #include "base/core/Keyframe.h"
 #include "base/core/MountedLidar.h"
 #include "calibration/GroundPlane.h"
+#include "diagnosis/SelfReturns.h"
 #include "diagnosis/internal/EvenSelection.h"
 #include "diagnosis/internal/PoseFinding.h"
 #include "input/batching/Scan.h"
@@ -52,6 +53,7 @@ class LidarCheck
   Findings compareGrounds() const;
   std::vector<const PointCloud*> cloudsOf(std::size_t lidar) const;
   std::optional<GroundPlane> groundOf(std::size_t lidar) const;
+  bool staysBehind(std::size_t lidar, const SelfReturns&) const;
 
   /** By keyframe, in its body frame. */
   std::vector<SeenPoints> seenBy(std::size_t lidar) const;

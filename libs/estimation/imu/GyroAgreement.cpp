@@ -183,8 +183,9 @@ std::optional<GyroAgreement> gyroAgreement(const std::vector<BodyTurn>& a, const
   const Alignment& alignment = agreement.mirrored ? reversed : as_given;
   agreement.rotation = logSo3(Eigen::Quaterniond(alignment.trace.rotation));
   agreement.scale = rates_b.norm() / rates_a.norm();
-  const double noise = alignment.noise, unexplained = std::pow(alignment.residual / rates_a.norm(), 2);
-  agreement.scale_sigma = agreement.scale * (noise / rates_a.norm() + unexplained / 2);
+  agreement.unexplained = std::pow(alignment.residual / rates_a.norm(), 2);
+  const double noise = alignment.noise;
+  agreement.scale_sigma = agreement.scale * (noise / rates_a.norm() + agreement.unexplained / 2);
   // By the two axes with the most motion: the third follows from them.
   agreement.sigma = noise / std::sqrt(alignment.trace.singular_values[1] / agreement.scale);
   if (!(agreement.sigma < kWorstSigma)) return std::nullopt;

@@ -27,6 +27,7 @@ struct GyroAgreement
   double sigma = 0;                                    // rad, standard deviation about the least certain axis
   double scale = 1;                                    // b's rates over a's
   double scale_sigma = 0;                              // standard deviation, with what noise adds to b's rates
+  double unexplained = 0;                              // share of a's squared rates that b's, turned and scaled, leave
   bool mirrored = false;  // b's axes are left-handed: rotation turns its reversed rates to a's (a half turn: one axis)
   Duration lag{0};        // b's stamps are later than a's for the same instant
   double lag_sigma = 0;   // s, its standard deviation

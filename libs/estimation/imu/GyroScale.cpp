@@ -20,18 +20,20 @@ constexpr std::size_t kFewestPairs = 18;
 /** Means of one window. */
 struct Window
 {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero(), rate = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turned = Eigen::Vector3d::Zero();  // rad, the integral of the rates since the first sample
   Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();
 };
 
-Window meanOf(const ImuSample* first, const ImuSample* last)
+/** `turned`: by the sample, since the first of all. */
+Window meanOf(const ImuSample* first, const ImuSample* last, const Eigen::Vector3d* turned)
 {
   Window window;
   const auto n = static_cast<double>(last - first + 1);
-  for (const ImuSample* sample = first; sample <= last; ++sample)
+  for (const ImuSample* sample = first; sample <= last; ++sample, ++turned)
   {
     window.force += sample->accel / n;
-    window.rate += sample->gyro / n;
+    window.turned += *turned / n;
   }
   const auto edge = std::max<std::ptrdiff_t>(1, (last - first + 1) / kEdge);
   for (std::ptrdiff_t i = 0; i < edge; ++i)
@@ -40,9 +42,19 @@ Window meanOf(const ImuSample* first, const ImuSample* last)
   return window;
 }
 
+std::vector<Eigen::Vector3d> integralOfRates(const std::vector<ImuSample>& samples)
+{
+  std::vector<Eigen::Vector3d> turned{Eigen::Vector3d::Zero()};
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    turned.push_back(turned.back() +
+                     0.5 * seconds(samples[i].stamp - samples[i - 1].stamp) * (samples[i - 1].gyro + samples[i].gyro));
+  return turned;
+}
+
 /** Consecutive; none for an IMU below 8 Hz. */
 std::vector<Window> windowsOf(const std::vector<ImuSample>& samples)
 {
+  const std::vector<Eigen::Vector3d> turned = integralOfRates(samples);
   std::vector<Window> windows;
   for (std::size_t first = 0; first < samples.size();)
   {
@@ -50,7 +62,7 @@ std::vector<Window> windowsOf(const std::vector<ImuSample>& samples)
     std::size_t next = first;
     while (next < samples.size() && samples[next].stamp < end) ++next;
     if (next == samples.size() || next - first < 2) break;
-    windows.push_back(meanOf(&samples[first], &samples[next - 1]));
+    windows.push_back(meanOf(&samples[first], &samples[next - 1], &turned[first]));
     first = next;
   }
   return windows;
@@ -69,10 +81,8 @@ std::vector<Row3> rowsOf(const std::vector<Window>& windows)
   for (std::size_t k = 0; k + kWindowsApart < windows.size(); ++k)
   {
     const Window &from = windows[k], &to = windows[k + kWindowsApart];
-    Eigen::Vector3d turned = kWindow / 2 * (from.rate + to.rate);
-    for (std::size_t i = k + 1; i < k + kWindowsApart; ++i) turned += kWindow * windows[i].rate;
     Row3 row;
-    row.regressors << -turned.cross(0.5 * (from.force + to.force)),
+    row.regressors << -(to.turned - from.turned).cross(0.5 * (from.force + to.force)),
         skew(to.angular_acceleration - from.angular_acceleration);
     row.seen = to.force - from.force;
     rows.push_back(row);
@@ -121,7 +131,10 @@ std::optional<GyroScale> gyroScale(const std::vector<ImuSample>& samples)
   const double variance = kWindowsApart * squares / (3 * static_cast<double>(rows.size()));
   GyroScale result;
   result.scale = solution[0];
-  result.sigma = std::sqrt(variance * solver.solve(Unknowns::Unit(0))[0]);
+  const double inverse = solver.solve(Unknowns::Unit(0))[0];
+  result.sigma = std::sqrt(variance * inverse);
+  const double by_gravity = solution[0] * solution[0] / inverse;  // the squares that the fit without scale leaves more
+  result.explained = by_gravity / (by_gravity + squares);
   result.tilt_rate = mean.regressors.col(0).norm() / (kWindowsApart * kWindow * kGravity);
   return result;
 }

@@ -93,6 +93,21 @@ SplitAxis splitAxis(std::int64_t index, Spread&& spread)
   return split;
 }
 
+/** Of the block of each bin. */
+std::vector<SurfaceOfBlock> surfacesOf(const std::vector<Bin>& bins, double edge)
+{
+  std::vector<SurfaceOfBlock> surfaces(bins.size());
+  for (std::size_t first = 0, last = 0; first < bins.size(); first = last)
+  {
+    const auto isOfBlock = [&](const Bin& bin)
+    { return bin.key >> CellKey::kCellBits == bins[first].key >> CellKey::kCellBits; };
+    while (last < bins.size() && isOfBlock(bins[last])) ++last;
+    std::fill(surfaces.begin() + static_cast<std::ptrdiff_t>(first),
+              surfaces.begin() + static_cast<std::ptrdiff_t>(last), surfaceOf(&bins[first], bins.data() + last, edge));
+  }
+  return surfaces;
+}
+
 /** Corrected as the view says, and widened across its rings. */
 std::vector<Bin> asSeen(std::vector<Bin> bins, const View& view, const Sight& sight,
                         const Eigen::Matrix3d& grid_R_points)
@@ -102,6 +117,7 @@ std::vector<Bin> asSeen(std::vector<Bin> bins, const View& view, const Sight& si
   std::optional<Rings> rings = view.rings;
   if (rings) rings->axis = grid_R_points * rings->axis;
   if (!rings && !corrections.shift_of) return bins;
+  const std::vector<SurfaceOfBlock> surfaces = rings ? surfacesOf(bins, sight.edge) : std::vector<SurfaceOfBlock>{};
   forAll(bins.size(), 256,
          [&](std::size_t i)
          {
@@ -112,7 +128,7 @@ std::vector<Bin> asSeen(std::vector<Bin> bins, const View& view, const Sight& si
              bins[i] = moved(bins[i], corrections.shift_of(seen, sight));
              seen.mean = meanOf(bins[i], sight.edge);  // the covariance stays
            }
-           if (rings) bins[i] = widenedAcrossRings(bins[i], seen, sight, *rings);
+           if (rings) bins[i] = widenedAcrossRings(bins[i], seen, sight, *rings, surfaces[i]);
          });
   return bins;
 }

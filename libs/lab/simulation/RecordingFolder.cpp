@@ -130,13 +130,13 @@ void writeText(const std::filesystem::path& path, const std::string& text)
 /** Returns of all lidars by surface, and rays without return as "none". */
 nlohmann::json returnsJson(const std::vector<PacketCounts>& counts)
 {
-  constexpr std::array<const char*, kSurfaces> kNames{"ground",  "stem", "branch", "crown",        "undergrowth",
-                                                      "machine", "boom", "object", "precipitation"};
+  constexpr std::array<const char*, kSurfaces> kNames{"ground",  "stem", "branch", "crown",    "undergrowth",
+                                                      "machine", "boom", "object", "building", "precipitation"};
   ReturnCounts all;
   for (const PacketCounts& lidar : counts) all.add(lidar.returns);
   nlohmann::json returns{{"none", all.none}};
   for (std::size_t i = 0; i < kSurfaces; ++i)
-    if (kNames[i] != kNames.back() || all.of_surface[i] > 0) returns[kNames[i]] = all.of_surface[i];
+    if (i <= static_cast<std::size_t>(Surface::Object) || all.of_surface[i] > 0) returns[kNames[i]] = all.of_surface[i];
   return returns;
 }
 

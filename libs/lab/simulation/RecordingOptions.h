@@ -1,6 +1,7 @@
 /** Options of a simulated recording. */
 #pragma once
 #include "base/config/Schema.h"
+#include "lab/simulation/internal/Buildings.h"
 #include "lab/simulation/internal/Drive.h"
 #include "lab/simulation/internal/ForestOptions.h"
 #include "lab/simulation/internal/Ground.h"
@@ -48,6 +49,7 @@ struct SimulationSettings
   EngineOptions engine;
   PrecipitationOptions precipitation;
   ForestOptions forest;
+  BuildingOptions buildings;
   SimulatedRecordingOptions recording;
   std::vector<SimulatedLidarOptions> lidars = dualOs0();
   RangingOptions ranging;
@@ -62,11 +64,14 @@ struct SimulationSettings
     visit(s.drive, Section{"simulated_drive", "how the machine moves"});
     visit(s.work, Section{"simulated_work", "the work cycle of route = work"});
     visit(s.body, Section{"simulated_body", "how the machine's body sways and shakes"});
+    visit(s.machine, Section{"simulated_machine", "the machine"});
+    visit(s.objects, Section{"simulated_objects", "what moves around the machine"});
     visit(s.engine, Section{"simulated_engine", "vibration by the engine, also at rest"});
     visit(s.ground, Section{"simulated_ground", "the ground"});
     visit(s.slopes, Section{"simulated_slopes", "slopes of the ground"});
     visit(s.precipitation, Section{"simulated_precipitation", "rain and snow between the lidars and the world"});
     ForestOptions::sections(s.forest, visit);
+    visit(s.buildings, Section{"simulated_buildings", "what people built"});
     visit(s.recording, Section{"simulated_recording", "what is written of the lidars"});
     visit(s.lidars, Section{"simulated_lidars", "any number of lidars: lidar1_, lidar2_, ...", "lidar"});
     visit(s.ranging, Section{"simulated_ranging", "ranging of all lidars: returns, noise, reflectivities"});

@@ -37,6 +37,8 @@ Color colorOf(Surface surface)
       return {0.85F, 0.45F, 0.10F};
     case Surface::Object:
       return {0.75F, 0.15F, 0.25F};
+    case Surface::Building:
+      return {0.70F, 0.66F, 0.62F};
     case Surface::Precipitation:
       return {0.60F, 0.70F, 0.85F};
   }

@@ -68,7 +68,7 @@ std::vector<std::optional<Hit>> World::castInWind(const std::vector<RayQuery>& q
   for (std::size_t i = 0; i < queries.size(); ++i)
   {
     const auto& [ray, max_range, draw] = queries[i];
-    nearest[i] = castGround(ray, max_range);
+    nearest[i] = castFixed(ray, max_range);
     Random of_leaves(draw, RandomStream::Leaves, 0);
     const double optical_depth = of_leaves.exponential();
     const double reach = std::min(nearest[i] ? nearest[i]->range : max_range, rangeBelow(highest_, ray));

@@ -22,22 +22,48 @@ View wallSeen(double away, const std::vector<double>& heights)
   return view;
 }
 
+/** Points on the ground z = 0 at these distances, seen from 2 m above it. */
+View groundSeen(const std::vector<double>& distances)
+{
+  View view{{}, Eigen::Vector3d(0, 0, 2), kUpright};
+  for (const double x : distances)
+    for (double y = -0.45; y < 0.5; y += 0.1) view.points.push_back(Eigen::Vector3d(x, y + 0.5, 0.01).cast<float>());
+  return view;
+}
+
 GaussianCell cellOf(const View& view) { return NdtMap({view}, {}).cells().front(); }
 
 double varianceOfGap(double width) { return width * width / 12; }
 }  // namespace
 
-TEST(RingSpread, aLevelLineIsAsHighAsTheGapBetweenRings)
+TEST(RingSpread, aLevelLineOnAWallIsAsHighAsTheGapBetweenRings)
 {
-  const GaussianCell cell = cellOf(wallSeen(10.5, {0.1}));
-  EXPECT_NEAR(cell.covariance(2, 2), varianceOfGap(kSpacing * 10.5), 2e-4);
+  const GaussianCell cell = cellOf(wallSeen(20.5, {0.4, 1.1, 1.82, 2.53}));
+  EXPECT_NEAR(cell.covariance(2, 2), varianceOfGap(kSpacing * 20.5), 2e-3);
   EXPECT_NEAR(cell.covariance(0, 0), 0.03 * 0.03, 1e-4) << "the wall stays thin";
-  EXPECT_NEAR(cell.mean.z(), 0.1, 1e-3);
+  EXPECT_NEAR(cell.mean.z(), 0.4, 1e-3);
 }
 
 TEST(RingSpread, aGapThatIsWiderThanTheCellFillsIt)
 {
-  EXPECT_NEAR(cellOf(wallSeen(80.5, {0.1})).covariance(2, 2), varianceOfGap(1), 1e-3);
+  EXPECT_NEAR(cellOf(wallSeen(40.5, {0.1, 1.5, 2.9})).covariance(2, 2), varianceOfGap(1), 1e-3);
+}
+
+TEST(RingSpread, groundBetweenRingsIsWideAlongItselfAndStaysThin)
+{
+  // From 2 m above, beams 9, 11 and 13 deg below the horizon.
+  const GaussianCell cell =
+      cellOf(groundSeen({2 / std::tan(13 * kDegree), 2 / std::tan(11 * kDegree), 2 / std::tan(9 * kDegree)}));
+  EXPECT_GT(cell.covariance(0, 0), varianceOfGap(0.9));
+  EXPECT_NEAR(cell.covariance(2, 2), 0.03 * 0.03, 1e-3);
+}
+
+TEST(RingSpread, aSingleRingSaysNothingOfTheSlopeOfItsSurface)
+{
+  const GaussianCell cell = cellOf(groundSeen({16.5}));
+  const Eigen::Vector3d view = (cell.mean - Eigen::Vector3d(0, 0, 2)).normalized();
+  EXPECT_GT(view.dot(cell.covariance * view), varianceOfGap(0.9));
+  EXPECT_GT(cell.covariance(2, 2), varianceOfGap(kSpacing * 16));
 }
 
 TEST(RingSpread, aCellOfManyRingsStays)

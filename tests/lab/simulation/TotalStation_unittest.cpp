@@ -21,7 +21,8 @@ SimulationSettings atRest()
   settings.drive.duration = 200;
   settings.objects.person_every = settings.objects.vehicle_every = 0;
   settings.objects.felled_trees = false;
-  settings.machine = {{}, false};
+  settings.machine.body.clear();
+  settings.machine.has_boom = false;
   settings.forest.stand.stems_per_hectare = settings.forest.stand.stumps_per_hectare = 0;
   settings.forest.foliage.undergrowth_cover = 0;
   return settings;

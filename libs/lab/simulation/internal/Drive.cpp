@@ -75,7 +75,8 @@ Motion Drive::at(double t) const
 {
   Taylor x = route_.progress(t), y = lateral(x);
   const Taylor yaw = atan(curve_ * curve_rate_ * sin(curve_rate_ * x));
-  const Stance stance = stand(ground_, x, y, yaw);
+  Stance stance = stand(ground_, x, y, yaw);
+  if (body_.upright) stance.pitch = stance.roll = 0.0;
 
   const Taylor driving = route_.driving(t), working = route_.working(t);
   const Taylor sway = kDegree * body_.sway_deg * (driving + kWorkSway * working);

@@ -18,6 +18,7 @@ struct BodyMotionOptions
   double sway_rate = 0.7;
   double vibration = 0.0003;    // m: amplitude of the height at each of the two vibration frequencies; 0 at rest
   double vibration_deg = 0.02;  // deg: amplitude of the roll at the slow and of the pitch at the fast frequency
+  bool upright = false;         // on slopes, too, as people are
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -56,9 +57,10 @@ class Drive
   /** Where the machine drives: points (x, y) at most 0.25 m apart, from 15 m behind the start on. */
   std::vector<Eigen::Vector2d> path() const;
 
- private:
+  /** How far the path is left of its axis, m. */
   Taylor lateral(const Taylor& x) const;
 
+ private:
   Route route_;
   BodyMotionOptions body_;
   Ground ground_;

@@ -28,6 +28,13 @@ constexpr double kShortestStop = 8;  // s: no tree falls at a shorter one
 constexpr double kLying = M_PI / 2;  // rad
 
 /** Ids of the kinds alternate, so that no two objects have the same. */
+// Of the traffic (assumed).
+constexpr double kLanes = 3.2;                 // m: from the machine's lane to the one of oncoming cars
+constexpr double kOncomingSpeed = 10;          // m/s
+constexpr double kCarAhead = 20;               // m: the car ahead is so far away, give or take kCarAheadSway
+constexpr double kCarAheadSway = 4;            // m
+constexpr std::uint64_t kTraffic = 1'000'000;  // numbers of its cars; those of passers are smaller
+
 constexpr std::uint64_t kKinds = 3;
 std::uint64_t idOf(ObjectKind kind, std::uint64_t number) { return kKinds * number + static_cast<std::uint64_t>(kind); }
 
@@ -105,6 +112,7 @@ std::vector<MovingObject> MovingObjects::at(double t) const
   std::vector<MovingObject> objects;
   addPassers(objects, ObjectKind::Person, t);
   addPassers(objects, ObjectKind::Vehicle, t);
+  addTraffic(objects, t);
   addTrees(objects, t);
   std::sort(objects.begin(), objects.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
   return objects;
@@ -143,6 +151,41 @@ void MovingObjects::addPassers(std::vector<MovingObject>& objects, ObjectKind ki
       object.size << kVehicleLength, kVehicleWidth, options_.vehicle_height;
     objects.push_back(object);
   }
+}
+
+/** Cars on the road that the machine's path is: one ahead, and those that come towards it. */
+void MovingObjects::addTraffic(std::vector<MovingObject>& objects, double t) const
+{
+  if (options_.traffic_every <= 0) return;
+  const Route& route = drive_.route();
+  const double ahead = kCarAhead + kCarAheadSway * std::sin(0.3 * t);
+  const Taylor progress = route.progress(t);
+  objects.push_back(carOnLane(0, progress.value + ahead, 0, progress.rate + 0.3 * kCarAheadSway * std::cos(0.3 * t)));
+  const double visible = 4 * kPassLength / kOncomingSpeed;  // s before and after it passes
+  for (auto i = static_cast<std::int64_t>(std::floor((t - visible) / options_.traffic_every));
+       i <= static_cast<std::int64_t>(std::floor((t + visible) / options_.traffic_every)); ++i)
+  {
+    const double passes = static_cast<double>(i) * options_.traffic_every;
+    const double x = route.progress(passes).value - kOncomingSpeed * (t - passes);
+    if (i >= 0 && std::abs(t - passes) < visible)
+      objects.push_back(carOnLane(static_cast<std::uint64_t>(i) + 1, x, kLanes, -kOncomingSpeed));
+  }
+}
+
+/** `x` along the axis of the machine's path, `left` of it; a negative speed is against the machine's. */
+MovingObject MovingObjects::carOnLane(std::uint64_t number, double x, double left, double speed) const
+{
+  const Taylor y = drive_.lateral(Taylor{x, 1, 0});
+  const Eigen::Vector2d along = Eigen::Vector2d(1, y.rate).normalized();
+  const Eigen::Vector2d at = Eigen::Vector2d(x, y.value) + left * Eigen::Vector2d(-along.y(), along.x());
+  MovingObject car;
+  car.id = idOf(ObjectKind::Vehicle, kTraffic + number);
+  car.kind = ObjectKind::Vehicle;
+  car.ground_point << at, drive_.ground().height(at.x(), at.y());
+  car.yaw = std::atan2(along.y(), along.x()) + (speed < 0 ? M_PI : 0);
+  car.velocity = speed * along;
+  car.size << kVehicleLength, kVehicleWidth, options_.vehicle_height;
+  return car;
 }
 
 /** The tree of this stop, or of the one that the machine drives to, and that of the next stop. */

@@ -1,5 +1,6 @@
 /** What moves around the machine, as functions of time: persons, vehicles, and the trees that it fells. */
 #pragma once
+#include "base/core/Field.h"
 #include "lab/simulation/internal/Drive.h"
 #include "lab/simulation/internal/Solids.h"
 
@@ -8,7 +9,7 @@
 
 namespace scanloom
 {
-/** Not keys of the configuration: tests measure without objects, or with more and larger ones. Assumed. */
+/** Tests measure without objects, or with more and larger ones; a user needs three keys. Assumed. */
 struct ObjectOptions
 {
   double person_every = 60;     // s: mean time between two persons who run past; 0: none
@@ -16,6 +17,19 @@ struct ObjectOptions
   double vehicle_height = 1.7;  // m: height of that box
   double pass_distance = 9;     // m: mean distance at which they pass the machine; 0.6 to 1.4 times this
   bool felled_trees = true;     // a tree falls at every stop for work
+  double traffic_every = 0;
+
+  template <typename Self, typename Visitor>
+  static void fields(Self& o, Visitor&& visit)
+  {
+    visit(o.person_every, Field{"person_every", "s", "time between two persons who run past; 0: none", atLeast(0)});
+    visit(o.vehicle_every,
+          Field{"vehicle_every", "s", "time between two vehicles that cross the path; 0: none", atLeast(0)});
+    visit(o.traffic_every, Field{"traffic_every", "s",
+                                 "time between two cars that come towards the machine on the other lane, with another "
+                                 "that keeps 20 m ahead of it; 0: none",
+                                 atLeast(0)});
+  }
 };
 
 enum class ObjectKind
@@ -61,6 +75,8 @@ class MovingObjects
   };
 
   void addPassers(std::vector<MovingObject>&, ObjectKind, double t) const;
+  void addTraffic(std::vector<MovingObject>&, double t) const;
+  MovingObject carOnLane(std::uint64_t number, double x, double left, double speed) const;
   void addTrees(std::vector<MovingObject>&, double t) const;
   void planTrees();
 

@@ -32,6 +32,7 @@ enum class RandomStream : std::uint64_t
   Wind,
   Precipitation,
   Engine,
+  Buildings,
 };
 
 /** SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), seeded by a key. */

@@ -33,10 +33,11 @@ enum class Surface
   Machine,      // the one that carries the lidars
   Boom,         // of that machine
   Object,       // persons, vehicles, falling trees
+  Building,     // walls and whatever else stands still and was built
   Precipitation,
 };
 
-constexpr std::size_t kSurfaces = 9;
+constexpr std::size_t kSurfaces = 10;
 
 struct Hit
 {

@@ -48,6 +48,8 @@ double reflectivityOfSurface(const ReflectivityOptions& options, Surface surface
       return options.machine;
     case Surface::Object:
       return options.object;
+    case Surface::Building:
+      return options.building;
     case Surface::Precipitation:
       return 0;  // a speck has a strength of its own
   }

@@ -28,7 +28,7 @@ struct DriveOptions
                          "winding: rests, drives at 'speed', rests again; work: repeats the cycle of [simulated_work] "
                          "until the recording ends"});
     visit(o.standstill, Field{"standstill", "s", "time at rest before the drive, and after a winding one", atLeast(0)});
-    visit(o.speed, Field{"speed", "m/s", "cruising speed of a winding drive along its axis", between(0, 10)});
+    visit(o.speed, Field{"speed", "m/s", "cruising speed of a winding drive along its axis", between(0, 40)});
     visit(o.speed_up, Field{"speed_up", "s", "time to reach the cruising speed, and to stop", above(0)});
     visit(o.curve, Field{"curve", "m", "amplitude of the winding path", between(0, 20)});
     visit(o.curve_length, Field{"curve_length", "m", "length of one period of the winding path", above(1)});

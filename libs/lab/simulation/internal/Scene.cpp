@@ -16,16 +16,18 @@ Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
   const RecordingSpan span{kStart, settings.drive.duration};
   const Ground ground(settings.ground, settings.slopes);
   const Route route(settings.drive, settings.work, seed);
-  const Drive drive(route, settings.drive, settings.body, ground,
-                    EngineVibration(settings.engine, VibratingPart::Body, seed));
-  const Machine machine(settings.machine, Boom(route, seed));
+  BodyMotionOptions body = settings.body;
+  body.upright = settings.machine.kind == "person";
+  const Drive drive(route, settings.drive, body, ground, EngineVibration(settings.engine, VibratingPart::Body, seed));
+  const Machine machine(partsOf(settings.machine), Boom(route, seed));
   std::vector<LidarStation> lidars = makeLidarStations(settings, span, seed);
   const Rigid body_T_imu = Rigid::fromXyzYawPitchRoll(0.1, -0.3, 2.8, 90 * kDegree, 1.2 * kDegree, -0.8 * kDegree);
 
   return {seed,
           span,
-          Scenery(std::make_shared<const World>(ground, settings.forest, drive.path(), seed), drive, machine,
-                  MovingObjects(settings.objects, drive, seed)),
+          Scenery(std::make_shared<const World>(ground, settings.forest, drive.path(), seed,
+                                                build(settings.buildings, drive, seed)),
+                  drive, machine, MovingObjects(settings.objects, drive, seed)),
           std::move(lidars),
           {body_T_imu,
            kStart + kImuPhase,

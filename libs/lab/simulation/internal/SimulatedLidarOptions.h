@@ -115,6 +115,7 @@ struct ReflectivityOptions
   double undergrowth = 0.4;  // reflectivity of shrubs and grass
   double machine = 0.6;      // reflectivity of the painted machine and its boom
   double object = 0.3;       // reflectivity of persons and vehicles
+  double building = 0.35;    // reflectivity of plaster and concrete
 };
 
 /** Returns of all lidars: range, noise, signal. */

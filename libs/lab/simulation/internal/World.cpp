@@ -9,18 +9,16 @@
 namespace scanloom
 {
 World::World(const Ground& ground, const ForestOptions& options, const std::vector<Eigen::Vector2d>& path,
-             std::uint64_t seed)
-  : World(ground, options, Lane(path), seed)
+             std::uint64_t seed, std::vector<OrientedBox> buildings)
+  : World(ground, options, Lane(path), growStand(options.stand, options.trees, ground, Lane(path), seed), seed,
+          std::move(buildings))
 {
 }
 
-World::World(const Ground& ground, const ForestOptions& options, const Lane& lane, std::uint64_t seed)
-  : World(ground, options, lane, growStand(options.stand, options.trees, ground, lane, seed), seed)
-{
-}
-
-World::World(const Ground& ground, const ForestOptions& options, const Lane& lane, Stand stand, std::uint64_t seed)
+World::World(const Ground& ground, const ForestOptions& options, const Lane& lane, Stand stand, std::uint64_t seed,
+             std::vector<OrientedBox> buildings)
   : ground_(ground),
+    buildings_(std::move(buildings)),
     wind_(options.wind, options.trees.diameter, options.trees.height, seed),
     foliage_(growFoliage(options.foliage, options.trees, stand.stems, ground, lane, options.stand.reach, seed)),
     wood_(std::move(stand.stems), stand.stumps, options.trees),
@@ -39,7 +37,7 @@ std::vector<std::optional<Hit>> World::castInCalm(const std::vector<RayQuery>& q
   for (std::size_t i = 0; i < queries.size(); ++i)
   {
     const auto& [ray, max_range, draw] = queries[i];
-    nearest[i] = castGround(ray, max_range);
+    nearest[i] = castFixed(ray, max_range);
     // The exponential distribution has no memory: one draw per ray equals one per voxel.
     of_leaves.emplace_back(draw, RandomStream::Leaves, 0);
     through_foliage.push_back({ray, reach(i), of_leaves.back().exponential()});
@@ -55,11 +53,16 @@ std::vector<std::optional<Hit>> World::castInCalm(const std::vector<RayQuery>& q
   return nearest;
 }
 
-std::optional<Hit> World::castGround(const Ray& ray, double max_range) const
+std::optional<Hit> World::castFixed(const Ray& ray, double max_range) const
 {
-  const auto range = ground_.intersect(ray, max_range);
-  if (!range) return std::nullopt;
-  const Eigen::Vector3d p = ray.at(*range);
-  return Hit{*range, std::abs(ground_.normal(p.x(), p.y()).dot(ray.direction)), Surface::Ground, 0};
+  std::optional<Hit> nearest;
+  if (const auto range = ground_.intersect(ray, max_range))
+  {
+    const Eigen::Vector3d p = ray.at(*range);
+    nearest = Hit{*range, std::abs(ground_.normal(p.x(), p.y()).dot(ray.direction)), Surface::Ground, 0};
+  }
+  if (const auto contact = buildings_.cast(ray, nearest ? nearest->range : max_range))
+    nearest = Hit{contact->range, contact->cosine_incidence, Surface::Building, 0};
+  return nearest;
 }
 }  // namespace scanloom

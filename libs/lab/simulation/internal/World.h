@@ -1,5 +1,6 @@
-/** The world beside the machine: ground, wood and foliage, which the wind moves. */
+/** The world beside the machine: ground, buildings, and wood and foliage, which the wind moves. */
 #pragma once
+#include "lab/simulation/internal/Boxes.h"
 #include "lab/simulation/internal/Foliage.h"
 #include "lab/simulation/internal/ForestOptions.h"
 #include "lab/simulation/internal/Ground.h"
@@ -17,10 +18,11 @@ class World
 {
  public:
   /**
-   * Grows a forest around `path` (in the world, m; points at most 0.25 m apart). Throws std::invalid_argument that
-   * names a wrong option.
+   * Grows a forest around `path` (in the world, m; points at most 0.25 m apart), among `buildings`. Throws
+   * std::invalid_argument that names a wrong option.
    */
-  World(const Ground&, const ForestOptions&, const std::vector<Eigen::Vector2d>& path, std::uint64_t seed);
+  World(const Ground&, const ForestOptions&, const std::vector<Eigen::Vector2d>& path, std::uint64_t seed,
+        std::vector<OrientedBox> buildings = {});
 
   const Ground& ground() const { return ground_; }
   const std::vector<Stem>& stems() const { return wood_.stems(); }
@@ -43,8 +45,7 @@ class World
   }
 
  private:
-  World(const Ground&, const ForestOptions&, const Lane&, std::uint64_t seed);
-  World(const Ground&, const ForestOptions&, const Lane&, Stand, std::uint64_t seed);
+  World(const Ground&, const ForestOptions&, const Lane&, Stand, std::uint64_t seed, std::vector<OrientedBox>);
 
   /** Where things at a place are without wind. */
   struct PlaceAtRest
@@ -58,9 +59,10 @@ class World
   void castPiece(const std::vector<RayQuery>&, double from, double t, std::vector<RayInWind>&,
                  std::vector<std::optional<Hit>>& nearest) const;
   PlaceAtRest atRest(const Eigen::Vector3d& place, double t) const;
-  std::optional<Hit> castGround(const Ray&, double max_range) const;
+  std::optional<Hit> castFixed(const Ray&, double max_range) const;  // ground and buildings
 
   Ground ground_;
+  Boxes buildings_;
   Wind wind_;
   Foliage foliage_;
   Wood wood_;
