@@ -121,6 +121,9 @@ std::vector<Bin> asSeen(std::vector<Bin> bins, const View& view, const Sight& si
   forAll(bins.size(), 256,
          [&](std::size_t i)
          {
+           // A few points in the corner of a cell are where a ring is, and too few to be widened.
+           if (rings && bins[i].moments.n < GaussianCell::kMinPointsForCovariance && surfaces[i].isKnown())
+             bins[i].moments = {};
            if (bins[i].moments.n < 2) return;
            MeanAndCovariance seen = meanAndCovariance(bins[i], sight.edge);
            if (corrections.shift_of && bins[i].moments.n >= sight.least_points)
@@ -130,6 +133,8 @@ std::vector<Bin> asSeen(std::vector<Bin> bins, const View& view, const Sight& si
            }
            if (rings) bins[i] = widenedAcrossRings(bins[i], seen, sight, *rings, surfaces[i]);
          });
+  const auto isEmpty = [](const Bin& bin) { return bin.moments.n == 0; };
+  bins.erase(std::remove_if(bins.begin(), bins.end(), isEmpty), bins.end());
   return bins;
 }
 

@@ -11,6 +11,8 @@ struct SurfaceOfBlock
 {
   std::optional<Eigen::Vector3d> normal;  // of a plane
   bool is_line = false;                   // of a single ring: the surface may have any slope across it
+
+  bool isKnown() const { return normal || is_line; }
 };
 
 /** `bins`: those of a block of 4 x 4 x 4 cells of `edge` (m), from `first` to before `last`. */
