@@ -104,30 +104,40 @@ std::optional<GroundPlane> LidarCheck::groundOf(std::size_t lidar) const
 }
 
 /**
- * Whether most of what looks like the machine at a keyframe is still there when the machine has driven on: the walls of
- * a corridor stay in place in the body frame, too.
+ * Whether what looks like the machine at a keyframe is seen there from others, too, when the machine is elsewhere: the
+ * walls of a corridor and the ceiling of a car park stay in place in the body frame as well. `size`: m, of the machine.
  */
-bool LidarCheck::staysBehind(std::size_t lidar, const SelfReturns& parts) const
+bool LidarCheck::staysBehind(const std::vector<SelfReturns>& parts, double size) const
 {
-  constexpr double kDrivenOn = 12;  // m: farther than any part of a machine reaches
-  constexpr float kCube = 1;        // m: far away beams are so far apart
+  constexpr float kCube = 1;      // m: far away beams are so far apart
+  constexpr double kShare = 0.3;  // 0.1 at most of a machine; half and more of walls and ceilings
   std::size_t asked = 0, found = 0;
   for (std::size_t k = 0; k < keyframes_.size(); ++k)
-    for (std::size_t i = 0; i < keyframes_.size(); ++i)
+  {
+    const Rigid& map_T_body = keyframes_[k]->map_T_body;
+    std::unordered_set<std::uint64_t> seen;  // in the map
+    const auto cubeOf = [&](const Rigid& map_T_points, const PointCloud& points, std::size_t n)
+    { return voxelKey((map_T_points * points.position(n).cast<double>()).cast<float>(), kCube); };
+    for (const auto& other : keyframes_)
     {
-      const Rigid there_T_here = keyframes_[i]->map_T_body.inverse() * keyframes_[k]->map_T_body;
-      if (there_T_here.translation.norm() < kDrivenOn) continue;
-      std::unordered_set<std::uint64_t> seen;
-      const PointCloud &there = keyframes_[i]->points[lidar], &here = keyframes_[k]->points[lidar];
-      for (std::size_t n = 0; n < there.size(); ++n) seen.insert(voxelKey(there.position(n), kCube));
-      for (std::size_t n = 0; n < here.size(); ++n)
+      if ((other->map_T_body.translation - map_T_body.translation).norm() < size) continue;
+      for (const PointCloud& points : other->points)
+        for (std::size_t n = 0; n < points.size(); ++n) seen.insert(cubeOf(other->map_T_body, points, n));
+    }
+    if (seen.empty()) continue;
+    for (std::size_t lidar = 0; lidar < parts.size(); ++lidar)
+    {
+      if (!parts[lidar].known) continue;
+      const PointCloud& points = keyframes_[k]->points[lidar];
+      for (std::size_t n = 0; n < points.size(); ++n)
       {
-        if (parts.marks[k][n] == 0) continue;
+        if (parts[lidar].marks[k][n] == 0) continue;
         ++asked;
-        found += seen.count(voxelKey((there_T_here * here.position(n).cast<double>()).cast<float>(), kCube));
+        found += seen.count(cubeOf(map_T_body, points, n));
       }
     }
-  return 2 * found > asked;
+  }
+  return static_cast<double>(found) > kShare * static_cast<double>(asked);
 }
 
 Finding LidarCheck::crop() const
@@ -137,10 +147,10 @@ Finding LidarCheck::crop() const
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
     parts.push_back(selfReturns(cloudsOf(i), groundOf(i)));
-    if (parts.back().known && staysBehind(i, parts.back())) parts.back() = {};
     for (const PointCloud* cloud : cloudsOf(i)) points[i] += cloud->size();
   }
-  return cropFinding(together(parts, points));
+  const SelfReturns all = together(parts, points);
+  return cropFinding(staysBehind(parts, all.box.diagonal().norm()) ? SelfReturns{} : all);
 }
 
 Findings LidarCheck::compareGrounds() const

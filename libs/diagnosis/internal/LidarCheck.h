@@ -53,7 +53,7 @@ class LidarCheck
   Findings compareGrounds() const;
   std::vector<const PointCloud*> cloudsOf(std::size_t lidar) const;
   std::optional<GroundPlane> groundOf(std::size_t lidar) const;
-  bool staysBehind(std::size_t lidar, const SelfReturns&) const;
+  bool staysBehind(const std::vector<SelfReturns>&, double size) const;
 
   /** By keyframe, in its body frame. */
   std::vector<SeenPoints> seenBy(std::size_t lidar) const;

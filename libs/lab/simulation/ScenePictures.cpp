@@ -76,6 +76,15 @@ Color shaded(const std::optional<Hit>& hit)
   return (1 - haze) * light * colorOf(hit->surface) + haze * kSky;
 }
 
+/** Behind the machine, in the body frame; lower where there is a roof. */
+Eigen::Vector3d eyeAt(const Moment& moment)
+{
+  const Eigen::Vector3d outdoors(-11, -3.5, 5.5), indoors(-5, -0.6, 2.2);
+  const Ray upwards{moment.worldTBody() * Eigen::Vector3d(0, 0, 1.8), Eigen::Vector3d::UnitZ()};
+  const std::optional<Hit> above = moment.cast({upwards, 2 * outdoors.z(), 0});
+  return above && above->surface == Surface::Building ? indoors : outdoors;
+}
+
 constexpr int kTitle = 26, kLeastRow = 3;
 
 int rowHeight(const OusterMetadata& metadata) { return std::max(kLeastRow, 192 / metadata.channels); }
@@ -112,7 +121,7 @@ void drawStand(const Scene& scene, double t, const std::filesystem::path& png)
   constexpr int kHeight = 640;
   constexpr double kFocalLength = 0.55 * kWidth;  // pixels
   const Moment moment = scene.scenery.at(t);
-  const Eigen::Vector3d eye = moment.worldTBody() * Eigen::Vector3d(-11, -3.5, 5.5);
+  const Eigen::Vector3d eye = moment.worldTBody() * eyeAt(moment);
   const Eigen::Matrix3d world_R_camera = lookingAt(moment.worldTBody() * Eigen::Vector3d(6, 0, 2.5) - eye);
   Canvas canvas(kWidth, kHeight, kSky);
   std::vector<std::vector<std::optional<Hit>>> rows(kHeight);
