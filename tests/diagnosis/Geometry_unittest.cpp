@@ -2,6 +2,7 @@
 #include "calibration/CloudAgreement.h"
 #include "calibration/seenInWorld.h"
 #include "diagnosis/SelfReturns.h"
+#include "diagnosis/internal/GroundFinding.h"
 #include "estimation/imu/MeanForce.h"
 
 #include <gmock/gmock.h>
@@ -33,8 +34,16 @@ TEST(GroundPlane, isFoundBetweenWalls)
       seen(corridor(), {}, pose, pose, 1);  // floor at -1.6, ceiling at 1.5, walls nearer and larger
   const auto ground = groundPlane({&cloud}, pose.translation);
   ASSERT_TRUE(ground);
-  const double tilt = degreesBetween(ground->up, Eigen::Vector3d::UnitZ());
-  EXPECT_LT(std::min(tilt, 180 - tilt), 1) << "a wall was taken for the ground";
+  EXPECT_LT(degreesBetween(ground->up, Eigen::Vector3d::UnitZ()), 1)
+      << "a wall or the ceiling was taken for the ground";
+}
+
+TEST(GroundFinding, aPlaneOverheadMayBeACeiling)
+{
+  const GroundPlane overhead{-Eigen::Vector3d::UnitZ(), 0.6, 2.6, 0.4};
+  const Finding finding = groundFinding({"top", {}}, overhead);
+  EXPECT_EQ(finding.verdict, Verdict::Warning);
+  EXPECT_NE(finding.mend.find("unless that plane is a ceiling"), std::string::npos) << finding.mend;
 }
 
 TEST(GroundPlane, isNotFoundInACrown)

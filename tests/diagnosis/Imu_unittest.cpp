@@ -124,6 +124,7 @@ TEST_P(GyroUnits, areToldByGravityWhereverTheImuSits)
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->scale * unit, 1, 0.15);
     EXPECT_LT(found->sigma * unit, 0.1);
+    EXPECT_GT(found->explained, 0.5);
   }
 }
 
@@ -137,7 +138,38 @@ TEST(GyroScale, aBiasInDegreesThatIsReadAsRadiansWouldTipTheMachineOver)
   EXPECT_LT(gyroScale(swayingImu({}, 20))->tilt_rate, 0.01);
 }
 
+TEST(GyroScale, onARoadThatShakesTheImuLittleIsExplained)
+{
+  std::mt19937 random(5);
+  std::normal_distribution<double> shake(0, 1);
+  auto samples = swayingImu({}, 60);
+  for (std::size_t i = 0; i < samples.size(); i += 20)  // another push every tenth of a second
+  {
+    const Eigen::Vector3d push = 3 * Eigen::Vector3d(shake(random), shake(random), shake(random));
+    for (std::size_t k = i; k < std::min(i + 20, samples.size()); ++k) samples[k].accel += push;
+  }
+  EXPECT_LT(gyroScale(samples)->explained, 0.3);
+}
+
 TEST(GyroScale, needsFiveSeconds) { EXPECT_FALSE(gyroScale(swayingImu({}, 4))); }
+
+TEST(GyroAgreement, leavesTurnsUnexplainedThatAreNoise)
+{
+  const auto imu = swayingImu({}, 30);
+  const auto unexplainedWith = [&](double noise)
+  {
+    std::mt19937 random(6);
+    std::normal_distribution<double> error(0, noise);
+    std::vector<BodyTurn> turns;
+    for (double t = 1; t < 28; t += 0.1)
+      turns.push_back({kStart + fromSeconds(t), kStart + fromSeconds(t + 0.1),
+                       logSo3(expSo3(attitude(t)).conjugate() * expSo3(attitude(t + 0.1))) +
+                           Eigen::Vector3d(error(random), error(random), error(random))});
+    return gyroAgreement(turns, {imu, {}})->unexplained;
+  };
+  EXPECT_LT(unexplainedWith(1e-4), 0.02);
+  EXPECT_GT(unexplainedWith(5e-3), 0.1);
+}
 
 TEST(GyroAgreement, findsTheTurnBetweenTwoImus)
 {

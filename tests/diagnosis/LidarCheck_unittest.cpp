@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <functional>
 #include <map>
 
 namespace scanloom::lidar_check_unittest
@@ -118,6 +119,32 @@ TEST(LidarCheck, comparesWhatLidarsSeeInTheSameScansBeforeThereAreThreeKeyframes
   EXPECT_EQ(turn.about, "right");
   EXPECT_GE(turn.verdict, Verdict::Warning);
   EXPECT_THAT(turn.mend, testing::HasSubstr("-3.0) deg"));
+}
+
+TEST(LidarCheck, aBonnetIsTheMachineAndTheWallsOfACorridorAreNot)
+{
+  const Rigid pose = at(0, 0, 0.5);
+  const auto cropIn = [&](const std::function<RayWorld(double)>& worldAt)
+  {
+    LidarCheck check({{"top", pose}});
+    for (int k = 0; k < 8; ++k)
+    {
+      const Rigid world_T_body = at(4.0 * k, 0, 0);
+      check.add(Keyframe{Timestamp(k * 4s), world_T_body,
+                         seen(worldAt(4.0 * k), world_T_body, pose, pose, static_cast<std::uint64_t>(k))});
+    }
+    return check.crop();
+  };
+  const Finding bonnet = cropIn(
+      [](double x)
+      {
+        RayWorld world = forest(3, 400);
+        world.stems.push_back({{x - 1.2, 0}, 0.6});
+        return world;
+      });
+  EXPECT_EQ(bonnet.verdict, Verdict::Warning) << bonnet.says;
+  const Finding walls = cropIn([](double) { return corridor(); });
+  EXPECT_NE(walls.verdict, Verdict::Warning) << walls.says;
 }
 
 TEST(LidarCheck, judgesByThreeKeyframesBecauseTwoDoNotTellHowSureTheyAre)

@@ -78,8 +78,8 @@ struct SlamSettings
  private:
   /**
    * Noise of a consumer's chip, as Ouster's are assumed to be. The walk of the accelerometer's bias is 20 times what
-   * such a chip has: a slower one keeps the tilt of the start, where bias and tilt are the same, though it is up to 2 deg
-   * off (doc/study/localisation.md#beyond-the-forest).
+   * such a chip has: a slower one keeps the tilt of the start, where bias and tilt are the same, though it is up to 2
+   * deg off (doc/study/localisation.md#beyond-the-forest).
    */
   static ImuNoise insideLidar()
   {
