@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <functional>
 #include <map>
 
 namespace scanloom::lidar_check_unittest
@@ -121,30 +120,19 @@ TEST(LidarCheck, comparesWhatLidarsSeeInTheSameScansBeforeThereAreThreeKeyframes
   EXPECT_THAT(turn.mend, testing::HasSubstr("-3.0) deg"));
 }
 
-TEST(LidarCheck, aBonnetIsTheMachineAndTheWallsOfACorridorAreNot)
+TEST(LidarCheck, aBonnetIsTheMachineThoughOthersSeeThePlaceWhereItWas)
 {
   const Rigid pose = at(0, 0, 0.5);
-  const auto cropIn = [&](const std::function<RayWorld(double)>& worldAt)
+  LidarCheck check({{"top", pose}});
+  for (int k = 0; k < 8; ++k)
   {
-    LidarCheck check({{"top", pose}});
-    for (int k = 0; k < 8; ++k)
-    {
-      const Rigid world_T_body = at(4.0 * k, 0, 0);
-      check.add(Keyframe{Timestamp(k * 4s), world_T_body,
-                         seen(worldAt(4.0 * k), world_T_body, pose, pose, static_cast<std::uint64_t>(k))});
-    }
-    return check.crop();
-  };
-  const Finding bonnet = cropIn(
-      [](double x)
-      {
-        RayWorld world = forest(3, 400);
-        world.stems.push_back({{x - 1.2, 0}, 0.6});
-        return world;
-      });
-  EXPECT_EQ(bonnet.verdict, Verdict::Warning) << bonnet.says;
-  const Finding walls = cropIn([](double) { return corridor(); });
-  EXPECT_NE(walls.verdict, Verdict::Warning) << walls.says;
+    const Rigid world_T_body = at(4.0 * k, 0, 0);
+    RayWorld world = forest(3, 400);
+    world.stems.push_back({{4.0 * k - 1.2, 0}, 0.6});
+    check.add(Keyframe{Timestamp(k * 4s), world_T_body,
+                       seen(world, world_T_body, pose, pose, static_cast<std::uint64_t>(k))});
+  }
+  EXPECT_EQ(check.crop().verdict, Verdict::Warning) << check.crop().says;
 }
 
 TEST(LidarCheck, judgesByThreeKeyframesBecauseTwoDoNotTellHowSureTheyAre)
