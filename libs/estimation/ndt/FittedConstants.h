@@ -29,6 +29,7 @@ constexpr double kDensityShare        = 0.5;     // 1      of the shift; hard wo
 
 // Cells and pairs of cells
 constexpr double kSpreadOfFewPoints   = 0.08;    // m      deviation; dense stand, 16 beams                  #cells-of-few-points
+constexpr double kFlatness            = 0.2;     // 1      deviation over the next larger; field, stairs       #beyond-the-forest
 constexpr double kMixture             = 4;       // 1      at d2 = 1; five seeds of hard and dense           #mixtures
 
 // Covariance of a registration (LidarInformation)

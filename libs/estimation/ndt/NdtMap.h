@@ -31,7 +31,8 @@ struct NdtOptions
 
 /**
  * The views' points, counted into cells. Those of views with a viewpoint are corrected as each View says; with rings,
- * cells are widened across them (widenedAcrossRings). Throws std::invalid_argument if an option is out of its bounds.
+ * cells are widened across them (widenedAcrossRings), and those of one to three points on a plane or a ring left out.
+ * Throws std::invalid_argument if an option is out of its bounds.
  */
 BinnedPoints binned(const std::vector<View>&, const NdtOptions&);
 

@@ -1,6 +1,7 @@
 #include "estimation/ndt/internal/RingSpread.h"
 
 #include "base/core/Decompositions.h"
+#include "estimation/ndt/FittedConstants.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kThin = 0.2;  // a deviation below this share of the next larger one
-
 /** Raises the variance along a unit vector to that of an even spread over `width`. */
 Bin spread(const Bin& bin, const Eigen::Matrix3d& covariance, double width, const Eigen::Vector3d& along)
 {
@@ -31,7 +30,8 @@ SurfaceOfBlock surfaceOf(const Bin* first, const Bin* last, double edge)
   if (sum.n < 3) return {};
   const Eigensystem3 of_points = eigensystem3(meanAndCovariance(sum, corner).covariance);
   const Eigen::Array3d deviation = of_points.values.array().max(0).sqrt();
-  const bool is_flat = deviation[0] < kThin * deviation[1], is_line = deviation[1] < kThin * deviation[2];
+  const bool is_flat = deviation[0] < fitted::kFlatness * deviation[1],
+             is_line = deviation[1] < fitted::kFlatness * deviation[2];
   if (is_line) return {std::nullopt, deviation[2] > edge / std::sqrt(12)};
   if (is_flat) return {Eigen::Vector3d(of_points.vectors.col(0)), false};
   return {};

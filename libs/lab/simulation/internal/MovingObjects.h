@@ -9,7 +9,7 @@
 
 namespace scanloom
 {
-/** Tests measure without objects, or with more and larger ones; a user needs three keys. Assumed. */
+/** How many objects there are. Sizes and distances are assumed; only tests change them. */
 struct ObjectOptions
 {
   double person_every = 60;     // s: mean time between two persons who run past; 0: none
