@@ -1,6 +1,7 @@
 #include "lab/simulation/internal/Trees.h"
 
 #include "base/core/Angle.h"
+#include "base/core/So3.h"
 
 #include <algorithm>
 #include <cmath>
