@@ -49,6 +49,15 @@ PointCloud moved(PointCloud points, const Rigid& here_T_there)
   return points;
 }
 
+/** Of each point, in its frame. */
+std::vector<std::uint64_t> cubesOf(const PointCloud& points)
+{
+  constexpr float kCube = 1;  // m: far away beams are so far apart
+  std::vector<std::uint64_t> cubes;
+  for (std::size_t i = 0; i < points.size(); ++i) cubes.push_back(voxelKey(points.position(i), kCube));
+  return cubes;
+}
+
 std::vector<SeenByBoth> pairsOf(const std::vector<SeenPoints>& a, const std::vector<SeenPoints>& b)
 {
   std::vector<SeenByBoth> pairs;
@@ -109,31 +118,32 @@ std::optional<GroundPlane> LidarCheck::groundOf(std::size_t lidar) const
  */
 bool LidarCheck::staysBehind(const std::vector<SelfReturns>& parts, double size) const
 {
-  constexpr float kCube = 1;      // m: far away beams are so far apart
-  constexpr double kShare = 0.3;  // 0.1 at most of a machine; half and more of walls and ceilings
+  constexpr double kShare = 0.3;                        // 0.1 at most of a machine; half and more of walls and ceilings
+  std::vector<std::unordered_set<std::uint64_t>> seen;  // by keyframe
+  for (const auto& keyframe : keyframes_)
+  {
+    seen.emplace_back();
+    for (const PointCloud& points : keyframe->points)
+      for (const std::uint64_t cube : cubesOf(moved(points, keyframe->map_T_body))) seen.back().insert(cube);
+  }
   std::size_t asked = 0, found = 0;
   for (std::size_t k = 0; k < keyframes_.size(); ++k)
   {
-    const Rigid& map_T_body = keyframes_[k]->map_T_body;
-    std::unordered_set<std::uint64_t> seen;  // in the map
-    const auto cubeOf = [&](const Rigid& map_T_points, const PointCloud& points, std::size_t n)
-    { return voxelKey((map_T_points * points.position(n).cast<double>()).cast<float>(), kCube); };
-    for (const auto& other : keyframes_)
-    {
-      if ((other->map_T_body.translation - map_T_body.translation).norm() < size) continue;
-      for (const PointCloud& points : other->points)
-        for (std::size_t n = 0; n < points.size(); ++n) seen.insert(cubeOf(other->map_T_body, points, n));
-    }
-    if (seen.empty()) continue;
+    const Seen& here = *keyframes_[k];
+    std::vector<std::size_t> elsewhere;
+    for (std::size_t i = 0; i < keyframes_.size(); ++i)
+      if ((keyframes_[i]->map_T_body.translation - here.map_T_body.translation).norm() >= size) elsewhere.push_back(i);
+    if (elsewhere.empty()) continue;
     for (std::size_t lidar = 0; lidar < parts.size(); ++lidar)
     {
       if (!parts[lidar].known) continue;
-      const PointCloud& points = keyframes_[k]->points[lidar];
-      for (std::size_t n = 0; n < points.size(); ++n)
+      const std::vector<std::uint64_t> cubes = cubesOf(moved(here.points[lidar], here.map_T_body));
+      for (std::size_t n = 0; n < cubes.size(); ++n)
       {
         if (parts[lidar].marks[k][n] == 0) continue;
         ++asked;
-        found += seen.count(cubeOf(map_T_body, points, n));
+        const auto isSeen = [&](std::size_t i) { return seen[i].count(cubes[n]) > 0; };
+        found += std::any_of(elsewhere.begin(), elsewhere.end(), isSeen) ? 1 : 0;
       }
     }
   }

@@ -57,6 +57,6 @@ Bin widenedAcrossRings(const Bin& bin, const MeanAndCovariance& seen, const Sigh
     if (in_surface.norm() > 0.1 * view.norm()) along = in_surface.normalized();
   }
   const double facing = std::abs(along.dot(across));
-  return spread(bin, seen.covariance, facing * sight.edge > gap ? gap / facing : sight.edge, along);
+  return spread(bin, seen.covariance, std::min(sight.edge, gap / std::max(facing, 1e-9)), along);
 }
 }  // namespace scanloom

@@ -77,9 +77,9 @@ struct SlamSettings
 
  private:
   /**
-   * Noise of a consumer's chip, as Ouster's are assumed to be. The walk of the accelerometer's bias is 20 times what
-   * such a chip has: a slower one keeps the tilt of the start, where bias and tilt are the same, though it is up to 2
-   * deg off (doc/study/localisation.md#beyond-the-forest).
+   * Noise of a consumer's chip, as Ouster's are assumed to be; but the walk of the accelerometer's bias is 40 times the
+   * 5e-4 assumed of them. At a start at rest a bias looks like a tilt, up to 2 deg of it, and a bias that hardly walks
+   * keeps that for the whole run. Fitted on both generators: doc/study/localisation.md#beyond-the-forest.
    */
   static ImuNoise insideLidar()
   {

@@ -10,7 +10,13 @@ namespace scanloom
 {
 World::World(const Ground& ground, const ForestOptions& options, const std::vector<Eigen::Vector2d>& path,
              std::uint64_t seed, std::vector<OrientedBox> buildings)
-  : World(ground, options, Lane(path), growStand(options.stand, options.trees, ground, Lane(path), seed), seed,
+  : World(ground, options, Lane(path), seed, std::move(buildings))
+{
+}
+
+World::World(const Ground& ground, const ForestOptions& options, const Lane& lane, std::uint64_t seed,
+             std::vector<OrientedBox> buildings)
+  : World(ground, options, lane, growStand(options.stand, options.trees, ground, lane, seed), seed,
           std::move(buildings))
 {
 }

@@ -45,6 +45,7 @@ class World
   }
 
  private:
+  World(const Ground&, const ForestOptions&, const Lane&, std::uint64_t seed, std::vector<OrientedBox>);
   World(const Ground&, const ForestOptions&, const Lane&, Stand, std::uint64_t seed, std::vector<OrientedBox>);
 
   /** Where things at a place are without wind. */
