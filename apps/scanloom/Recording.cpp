@@ -1,5 +1,4 @@
 #include "Recording.h"
-#include "warn.h"
 
 #include "base/core/ConfigError.h"
 #include "base/core/Text.h"
@@ -19,7 +18,7 @@ namespace scanloom
 namespace
 {
 /** What could have been meant for the recording is a warning each; the rest is named in one line. */
-void nameUnused(const std::vector<UnusedFile>& files)
+void nameUnused(const std::vector<UnusedFile>& files, const Messages& messages)
 {
   constexpr std::size_t kNamed = 5;
   std::vector<std::string> data, others;
@@ -28,9 +27,9 @@ void nameUnused(const std::vector<UnusedFile>& files)
       data.push_back(fmt::format("{}: {}", printable(file.path.string()), file.why));
     else
       others.push_back(printable(file.path.filename().string()));
-  for (std::size_t i = 0; i < std::min(data.size(), kNamed); ++i) warn("not used: " + data[i]);
-  if (data.size() > kNamed) warn(fmt::format("not used: {} more files", data.size() - kNamed));
-  if (!others.empty()) fmt::print(stderr, "not used: {}\n", fmt::join(others, ", "));
+  for (std::size_t i = 0; i < std::min(data.size(), kNamed); ++i) messages.warn("not used: " + data[i]);
+  if (data.size() > kNamed) messages.warn(fmt::format("not used: {} more files", data.size() - kNamed));
+  if (!others.empty()) messages.say(fmt::format("not used: {}", fmt::join(others, ", ")));
 }
 
 /** A rawlog of `record`: its first object says so. */
@@ -84,12 +83,12 @@ Option addRecording(CLI::App& app, RecordingArguments& arguments)
   return recording;
 }
 
-RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds)
+RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds, const Messages& messages)
 {
   std::vector<std::filesystem::path> given = arguments.paths;
   given.insert(given.end(), arguments.metadata.begin(), arguments.metadata.end());
   const RecordingFiles files = withoutResults(filesOf(given), given);
-  nameUnused(files.unused);
+  nameUnused(files.unused, messages);
   if (!files.captures.empty() && !files.rawlogs.empty())
     throw UsageError(fmt::format("{} is a capture and {} a rawlog: name one of them", files.captures.front().string(),
                                  files.rawlogs.front().string()));
@@ -106,7 +105,8 @@ RecordingFiles filesOf(const RecordingArguments& arguments, Clouds clouds)
   return files;
 }
 
-RecordedSensors addCaptures(const RecordingFiles& files, Configuration& configuration, Poses poses)
+RecordedSensors addCaptures(const RecordingFiles& files, Configuration& configuration, Poses poses,
+                            const Messages& messages)
 {
   RecordedSensors sensors;
   sensors.not_used = static_cast<std::size_t>(
@@ -120,8 +120,8 @@ RecordedSensors addCaptures(const RecordingFiles& files, Configuration& configur
     return sensors;
   }
   RecognisedRig rig = recogniseRig(files);
-  for (const std::string& line : rig.found) fmt::print(stderr, "{}\n", printable(line));
-  for (const std::string& note : rig.notes) warn(printable(note));
+  for (const std::string& line : rig.found) messages.say(printable(line));
+  for (const std::string& note : rig.notes) messages.warn(printable(note));
   if (poses == Poses::TakenAsZero)
     for (const std::string& key : rig.unknown_poses) rig.ini += fmt::format("{} = [0 0 0 0 0 0]\n", key);
   configuration.addDefaults(Configuration::fromText(rig.ini, "recognised"));

@@ -3,6 +3,7 @@
 #include "Options.h"
 #include "base/config/Configuration.h"
 #include "input/rig/RecordingFiles.h"
+#include "warn.h"
 
 #include <filesystem>
 #include <string>
@@ -27,9 +28,9 @@ enum class Clouds
   Taken,
 };
 
-/** What the arguments name; files that are not used are named on stderr. @throws UsageError as filesOf() does, for
+/** What the arguments name; the messages name files that are not used. @throws UsageError as filesOf() does, for
  * captures together with rawlogs, and for clouds where they are of no use. */
-RecordingFiles filesOf(const RecordingArguments&, Clouds = Clouds::Refused);
+RecordingFiles filesOf(const RecordingArguments&, Clouds = Clouds::Refused, const Messages& = {});
 
 enum class Poses
 {
@@ -45,9 +46,9 @@ struct RecordedSensors
 
 /**
  * Adds the captures: to the lidars that the configuration describes, else with the lidars that are recognised, which
- * are printed to stderr.
+ * the messages name.
  */
-RecordedSensors addCaptures(const RecordingFiles&, Configuration&, Poses = Poses::Needed);
+RecordedSensors addCaptures(const RecordingFiles&, Configuration&, Poses = Poses::Needed, const Messages& = {});
 
 /** A name for results beside the recording: drive.pcap.gz and "_slam" give drive_slam, a folder dense/ gives
  * dense_slam. */

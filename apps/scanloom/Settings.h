@@ -34,14 +34,14 @@ Loaded<Settings> loadFrom(Configuration configuration, const std::vector<std::st
  */
 template <typename Settings>
 Loaded<Settings> load(const ConfigurationArguments& arguments, const RecordingFiles& recording = {},
-                      Poses poses = Poses::Needed)
+                      Poses poses = Poses::Needed, const Messages& messages = {})
 {
   Configuration configuration = Configuration::fromFiles(arguments.files);
   const bool holds_its_own = !recording.rawlogs.empty() || !recording.clouds.empty();
   for (const std::string& assignment : arguments.assignments)
     if (holds_its_own && assignment.rfind("lidars.", 0) == 0)
-      warn(fmt::format("--set {} is not used: it is for captures and live lidars", assignment));
-  const RecordedSensors sensors = addCaptures(recording, configuration, poses);
+      messages.warn(fmt::format("--set {} is not used: it is for captures and live lidars", assignment));
+  const RecordedSensors sensors = addCaptures(recording, configuration, poses, messages);
   return loadFrom<Settings>(std::move(configuration), arguments.assignments, sensors);
 }
 

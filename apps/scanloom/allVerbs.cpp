@@ -1,8 +1,5 @@
-/** libscanloom_program.so: the table of all verbs, and what main.cpp calls. */
-#include "Program.h"
+/** The table of all verbs. */
 #include "Verb.h"
-
-#include <malloc.h>
 
 namespace scanloom
 {
@@ -30,26 +27,3 @@ const std::vector<Verb>& verbs()
   return table;
 }
 }  // namespace scanloom
-
-namespace
-{
-/**
- * Every scan needs the same tens of MB again. If they are returned to the kernel in between, each of their pages causes
- * a fault again, which took a third of the time of `slam` (doc/performance.md). In one arena, since each thread's own
- * keeps what others could use.
- */
-void keepFreedMemory()
-{
-#ifdef __GLIBC__
-  mallopt(M_ARENA_MAX, 1);
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 512 << 20);
-#endif
-}
-}  // namespace
-
-extern "C" int runScanloom(int argc, char** argv)
-{
-  keepFreedMemory();
-  return scanloom::runProgram(argc, argv);
-}

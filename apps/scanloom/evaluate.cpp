@@ -1,16 +1,15 @@
 /** `scanloom evaluate`: compares a trajectory with a total station or with true poses. */
 #include "Arguments.h"
+#include "Reference.h"
 #include "Verb.h"
 #include "base/core/OutputFile.h"
 #include "base/core/jsonText.h"
 #include "base/formats/TrajectoryReader.h"
-#include "input/bags/BagContents.h"
 #include "input/rig/Extrinsics.h"
 #include "lab/evaluation/Evaluation.h"
 #include "lab/evaluation/EvaluationFigure.h"
 #include "lab/evaluation/EvaluationReport.h"
 #include "lab/evaluation/PositionError.h"
-#include "lab/evaluation/TotalStation.h"
 #include "lab/study/Gnuplot.h"
 #include "warn.h"
 
@@ -44,22 +43,6 @@ struct EvaluateArguments
   std::filesystem::path plot;
   bool json = false, overwrite = false;
 };
-
-decltype(EvaluationInput::reference) referenceOf(const EvaluateArguments& arguments)
-{
-  if (isBag(arguments.reference))
-  {
-    BagPoses found = readBagPoses({arguments.reference}, arguments.reference_topic);
-    if (found.unreadable > 0)
-      warn(fmt::format("{}: {} messages with poses cannot be read: left out", arguments.reference.string(),
-                       found.unreadable));
-    if (!found.have_rotations) return positionsOf(found.poses);
-    return std::move(found.poses);
-  }
-  if (!arguments.reference_topic.empty()) throw UsageError("--reference-topic is for a reference in a bag");
-  if (isTotalStation(arguments.reference)) return readTotalStation(arguments.reference);
-  return readTrajectory(arguments.reference, &warn);
-}
 
 std::optional<Trajectory> readIfGiven(const std::filesystem::path& path)
 {
@@ -102,7 +85,7 @@ int judge(double drift, double covered, const EvaluateArguments& arguments)
 int compareFromFirstPose(const EvaluateArguments& arguments)
 {
   if (!arguments.plot.empty()) throw UsageError("--plot draws what --align yaw and se3 compare, not first");
-  const auto reference = referenceOf(arguments);
+  const auto reference = readReference(arguments.reference, arguments.reference_topic, &warn);
   if (!std::holds_alternative<Trajectory>(reference))
     throw UsageError("--align first needs a reference with rotations, which points do not have; use yaw or se3");
   const PositionError error =
@@ -115,22 +98,6 @@ void plot(const Evaluation& evaluation, const std::filesystem::path& file)
 {
   const std::filesystem::path folder = file.parent_path();
   Gnuplot(folder.empty() ? "." : folder).drawInto(file, figureScript(evaluation));
-}
-
-/** Poses of a camera have z ahead (KITTI's): turning about z alone leaves most of the error. */
-void warnOfOtherUp(const Evaluation& about_z, const EvaluationInput& input, EvaluationOptions options)
-{
-  options.alignment = AlignmentKind::Se3;
-  const Evaluation free = evaluate(input, options);
-  const double up = (free.drift.alignment.reference_T_map.rotation * Eigen::Vector3d::UnitZ()).z();
-  constexpr double kMostTilt = 0.8;        // cosine of 37 deg: of no level reference
-  constexpr double kOfStraightLine = 100;  // the roll about it is arbitrary
-  if (up < kMostTilt && free.drift.alignment.condition < kOfStraightLine &&
-      2 * free.drift.largest < about_z.drift.largest)
-    warn(
-        fmt::format("the reference's z is not up, as in poses of a camera: turned freely, the drift is {:.3f} m "
-                    "(--align se3)",
-                    free.drift.largest));
 }
 
 int run(const EvaluateArguments& arguments)
@@ -147,16 +114,12 @@ int run(const EvaluateArguments& arguments)
   input.scans = readTrajectory(arguments.trajectory, &warn);
   input.imu_rate = readIfGiven(arguments.imu_trajectory);
   input.truth = readIfGiven(arguments.truth);
-  input.reference = referenceOf(arguments);
+  input.reference = readReference(arguments.reference, arguments.reference_topic, &warn);
 
-  const bool poses = std::holds_alternative<Trajectory>(input.reference);
-  if (!poses && options.body_p_point.isZero())
-    warn(
-        "the reference has positions of a point of the machine, and they are compared with the body's origin: give "
-        "--lever-arm \"x y z\" of the prism or antenna");
+  warnIfAny(missingLeverArm(input, options));
   const Evaluation evaluation = evaluate(input, options);
   print(evaluation, arguments.json);
-  if (arguments.align == Align::Yaw) warnOfOtherUp(evaluation, input, options);
+  if (arguments.align == Align::Yaw) warnIfAny(tiltedReference(evaluation, input, options));
   if (!arguments.plot.empty()) plot(evaluation, arguments.plot);
   return judge(evaluation.drift.largest, evaluation.covered, arguments);
 }

@@ -77,10 +77,7 @@ PoseGuess guessOf(const Rigid& pose, const std::string& sigma)
   std::string more;
   if (!(numbers >> metres >> degrees) || numbers >> more || !(metres > 0) || !(degrees > 0))
     throw UsageError(fmt::format("--guess-sigma '{}': must be \"M DEG\", both above 0", sigma));
-  const double radians = degrees * M_PI / 180;
-  Vector6d variances;
-  variances << Eigen::Vector3d::Constant(metres * metres), Eigen::Vector3d::Constant(radians * radians);
-  return {pose, variances.asDiagonal()};
+  return guessWithin(pose, {metres, degrees});
 }
 
 int run(const RegisterArguments& arguments)
@@ -89,14 +86,9 @@ int run(const RegisterArguments& arguments)
   const PoseGuess guess = guessOf(pose, arguments.guess_sigma);
   const std::optional<Rigid> truth = truthOf(arguments.truth);
   const CloudFile target = readCloud(arguments.target), source = readCloud(arguments.source);
-  const CloudPair clouds(target.points, source.points);
-
-  RegistrationReport report;
-  report.points = {target.points.size(), target.dropped, source.points.size(), source.dropped};
-  report.target_milliseconds = clouds.targetMilliseconds();
-  report.source_milliseconds = clouds.sourceMilliseconds();
-  report.registration = clouds.registered(guess);
-  if (arguments.guess_sigma.empty()) report.contradiction = clouds.contradiction(report.registration.result, pose);
+  RegistrationReport report = registrationReport(target.points, source.points, guess);
+  report.points.target_dropped = target.dropped;
+  report.points.source_dropped = source.dropped;
   if (truth) report.error = poseError(report.registration.result.target_T_source, *truth);
   std::cout << (arguments.json ? toJson(report) : toText(report)) << '\n';
   return report.trustworthy() ? kDone : kQualityGate;

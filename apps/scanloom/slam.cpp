@@ -3,6 +3,7 @@
 #include "Ros2.h"
 #include "Settings.h"
 #include "SlamInput.h"
+#include "SlamOutcome.h"
 #include "Verb.h"
 #include "Version.h"
 #include "Web.h"
@@ -61,17 +62,6 @@ InputDisplay displayOf(const SlamInput& input, SensorInput& sensors)
   return {"slam", sensors, input.megabytes, "MB"};
 }
 
-void warnOfDroppedScans(const RunSummary& summary)
-{
-  const auto dropped = summary.counts.find("scans_dropped");
-  if (dropped == summary.counts.end() || dropped->second == 0) return;
-  fmt::print(
-      stderr,
-      "warning: slower than real time: {} scans were dropped, {} processed; use --every-nth, fewer lidars or coarser "
-      "maps\n",
-      dropped->second, summary.counts.at("scans"));
-}
-
 std::string timePerScan(const RunSummary& summary)
 {
   const auto scan = summary.stages.find("scan");
@@ -89,9 +79,7 @@ void report(const SlamRunResult& result, const std::filesystem::path& folder)
       "{}: {} poses from {} scans, {} keyframes; {:.1f} s of recording in {:.1f} s (real-time factor {:.1f}{})\n",
       s.outcome, count("poses"), count("scans"), count("keyframes"), s.recorded, s.elapsed, s.realTimeFactor(),
       timePerScan(s));
-  if (count("poses_degenerate") + count("poses_lost") + count("poses_initialising") > 0)
-    fmt::print(stderr, "warning: {} poses INITIALISING, {} DEGENERATE, {} LOST: see trajectory.csv\n",
-               count("poses_initialising"), count("poses_degenerate"), count("poses_lost"));
+  if (const std::string poses = unsoundPoses(s); !poses.empty()) warn(poses + ": see trajectory.csv");
   if (!s.marks.empty()) fmt::print("{} events were marked: see trajectory.csv\n", s.marks.size());
   fmt::print("{}\n", (folder / "trajectory.tum").string());
 }
@@ -141,13 +129,11 @@ Completeness completenessOf(const SlamRunResult& result, const SlamInput& input)
   return stopped || !result.summary.error.empty() ? Completeness::Partial : Completeness::Whole;
 }
 
-int statusOf(const SlamRunResult& result, std::size_t sensors_not_used)
+int statusOf(const SlamRunResult& result)
 {
   if (!result.summary.error.empty()) return kFailed;
   if (interrupted()) return kInterrupted;
-  const auto damaged = result.summary.counts.find(kDamagedInputs);
-  const bool read_whole = damaged == result.summary.counts.end() || damaged->second == 0;
-  return result.passed && read_whole && sensors_not_used == 0 ? kDone : kQualityGate;
+  return isGood(result) ? kDone : kQualityGate;
 }
 
 int process(const SlamInput& input, const SlamArguments& arguments, const Loaded<SlamVerbSettings>& loaded,
@@ -157,10 +143,9 @@ int process(const SlamInput& input, const SlamArguments& arguments, const Loaded
   OutputFolder folder(arguments.output.folder);
   writeAtomically(folder.running() / kConfigurationFile, [&](std::ostream& file) { file << toIni(loaded); });
   SlamFiles files(folder.running(), input.sensors->setup().header.lidars, settings.output, settings.octomap);
-  SlamRunResult result = runShowingProgress(input, settings, files, arguments, ros2);
+  SlamRunResult result =
+      withSensorsNotUsed(runShowingProgress(input, settings, files, arguments, ros2), loaded.sensors.not_used);
   result.summary.command = commandOf(arguments);
-  result.summary.counts["sensors_not_used"] = loaded.sensors.not_used;
-  if (loaded.sensors.not_used > 0 && result.summary.outcome == "OK") result.summary.outcome = "SENSOR MISSING";
   if (input.live) result.summary.waited = 1e-3 * result.summary.stages.at("input").total_ms;
   result.summary.versions = {{"scanloom", programVersion()}};
   try
@@ -175,12 +160,12 @@ int process(const SlamInput& input, const SlamArguments& arguments, const Loaded
   const std::filesystem::path kept = folder.commit(names, completenessOf(result, input));
 
   report(result, kept);
-  warnOfDroppedScans(result.summary);
+  warnIfAny(droppedScans(result.summary));
   for (const std::string& warning : input.sensors->takeWarnings()) warn(warning);
   if (!result.summary.error.empty()) fmt::print(stderr, "scanloom slam: {}\n", result.summary.error);
   if (kept != arguments.output.folder)
     fmt::print(stderr, "the results are not whole: they are in {} and replace none of an earlier run\n", kept.string());
-  return statusOf(result, loaded.sensors.not_used);
+  return statusOf(result);
 }
 
 std::filesystem::path defaultFolder(const RecordingArguments& recording)
@@ -193,11 +178,12 @@ std::filesystem::path defaultFolder(const RecordingArguments& recording)
 SlamInput inputOf(const RecordingFiles& recording, const SlamArguments& arguments,
                   const Loaded<SlamVerbSettings>& loaded, const Ros2* ros2)
 {
-  InputSource source = sourceOf(recording, loaded.configuration, arguments.lidars);
-  // With the samples that tell the start, scans need not wait for it in memory.
-  // Readers of topics expect them in the order of time.
-  if (!ros2) source.rig.body_imu_ahead = fromSeconds(loaded.settings.start.duration);
-  if (ros2) source.rig = ros2->live(std::move(source.rig));
+  InputSource source = sourceForSlam(recording, loaded.configuration, loaded.settings, arguments.lidars);
+  if (ros2)
+  {
+    source.rig.body_imu_ahead = {};  // readers of topics expect samples in the order of time
+    source.rig = ros2->live(std::move(source.rig));
+  }
   return openForSlam(source, loaded.configuration);
 }
 

@@ -2,12 +2,12 @@
 
 #include "base/core/Statistics.h"
 #include "base/formats/SecondsText.h"
+#include "input/rig/withColumns.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -58,28 +58,6 @@ void setPoint(const Eigen::Vector3f& p, Duration since_start, std::size_t i, Poi
   points.range[i] = static_cast<std::uint32_t>(std::lround(1000 * std::min(p.norm(), kFarthest)));
 }
 
-/** Neighbours with the same t are a column, of at most 65535 points. */
-void addColumns(Scan& scan)
-{
-  const PointCloud& points = scan.points;
-  for (std::size_t first = 0; first < points.size();)
-  {
-    std::size_t end = first;
-    while (end < points.size() && points.t[end] == points.t[first] &&
-           end - first < std::numeric_limits<std::uint16_t>::max())
-      ++end;
-    Column column;
-    column.stamp = scan.start + Duration{points.t[first]};
-    column.first_point = static_cast<std::uint32_t>(first);
-    column.count = static_cast<std::uint16_t>(end - first);
-    column.measurement_id = static_cast<std::uint16_t>(scan.columns.size());
-    std::fill(scan.points.column.begin() + first, scan.points.column.begin() + end, column.measurement_id);
-    scan.columns.push_back(column);
-    first = end;
-  }
-  scan.columns_of = {static_cast<std::uint32_t>(scan.columns.size())};
-}
-
 /** A cloud of one instant, which is the scan's end: so the pose is the cloud's. */
 Scan scanOfInstant(const CloudFile& cloud, Timestamp stamp, Duration interval)
 {
@@ -89,8 +67,7 @@ Scan scanOfInstant(const CloudFile& cloud, Timestamp stamp, Duration interval)
   scan.points.resize(cloud.points.size());
   for (std::size_t i = 0; i < cloud.points.size(); ++i)
     setPoint(cloud.points[i], interval - Duration{1}, i, scan.points);
-  addColumns(scan);
-  return scan;
+  return withColumns(std::move(scan));
 }
 
 Scan scanOfTimed(const CloudFile& cloud, Timestamp stamp, Duration interval, double unit)
@@ -112,8 +89,7 @@ Scan scanOfTimed(const CloudFile& cloud, Timestamp stamp, Duration interval, dou
   scan.points.resize(order.size());
   for (std::size_t i = 0; i < order.size(); ++i)
     setPoint(cloud.points[order[i]], after(cloud.times[order[i]]), i, scan.points);
-  addColumns(scan);
-  return scan;
+  return withColumns(std::move(scan));
 }
 }  // namespace
 

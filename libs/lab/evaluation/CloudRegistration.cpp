@@ -40,6 +40,14 @@ PoseError poseError(const Rigid& estimate, const Rigid& truth)
   return {e.head<3>().norm(), e.tail<3>().norm() / kDegree};
 }
 
+PoseGuess guessWithin(const Rigid& pose, const PoseError& deviations)
+{
+  const double metres = deviations.metres, radians = deviations.degrees * M_PI / 180;
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(metres * metres), Eigen::Vector3d::Constant(radians * radians);
+  return {pose, variances.asDiagonal()};
+}
+
 CloudPair::CloudPair(const Points& target, const Points& source)
   : target_(prepare(target, {kTargetLevels.begin(), kTargetLevels.end()})),
     source_(prepare(source, {kSourceLevels.begin(), kSourceLevels.end()}))

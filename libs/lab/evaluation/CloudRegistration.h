@@ -17,6 +17,9 @@ struct PoseError
 /** Norms of the translation and of the rotation from the truth to the estimate. */
 PoseError poseError(const Rigid& estimate, const Rigid& truth);
 
+/** A guess with these standard deviations of its translation and rotation, along and about every axis. */
+PoseGuess guessWithin(const Rigid&, const PoseError& deviations);
+
 struct TimedRegistration
 {
   RegistrationResult result;

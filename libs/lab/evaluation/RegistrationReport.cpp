@@ -101,6 +101,20 @@ nlohmann::json directionsJson(const std::vector<Vector6d>& directions)
 
 }  // namespace
 
+RegistrationReport registrationReport(const CloudPair::Points& target, const CloudPair::Points& source,
+                                      const PoseGuess& guess)
+{
+  const CloudPair clouds(target, source);
+  RegistrationReport report;
+  report.points.target = target.size();
+  report.points.source = source.size();
+  report.target_milliseconds = clouds.targetMilliseconds();
+  report.source_milliseconds = clouds.sourceMilliseconds();
+  report.registration = clouds.registered(guess);
+  if (!guess.covariance) report.contradiction = clouds.contradiction(report.registration.result, guess.target_T_source);
+  return report;
+}
+
 std::string toText(const RegistrationReport& report)
 {
   const RegistrationResult& result = report.registration.result;

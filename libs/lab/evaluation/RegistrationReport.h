@@ -24,6 +24,10 @@ struct RegistrationReport
   bool trustworthy() const { return registration.result.trustworthy() && !contradiction; }
 };
 
+/** Registers, and looks for another pose that may be the true one where the guess has no covariance. */
+RegistrationReport registrationReport(const CloudPair::Points& target, const CloudPair::Points& source,
+                                      const PoseGuess&);
+
 std::string toText(const RegistrationReport&);
 std::string toJson(const RegistrationReport&);
 }  // namespace scanloom
