@@ -1,5 +1,5 @@
-# `cpack -G DEB` in the build folder: scanloom, scanloom-mrpt-plugin, libscanloom-dev, scanloom-doc. DEBFULLNAME and
-# DEBEMAIL name the maintainer when it is configured.
+# `cpack -G DEB` in the build folder: scanloom, scanloom-mrpt-plugin, libscanloom-dev, scanloom-doc, and with
+# SCANLOOM_PYTHON python3-scanloom. DEBFULLNAME and DEBEMAIL name the maintainer when it is configured.
 cmake_host_system_information(RESULT host QUERY FQDN)
 set(maintainer "The scanloom authors <root@${host}>")
 if(DEFINED ENV{DEBEMAIL})
@@ -49,6 +49,16 @@ scanloom_package(dev libscanloom-dev libdevel
 "libceres-dev, libcpp-httplib-dev, libeigen3-dev, libfmt-dev, liblzf-dev, liblzma-dev, libmrpt-expr-dev, libmrpt-img-dev, libmrpt-obs-dev, libbz2-dev, liblz4-dev, libpcap-dev, libsqlite3-dev, libssl-dev, libtbb-dev, libzstd-dev, nlohmann-json3-dev, pkgconf, robin-map-dev, zlib1g-dev${laszip_dev}"
 "Decoding, batching, IMU preintegration, NDT registration and the estimator, as
 static libraries for CMake's find_package(scanloom).")
+if(SCANLOOM_PYTHON)
+  find_package(Python REQUIRED COMPONENTS Interpreter)
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(minor ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
+  scanloom_package(python python3-scanloom python
+"python3 (>= ${minor}), python3 (<< ${Python_VERSION_MAJOR}.${next}), python3-numpy"
+"Python module: scans of several lidars as numpy arrays without copies, poses of
+a machine with covariance and health, registration and evaluation.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS scanloom)  # whose drivers serve live IMUs
+endif()
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
 file(WRITE ${CMAKE_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_PLUGIN_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/triggers)

@@ -1,0 +1,37 @@
+/** What Python learns of a run beside its poses. */
+#pragma once
+#include "SlamThread.h"
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace scanloom
+{
+/** Warnings so far, and at the end how the run went, as the program says it by its exit status. */
+class RunReport
+{
+ public:
+  RunReport(std::vector<std::string> warnings, std::size_t sensors_not_used);
+
+  /** By warnings.warn(). The GIL must be held. */
+  void warn(const std::vector<std::string>&);
+
+  /** Throws std::runtime_error with what ended the run before its end. The GIL must be held. */
+  void end(const std::optional<SlamRunResult>&);
+
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /** None before the end. */
+  std::optional<std::string> outcome() const;
+  std::optional<bool> good() const;
+  std::map<std::string, std::uint64_t> counts() const;
+
+ private:
+  std::vector<std::string> warnings_;
+  std::size_t sensors_not_used_;
+  std::optional<SlamRunResult> result_;
+};
+}  // namespace scanloom

@@ -1,0 +1,158 @@
+#include "OpenedInput.h"
+#include "PythonWarnings.h"
+#include "RunReport.h"
+#include "SlamThread.h"
+#include "base/formats/TrajectoryWriter.h"
+#include "bindings.h"
+#include "trajectoryOf.h"
+
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <memory>
+#include <utility>
+
+namespace py = pybind11;
+
+namespace scanloom
+{
+namespace
+{
+/** The poses of `scanloom slam`, one by one. */
+class PoseStream
+{
+ public:
+  PoseStream(const InputArguments& arguments, KeptClouds kept)
+    : PoseStream(openInput(arguments, ImuSamples::Ahead), kept)
+  {
+  }
+  PoseStream(const PoseStream&) = delete;
+  PoseStream& operator=(const PoseStream&) = delete;
+  ~PoseStream()
+  {
+    const py::gil_scoped_release others_may_run;
+    run_.reset();
+  }
+
+  /** Called with the GIL, which is released while it waits. */
+  Pose next()
+  {
+    constexpr Duration kPatience = 100ms;  // of a person who presses Ctrl-C
+    report_.warn(std::exchange(warnings_of_opening_, {}));
+    while (true)
+    {
+      std::optional<Pose> pose;
+      {
+        const py::gil_scoped_release others_may_run;
+        pose = run_->next(kPatience);
+      }
+      report_.warn(run_->takeWarnings());
+      if (pose) return *std::move(pose);
+      if (run_->ended()) break;
+      throwIfSignalled();
+    }
+    report_.end(run_->result());
+    throw py::stop_iteration();
+  }
+
+  std::vector<std::string> lidars() const
+  {
+    std::vector<std::string> names;
+    for (const RecordedLidar& lidar : input_->setup().header.lidars) names.push_back(lidar.name);
+    return names;
+  }
+
+  const std::vector<std::string>& notes() const { return notes_; }
+  const RunReport& report() const { return report_; }
+
+ private:
+  PoseStream(OpenedInput opened, KeptClouds kept)
+    : input_(std::move(opened.input.sensors)),
+      notes_(std::move(opened.notes)),
+      warnings_of_opening_(std::move(opened.warnings)),
+      report_({}, opened.sensors_not_used)
+  {
+    refuseUnknownImu(*input_, opened.settings.slam);
+    constexpr std::size_t kAhead = 2;  // poses
+    run_ = std::make_unique<SlamThread>(*input_, opened.settings, kept, kAhead);
+  }
+
+  std::unique_ptr<SensorInput> input_;
+  std::vector<std::string> notes_, warnings_of_opening_;
+  RunReport report_;
+  std::unique_ptr<SlamThread> run_;  // last: it uses the input
+};
+
+void bindPose(py::module_& m)
+{
+  py::class_<Pose>(m, "Pose", "The machine at the end of a scan. Pose tangents are (translation m, rotation rad).")
+      .def_property_readonly(
+          "stamp", [](const Pose& pose) { return nanoseconds(pose.stamp); },
+          "int: end of the scan, ns of the recording's clock.")
+      .def_property_readonly(
+          "map_T_body", [](const Pose& pose) { return pose.map_T_body.matrix(); },
+          "(4, 4) float64: maps points of the body's frame to the map's; x forward, y left, z up.")
+      .def_property_readonly(
+          "position", [](const Pose& pose) { return pose.map_T_body.translation; }, "(3,) float64, m.")
+      .def_property_readonly(
+          "quaternion", [](const Pose& pose) { return Eigen::Vector4d(pose.map_T_body.rotation.coeffs()); },
+          "(4,) float64: x y z w.")
+      .def_readonly("covariance", &Pose::covariance,
+                    "(6, 6) float64: of the pose in the local map, along the body's axes.")
+      .def_readonly("covariance_since_start", &Pose::since_start,
+                    "(6, 6) float64: of the pose relative to the first one.")
+      .def_readonly("velocity", &Pose::velocity, "(3,) float64, m/s: of the IMU, in the map frame.")
+      .def_property_readonly(
+          "health", [](const Pose& pose) { return toString(pose.health); },
+          "str: INITIALISING, OK, DEGENERATE or LOST.")
+      .def_readonly("trusted", &Pose::trusted, "bool: the scan's registration was used.")
+      .def_readonly("recovered", &Pose::recovered, "bool: found again, the pose does not continue the one before.")
+      .def_readonly("map_restarted", &Pose::map_restarted, "bool: a new map begins here.")
+      .def_readonly("scan_complete", &Pose::scan_complete, "bool: no lidar was late, silent or cut off.")
+      .def_readonly("imu_complete", &Pose::imu_complete, "bool: the IMU covered the scan in time.")
+      .def_readonly("cloud", &Pose::cloud,
+                    "Cloud, if slam(clouds=True), else None: in the body frame at `stamp`, cropped and deskewed.")
+      .def("__repr__",
+           [](const Pose& pose)
+           {
+             const Eigen::Vector3d& p = pose.map_T_body.translation;
+             return fmt::format("<scanloom.Pose at {}: {:.3f} {:.3f} {:.3f} m, {}>", nanoseconds(pose.stamp), p.x(),
+                                p.y(), p.z(), toString(pose.health));
+           });
+}
+}  // namespace
+
+void bindPoses(py::module_& m)
+{
+  bindPose(m);
+  py::class_<PoseStream>(m, "Slam", "Iterates over the poses of a run, which a thread of C++ computes meanwhile.")
+      .def(py::init(
+               [](const InputArguments& arguments, bool clouds)
+               {
+                 const py::gil_scoped_release others_may_run;
+                 return std::make_unique<PoseStream>(arguments, clouds ? KeptClouds::All : KeptClouds::None);
+               }),
+           py::arg("input"), py::arg("clouds"))
+      .def("__iter__", [](py::object self) { return self; })
+      .def("__next__", &PoseStream::next)
+      .def_property_readonly("lidars", &PoseStream::lidars, "list of str: their names, by the index in cloud.lidar.")
+      .def_property_readonly("notes", &PoseStream::notes, "list of str: what was recognised.")
+      .def_property_readonly(
+          "warnings", [](const PoseStream& run) { return run.report().warnings(); }, "list of str: so far.")
+      .def_property_readonly(
+          "outcome", [](const PoseStream& run) { return run.report().outcome(); },
+          "str: OK, or what is wrong with the result; None before the end.")
+      .def_property_readonly(
+          "good", [](const PoseStream& run) { return run.report().good(); },
+          "bool: the program would end with status 0, not 3; None before the end.")
+      .def_property_readonly(
+          "counts", [](const PoseStream& run) { return run.report().counts(); },
+          "dict: of scans, poses and packets, as in summary.json; empty before the end.");
+  m.def(
+      "write_trajectory",
+      [](const std::filesystem::path& file, const std::vector<Pose>& poses)
+      { writeTrajectory(file, trajectoryOf(poses)); },
+      py::arg("file"), py::arg("poses"));
+}
+}  // namespace scanloom
