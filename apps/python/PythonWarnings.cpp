@@ -6,12 +6,13 @@
 
 namespace scanloom
 {
-void warnInPython(const std::vector<std::string>& warnings)
+void warnInPython(const std::vector<std::string>& warnings, WarnedLine line)
 {
   for (const std::string& warning : warnings)
   {
     const pybind11::object category = pybind11::module_::import("scanloom._scanloom").attr("ScanloomWarning");
-    if (PyErr_WarnEx(category.ptr(), printableLines(warning).c_str(), 1) != 0) throw pybind11::error_already_set();
+    if (PyErr_WarnEx(category.ptr(), printableLines(warning).c_str(), static_cast<int>(line)) != 0)
+      throw pybind11::error_already_set();
   }
 }
 

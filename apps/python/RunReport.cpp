@@ -1,24 +1,17 @@
 #include "RunReport.h"
 
-#include "PythonWarnings.h"
 #include "SlamOutcome.h"
 
 #include <fmt/format.h>
 
 #include <stdexcept>
-#include <utility>
 
 namespace scanloom
 {
-RunReport::RunReport(std::vector<std::string> warnings, std::size_t sensors_not_used)
-  : warnings_(std::move(warnings)), sensors_not_used_(sensors_not_used)
-{
-}
-
-void RunReport::warn(const std::vector<std::string>& warnings)
+void RunReport::warn(const std::vector<std::string>& warnings, WarnedLine line)
 {
   warnings_.insert(warnings_.end(), warnings.begin(), warnings.end());
-  warnInPython(warnings);
+  warnInPython(warnings, line);
 }
 
 void RunReport::end(const std::optional<SlamRunResult>& result)

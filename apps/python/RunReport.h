@@ -1,5 +1,6 @@
 /** What Python learns of a run beside its poses. */
 #pragma once
+#include "PythonWarnings.h"
 #include "SlamThread.h"
 
 #include <cstddef>
@@ -14,10 +15,11 @@ namespace scanloom
 class RunReport
 {
  public:
-  RunReport(std::vector<std::string> warnings, std::size_t sensors_not_used);
+  /** `sensors_not_used` of the recording: then the result is not good. */
+  explicit RunReport(std::size_t sensors_not_used) : sensors_not_used_(sensors_not_used) {}
 
   /** By warnings.warn(). The GIL must be held. */
-  void warn(const std::vector<std::string>&);
+  void warn(const std::vector<std::string>&, WarnedLine = WarnedLine::Calling);
 
   /** Throws std::runtime_error with what ended the run before its end. The GIL must be held. */
   void end(const std::optional<SlamRunResult>&);

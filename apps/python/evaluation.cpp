@@ -71,7 +71,7 @@ Evaluation evaluateFiles(const FileOrPoses& trajectory, const FileOrPoses& refer
     evaluation = evaluate(input, options);
     if (options.alignment == AlignmentKind::Yaw) addIfAny(warnings, tiltedReference(evaluation, input, options));
   }
-  warnInPython(warnings);
+  warnInPython(warnings, WarnedLine::CallingScanloom);
   return evaluation;
 }
 }  // namespace

@@ -4,6 +4,7 @@
 #include "base/core/ConfigError.h"
 #include "base/core/Text.h"
 #include "bindings.h"
+#include "keepFreedMemory.h"
 
 #include <string>
 
@@ -43,6 +44,7 @@ catch (const std::runtime_error& error)
 
 PYBIND11_MODULE(_scanloom, m)
 {
+  scanloom::keepFreedMemory();
   static PyObject* const usage_error = PyErr_NewExceptionWithDoc(
       "scanloom.UsageError",
       "Wrong input, settings or arguments. The message tells what was given, what is wrong and how to mend it.",

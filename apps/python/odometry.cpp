@@ -45,7 +45,7 @@ class Odometry
 {
  public:
   Odometry(FedRig rig, const ConfigurationArguments& configuration)
-    : lidars_(mountedLidars(rig.lidars)), input_(setupOf(rig)), report_({}, 0)
+    : lidars_(mountedLidars(rig.lidars)), input_(setupOf(rig)), report_(0)
   {
     const SlamVerbSettings settings = load<SlamVerbSettings>(configuration).settings;
     refuseUnknownImu(input_, settings.slam);

@@ -39,7 +39,6 @@ class PoseStream
   Pose next()
   {
     constexpr Duration kPatience = 100ms;  // of a person who presses Ctrl-C
-    report_.warn(std::exchange(warnings_of_opening_, {}));
     while (true)
     {
       std::optional<Pose> pose;
@@ -56,6 +55,9 @@ class PoseStream
     throw py::stop_iteration();
   }
 
+  /** What the program prints before it begins. Called with the GIL. */
+  void warnOfOpening() { report_.warn(warnings_of_opening_, WarnedLine::CallingScanloom); }
+
   std::vector<std::string> lidars() const
   {
     std::vector<std::string> names;
@@ -71,7 +73,7 @@ class PoseStream
     : input_(std::move(opened.input.sensors)),
       notes_(std::move(opened.notes)),
       warnings_of_opening_(std::move(opened.warnings)),
-      report_({}, opened.sensors_not_used)
+      report_(opened.sensors_not_used)
   {
     refuseUnknownImu(*input_, opened.settings.slam);
     constexpr std::size_t kAhead = 2;  // poses
@@ -130,8 +132,13 @@ void bindPoses(py::module_& m)
       .def(py::init(
                [](const InputArguments& arguments, bool clouds)
                {
-                 const py::gil_scoped_release others_may_run;
-                 return std::make_unique<PoseStream>(arguments, clouds ? KeptClouds::All : KeptClouds::None);
+                 std::unique_ptr<PoseStream> run;
+                 {
+                   const py::gil_scoped_release others_may_run;
+                   run = std::make_unique<PoseStream>(arguments, clouds ? KeptClouds::All : KeptClouds::None);
+                 }
+                 run->warnOfOpening();
+                 return run;
                }),
            py::arg("input"), py::arg("clouds"))
       .def("__iter__", [](py::object self) { return self; })

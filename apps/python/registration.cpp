@@ -77,7 +77,7 @@ RegistrationReport registerClouds(const py::object& target, const py::object& so
   }
   report.points.target_dropped = fixed.dropped;
   report.points.source_dropped = moving.dropped;
-  if (!report.trustworthy()) warnInPython({doubtOf(report)});
+  if (!report.trustworthy()) warnInPython({doubtOf(report)}, WarnedLine::CallingScanloom);
   return report;
 }
 

@@ -75,7 +75,7 @@ class ScanStream
         over_ = !event && input_.ended();
         if (over_) judge();
       }
-      warnInPython(std::exchange(unsaid_, {}));
+      warnInPython(std::exchange(unsaid_, {}), WarnedLine::Calling);
       if (event)
         if (const auto* sample = std::get_if<SensorImu>(&*event)) imu_.push_back(*sample);
       if (event)
@@ -85,6 +85,9 @@ class ScanStream
     }
     throw py::stop_iteration();
   }
+
+  /** What the program prints before it begins. Called with the GIL. */
+  void warnOfOpening() { warnInPython(std::exchange(unsaid_, {}), WarnedLine::CallingScanloom); }
 
   std::vector<std::string> lidars() const
   {
@@ -244,7 +247,17 @@ void bindScans(py::module_& m)
       .def_readwrite("assignments", &InputArguments::assignments)
       .def_readwrite("lidars", &InputArguments::lidars);
   py::class_<ScanStream>(m, "Scans", "Iterates over the scans of a recording or of live lidars.")
-      .def(py::init<const InputArguments&>(), py::call_guard<py::gil_scoped_release>())
+      .def(py::init(
+          [](const InputArguments& arguments)
+          {
+            std::unique_ptr<ScanStream> stream;
+            {
+              const py::gil_scoped_release others_may_run;
+              stream = std::make_unique<ScanStream>(arguments);
+            }
+            stream->warnOfOpening();
+            return stream;
+          }))
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__", &ScanStream::next)
       .def_property_readonly("lidars", &ScanStream::lidars, "list of str: their names, by the index in scan.lidar.")
