@@ -11,6 +11,7 @@
 #include "bindings.h"
 #include "cloudScan.h"
 
+#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

@@ -6,6 +6,7 @@
 #include "bindings.h"
 #include "trajectoryOf.h"
 
+#include <fmt/format.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

@@ -5,6 +5,7 @@
 #include "bindings.h"
 #include "input/rig/silentLidars.h"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
