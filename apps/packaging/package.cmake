@@ -55,8 +55,8 @@ if(SCANLOOM_PYTHON)
   set(minor ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
   scanloom_package(python python3-scanloom python
 "python3 (>= ${minor}), python3 (<< ${Python_VERSION_MAJOR}.${next}), python3-numpy"
-"Python module: scans of several lidars as numpy arrays without copies, poses of
-a machine with covariance and health, registration and evaluation.")
+"Python module: scans of several lidars as numpy arrays, poses of a machine with
+covariance and health, registration of point clouds, evaluation of trajectories.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS scanloom)  # whose drivers serve live IMUs
 endif()
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)

@@ -19,7 +19,7 @@ void raise(PyObject* type, const std::exception& error)
 }
 
 /** pybind11 calls the newest translator first, and the next one with what this one does not catch. */
-void translate(std::exception_ptr thrown, PyObject* usage_error)
+void translate(const std::exception_ptr& thrown, PyObject* usage_error)
 try
 {
   if (thrown) std::rethrow_exception(thrown);
@@ -54,7 +54,7 @@ PYBIND11_MODULE(_scanloom, m)
       PyExc_UserWarning, nullptr);
   m.add_object("UsageError", usage_error);
   m.add_object("ScanloomWarning", warning);
-  py::register_exception_translator([](std::exception_ptr thrown) { translate(std::move(thrown), usage_error); });
+  py::register_exception_translator([](std::exception_ptr thrown) { translate(thrown, usage_error); });
   m.attr("__version__") = scanloom::programVersion();
 
   scanloom::bindScans(m);

@@ -45,7 +45,7 @@ SensorSetup setupOf(const FedRig& rig)
 class Odometry
 {
  public:
-  Odometry(FedRig rig, const ConfigurationArguments& configuration)
+  Odometry(const FedRig& rig, const ConfigurationArguments& configuration)
     : lidars_(mountedLidars(rig.lidars)), input_(setupOf(rig)), report_(0)
   {
     const SlamVerbSettings settings = load<SlamVerbSettings>(configuration).settings;
