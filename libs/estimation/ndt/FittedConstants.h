@@ -38,6 +38,7 @@ constexpr double kUnmodelled          = 1.25;    // 1      on the variance; mean
 constexpr double kTranslationFloor    = 0.0008;  // m      mean errors of ranges, which no scan shows        #on-two-generators
 constexpr double kRotationFloorDeg    = 0.004;   // deg    mean errors of beam angles, likewise              #on-two-generators
 constexpr double kPlaceSize           = 6;       // m      within which cells err alike: leaves, ground      #on-two-generators
+constexpr double kLeastCurvature      = 0.2;     // 1      of Gauss-Newton; hard stands 0.2, saddles 0       #saddles
 constexpr double kDegenerate          = 0.1;     // 1      share of structure; corridors, dense stands       #on-two-generators
 constexpr double kDoubtful            = 0.35;    // 1      the same, if a long step changes nothing          #on-two-generators
 constexpr double kUnchangedScore      = 0.9;     // 1      corridors keep 0.92, the densest stand 0.86       #on-two-generators

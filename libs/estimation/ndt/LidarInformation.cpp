@@ -28,6 +28,7 @@ struct Evidence
   std::vector<PairInformation> cells;        // one per source cell
   Matrix6d resistance = Matrix6d::Zero();    // sum n J' wB J, n the source cell's points
   Matrix6d structure = Matrix6d::Zero();     // the same, thin directions only
+  Matrix6d gauss_newton = Matrix6d::Zero();  // sum J' wB J, never indefinite
   Matrix6d unsure_means = Matrix6d::Zero();  // covariance of the gradient due to the noise of the cells' means
 };
 
@@ -47,7 +48,7 @@ Vector3d armOf(const TurnedCell& c, const Rigid& target_T_source)
 
 struct InformationSums
 {
-  PoseSum resistance, structure, unsure_means;
+  PoseSum resistance, structure, gauss_newton, unsure_means;
 };
 
 std::vector<SymmetricBlock> structuresOf(const CellCorrespondences& all, const CellCorrespondences::Chunk& chunk)
@@ -85,6 +86,7 @@ InformationSums gather(const CellCorrespondences& all, std::size_t index, const 
     const double points = source.points;
     sums.resistance.add(scaled(cells[i].weight, points), v.x(), v.y(), v.z());
     sums.structure.add(scaled(structured, points), v.x(), v.y(), v.z());
+    sums.gauss_newton.add(cells[i].weight, v.x(), v.y(), v.z());
     sums.unsure_means.add(forceNoise(cells[i].pull, c, source.points), v.x(), v.y(), v.z());
   }
   return sums;
@@ -102,6 +104,7 @@ Evidence evidenceOf(const CellCorrespondences& all, const Rigid& target_T_source
   {
     evidence.resistance += chunk.resistance.matrix();
     evidence.structure += chunk.structure.matrix();
+    evidence.gauss_newton += chunk.gauss_newton.matrix();
     evidence.unsure_means += chunk.unsure_means.matrix();
   }
   return evidence;
@@ -167,6 +170,24 @@ std::vector<Place> placesOf(const CellCorrespondences& all, const Evidence& evid
 Matrix6d targetOfMetres(const Rigid& target_T_source)
 {
   return targetOfStep(target_T_source) * stepOfMetres().asDiagonal();
+}
+
+/**
+ * The curvature with no less than kLeastCurvature of the Gauss-Newton one in any direction. At a saddle, or where two
+ * minima meet, the score is flat for a moment although its cells resist: taken as it is, the pose would be uncertain by
+ * tens of metres, and what all registrations share (SharedAttitudeNoise) would be spoilt by one scan.
+ */
+Matrix6d withLeastCurvature(const Matrix6d& curvature, const Matrix6d& gauss_newton)
+{
+  const Matrix6d whole = gauss_newton + 1e-9 * (1 + gauss_newton.trace()) * Matrix6d::Identity();
+  const Eigensystem6 shares = eigensystem(curvature, whole);
+  Matrix6d raised = curvature;
+  for (int i = 0; i < 6 && shares.values[i] < fitted::kLeastCurvature; ++i)
+  {
+    const Vector6d along = whole * shares.vectors.col(i);  // of unit length in the metric of `whole`
+    raised += (fitted::kLeastCurvature - shares.values[i]) * along * along.transpose();
+  }
+  return raised;
 }
 
 /** The curvature may be indefinite far from a minimum: eigenvalues below a millionth of the largest are raised to it.
@@ -308,6 +329,7 @@ LidarInformation lidarInformation(const CellCorrespondences& all, const Rigid& t
   for (const Place& place : places) gradient += place.force, curvature += place.curvature.matrix();
   information.gradient = targetOfStep(target_T_source).transpose() * gradient;
   information.curvature = congruent(curvature, targetOfStep(target_T_source));
+  curvature = withLeastCurvature(curvature, evidence.gauss_newton);
   const Matrix6d bend = safeInverse(congruent(curvature, target_of_step));
   Matrix6d metres = fitted::kUnmodelled * covarianceOf(places, curvature, bend, evidence.unsure_means, target_of_step);
   // What no scan shows: the mean errors of ranges and of beam angles.
