@@ -56,6 +56,13 @@ TEST_F(Clouds, withoutAnyTimesAreTakenForTenHertz)
   EXPECT_THAT(ends(), ElementsAre(0.1, 0.2));
 }
 
+TEST_F(Clouds, thatAreMissingInTheCountAreMissingInTime)
+{
+  for (const std::string name : {"scan_7.ply", "scan_8.ply", "scan_11.ply"}) write(name);
+  EXPECT_THAT(ends(), ElementsAre(0.1, 0.2, 0.5));
+  EXPECT_THAT(CloudsInput(clouds_).takeWarnings().front(), HasSubstr("2 are missing"));
+}
+
 TEST_F(Clouds, haveTheTimesOfTimesTxt)
 {
   write("a.ply");

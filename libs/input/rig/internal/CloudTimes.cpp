@@ -131,6 +131,37 @@ std::optional<std::vector<Timestamp>> stampsOfNumbers(const Paths& clouds, const
   return stamps;
 }
 
+/** The number at the end of each name; none if a name has none, or one that does not follow the one before. */
+std::optional<std::vector<std::int64_t>> countOf(const Paths& clouds)
+{
+  std::vector<std::int64_t> numbers;
+  for (const auto& cloud : clouds)
+  {
+    const std::string name = stemOf(cloud);
+    const std::string digits = name.substr(name.find_last_not_of("0123456789") + 1);
+    if (digits.empty() || digits.size() > 8) return std::nullopt;
+    numbers.push_back(std::stoll(digits));
+    if (numbers.size() > 1 && numbers.back() <= *(numbers.end() - 2)) return std::nullopt;
+  }
+  return numbers;
+}
+
+/** Clouds that are missing in the count, 3 after 1, are missing in time. */
+CloudTimes timesOfCount(const Paths& clouds)
+{
+  CloudTimes times{{}, "none, taken for 10 Hz"};
+  const std::optional<std::vector<std::int64_t>> numbers = countOf(clouds);
+  for (std::size_t i = 0; i < clouds.size(); ++i)
+  {
+    const std::int64_t place = numbers ? (*numbers)[i] - numbers->front() : static_cast<std::int64_t>(i);
+    times.stamps.push_back(Timestamp{(place + 1) * kDefaultInterval});
+  }
+  const std::int64_t missing =
+      numbers ? numbers->back() - numbers->front() + 1 - static_cast<std::int64_t>(clouds.size()) : 0;
+  if (missing > 0) times.source += fmt::format(" by the numbers in their names, of which {} are missing", missing);
+  return times;
+}
+
 CloudTimes timesAnywhere(const Paths& clouds)
 {
   const std::filesystem::path folder = std::filesystem::absolute(clouds.front()).parent_path();
@@ -145,10 +176,7 @@ CloudTimes timesAnywhere(const Paths& clouds)
     }
   if (auto times = timesOfIntegers(clouds)) return *times;
   if (auto times = timesOfDecimals(clouds); times && !integersOf(clouds)) return *times;
-  CloudTimes times{{}, "none, taken for 10 Hz"};
-  for (std::size_t i = 0; i < clouds.size(); ++i)
-    times.stamps.push_back(Timestamp{static_cast<std::int64_t>(i + 1) * kDefaultInterval});
-  return times;
+  return timesOfCount(clouds);
 }
 }  // namespace
 
