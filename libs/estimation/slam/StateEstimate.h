@@ -43,9 +43,14 @@ struct StateEstimate
   std::optional<RegistrationResult> registration;  // none for the first scan of a map, or one without points
   double mahalanobis = 0;      // distance of the registration from the IMU's prediction, in standard deviations
   bool trusted = false;        // the registration, by its outcome and this distance
+  double map_shift = 0;        // m, by which the body moved because the local map was levelled anew
   bool recovered = false;      // found again: the pose does not continue the previous one
   bool map_restarted = false;  // a new local map begins here
   std::optional<Keyframe> keyframe;
   Trajectory since_last;  // body poses at the IMU's stamps, after the previous estimate up to this one
+
+  /** Other maps shift by less than 0.1 m at once: accelerations were taken for a tilt, and the poses before are as
+   * wrong as this one. */
+  bool mapJumped() const { return map_shift > 0.25; }
 };
 }  // namespace scanloom

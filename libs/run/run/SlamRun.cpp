@@ -113,6 +113,7 @@ class SlamRun
       warn_(fmt::format("the IMU '{}': samples were refused: {}", name, refused.toString()));
     for (const std::string& warning : cropWarnings(slam_.cropped(), lidars())) warn_(warning);
     for (const std::string& line : silentLidars(input_.account())) warn_(line);
+    if (counts_.map_jumps > 0) warn_(jumpsOfMap());
     for (const auto& [sensor, imu] : times_of_imus_)
       if (const std::string clock = otherClock(imu, times_of_scans_); !clock.empty())
       {
@@ -228,6 +229,15 @@ class SlamRun
   {
     marks_.push_back({mark, first_scan_ ? seconds(mark.stamp - *first_scan_) : 0});
     see_mark_(mark);
+  }
+
+  std::string jumpsOfMap() const
+  {
+    return fmt::format("the map was levelled anew {} times, by up to {:.1f} m at once: {}", counts_.map_jumps,
+                       counts_.largest_shift,
+                       motion_ ? "without an IMU, accelerations of the machine were taken for a tilt; --set "
+                                 "slam.relative=false keeps the attitude of the start"
+                               : "what the IMU measures contradicts what the lidars see");
   }
 
   bool mayGoWithoutImu() const

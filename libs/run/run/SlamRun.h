@@ -30,14 +30,14 @@ struct SlamRunResult
 {
   /**
    * Counts, stages, and the outcome: OK, LIDAR MISSING (OK, but a lidar is in no scan), IMU MISSING (OK,
-   * but the samples of an IMU are of another time than all scans), INITIALISING, DEGENERATE, LOST,
+   * but the samples of an IMU are of another time than all scans), INITIALISING, DEGENERATE, LOST, MAP JUMPED,
    * RIG NOT FIT (OK, but a lidar or the IMU is at fault), NOTHING (no pose was measured), INTERRUPTED or FAILED.
    */
   RunSummary summary;
   /**
-   * False if no pose was measured, if the state was LOST at the end or for more than 5 % of the poses, if the local map
-   * was started anew (the trajectory has a break), if a lidar is in no scan, or if a lidar or the IMU is at fault
-   * (RigCheck).
+   * False if no pose was measured, if the map jumped (StateEstimate::mapJumped), if the state was LOST at the end or
+   * for more than 5 % of the poses, if the local map was started anew (the trajectory has a break), if a lidar is in no
+   * scan, or if a lidar or the IMU is at fault (RigCheck).
    */
   bool passed = true;
   bool with_imu = false;  // else constant velocity and turn rate were assumed

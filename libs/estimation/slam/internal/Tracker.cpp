@@ -48,6 +48,16 @@ LastGood goodAt(Timestamp stamp, const BodyEstimate& body, const Matrix6d& since
   return {stamp, body.velocity, movedTo(body.map_T_body.inverse(), since_start)};
 }
 
+/** m, by which the body moved because the local map did: gravity corrects the attitude of the anchor, and with it all
+ * that hangs on it. 0 where the body was found again. */
+double shiftByMap(const SmootherWindow& before, const Continued& scan)
+{
+  if (scan.recovered || scan.begins_map) return 0;
+  const Rigid& map_T_body = scan.body.map_T_body;
+  const Rigid local_T_body = scan.body.window.map_T_local().inverse() * map_T_body;
+  return ((before.map_T_local() * local_T_body).translation - map_T_body.translation).norm();
+}
+
 /** Whether the scan's pose is certain enough for a keyframe, which all later scans are registered to. */
 bool isSure(const DeskewedScan& seen, const Continued& scan)
 {
@@ -126,6 +136,8 @@ TrackedScan Tracker::step(TrackerState before, Scan scan, const std::vector<ImuS
   const StageRuns times =
       predicted.times + seen.times + registered.times + smoothed.times + continued.times + map.times;
   StateEstimate estimate = estimateOf(std::move(seen), predicted, continued, map, since_start, motion);
+  estimate.map_shift = shiftByMap(before.window, continued);
+  if (estimate.mapJumped() && estimate.health == Health::Ok) estimate.health = Health::Degenerate;
   estimate.imu = samples.back();
   estimate.body_T_imu = before.window.smoother.body_T_imu();
   return {stateAfter(seen, continued, std::move(map), measured.shared_noise, last_good), std::move(estimate), times};

@@ -1,5 +1,7 @@
 #include "run/run/internal/RunCounts.h"
 
+#include <algorithm>
+
 namespace scanloom
 {
 void RunCounts::add(const StateEstimate& estimate)
@@ -12,6 +14,8 @@ void RunCounts::add(const StateEstimate& estimate)
   keyframes += estimate.keyframe.has_value();
   cut_scans += !estimate.scan_complete;
   imu_short += !estimate.imu_complete;
+  map_jumps += estimate.mapJumped();
+  largest_shift = std::max(largest_shift, estimate.map_shift);
   last = estimate.health;
   if (!first) first = estimate.stamp;
   newest = estimate.stamp;
@@ -20,6 +24,7 @@ void RunCounts::add(const StateEstimate& estimate)
 std::string RunCounts::outcome() const
 {
   if (registered == 0) return "NOTHING";
+  if (map_jumps > 0) return "MAP JUMPED";
   if (!passed()) return "LOST";
   if (last == Health::Initialising) return "INITIALISING";
   return degenerate + lost > 0 ? "DEGENERATE" : "OK";
@@ -36,5 +41,6 @@ void RunCounts::addTo(std::map<std::string, std::uint64_t>& counts) const
   counts["poses_degenerate"] = degenerate;
   counts["poses_lost"] = lost;
   counts["keyframes"] = keyframes;
+  counts["map_jumps"] = map_jumps;
 }
 }  // namespace scanloom

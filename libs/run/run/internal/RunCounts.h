@@ -15,6 +15,8 @@ struct RunCounts
   std::uint64_t poses = 0, initialising = 0, degenerate = 0, lost = 0, keyframes = 0;
   std::uint64_t registered = 0;  // poses that a registration measured, trusted or not
   std::uint64_t cut_scans = 0, imu_short = 0;
+  std::uint64_t map_jumps = 0;  // poses
+  double largest_shift = 0;     // m, StateEstimate::map_shift
   Health last = Health::Ok;
   std::optional<Timestamp> first;  // pose
   Timestamp newest;
@@ -23,8 +25,8 @@ struct RunCounts
 
   double recorded() const { return first ? seconds(newest - *first) : 0; }  // s
 
-  /** A pose was measured, at most 5 % are LOST, and the last one is not. */
-  bool passed() const { return registered > 0 && last != Health::Lost && 20 * lost <= poses; }
+  /** A pose was measured, at most 5 % are LOST, the last one is not, and the map never jumped. */
+  bool passed() const { return registered > 0 && last != Health::Lost && 20 * lost <= poses && map_jumps == 0; }
 
   std::string outcome() const;
   void addTo(std::map<std::string, std::uint64_t>& counts) const;
