@@ -174,8 +174,9 @@ Matrix6d targetOfMetres(const Rigid& target_T_source)
 
 /**
  * The curvature with no less than kLeastCurvature of the Gauss-Newton one in any direction. At a saddle, or where two
- * minima meet, the score is flat for a moment although its cells resist: taken as it is, the pose would be uncertain by
- * tens of metres, and what all registrations share (SharedAttitudeNoise) would be spoilt by one scan.
+ * minima meet, the score is flat for a moment although its cells resist. A covariance of tens of metres is right there:
+ * the scan counts for nothing. A viewpoint bias of tens of metres is not: it stays in what all registrations share
+ * (SharedAttitudeNoise), and spoils the heading for the rest of the drive.
  */
 Matrix6d withLeastCurvature(const Matrix6d& curvature, const Matrix6d& gauss_newton)
 {
@@ -329,7 +330,6 @@ LidarInformation lidarInformation(const CellCorrespondences& all, const Rigid& t
   for (const Place& place : places) gradient += place.force, curvature += place.curvature.matrix();
   information.gradient = targetOfStep(target_T_source).transpose() * gradient;
   information.curvature = congruent(curvature, targetOfStep(target_T_source));
-  curvature = withLeastCurvature(curvature, evidence.gauss_newton);
   const Matrix6d bend = safeInverse(congruent(curvature, target_of_step));
   Matrix6d metres = fitted::kUnmodelled * covarianceOf(places, curvature, bend, evidence.unsure_means, target_of_step);
   // What no scan shows: the mean errors of ranges and of beam angles.
@@ -337,7 +337,8 @@ LidarInformation lidarInformation(const CellCorrespondences& all, const Rigid& t
   metres.diagonal().head<3>().array() += fitted::kTranslationFloor * fitted::kTranslationFloor;
   metres.diagonal().tail<3>().array() += rotation_floor * rotation_floor;
 
-  information.viewpoint_bias = -(bend * (target_of_step.transpose() * wrench)).head<3>();
+  const Matrix6d stiff = congruent(withLeastCurvature(curvature, evidence.gauss_newton), target_of_step);
+  information.viewpoint_bias = -(safeInverse(stiff) * (target_of_step.transpose() * wrench)).head<3>();
   for (const Vector6d& direction : information.degenerate)
     metres += 10.0 * 10.0 * direction * direction.transpose();  // m: not measured
   const Matrix6d symmetric = (metres + metres.transpose()) / 2;
