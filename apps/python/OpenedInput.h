@@ -2,8 +2,11 @@
 #pragma once
 #include "SlamInput.h"
 
+#include <pybind11/pybind11.h>
+
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,4 +36,17 @@ struct OpenedInput
 
 /** Throws UsageError and ConfigError in the program's words. */
 OpenedInput openInput(const InputArguments&, ImuSamples);
+
+/** A stream of Python that opens an input while other threads of Python run, and then warns as the program would. */
+template <typename Stream, typename... Options>
+std::unique_ptr<Stream> opened(const InputArguments& arguments, Options... options)
+{
+  std::unique_ptr<Stream> stream;
+  {
+    const pybind11::gil_scoped_release others_may_run;
+    stream = std::make_unique<Stream>(arguments, options...);
+  }
+  stream->warnOfOpening();
+  return stream;
+}
 }  // namespace scanloom

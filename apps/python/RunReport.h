@@ -3,6 +3,8 @@
 #include "PythonWarnings.h"
 #include "SlamThread.h"
 
+#include <pybind11/stl.h>
+
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -36,4 +38,21 @@ class RunReport
   std::size_t sensors_not_used_;
   std::optional<SlamRunResult> result_;
 };
+
+/** The properties of a class whose `report()` is a RunReport. */
+template <typename Run>
+void bindReport(pybind11::class_<Run>& run)
+{
+  run.def_property_readonly(
+         "warnings", [](const Run& r) { return r.report().warnings(); }, "list of str: so far.")
+      .def_property_readonly(
+          "outcome", [](const Run& r) { return r.report().outcome(); },
+          "str: OK, or what is wrong with the result; None before the end.")
+      .def_property_readonly(
+          "good", [](const Run& r) { return r.report().good(); },
+          "bool: the program would end with status 0, not 3; None before the end.")
+      .def_property_readonly(
+          "counts", [](const Run& r) { return r.report().counts(); },
+          "dict: of scans, poses and packets, as in summary.json; empty before the end.");
+}
 }  // namespace scanloom

@@ -94,7 +94,6 @@ class Odometry
       const py::gil_scoped_release others_may_run;
       input_.stop();
       constexpr Duration kPatience = 50ms;
-      while (std::optional<Pose> pose = run_->next(kPatience)) poses.push_back(*std::move(pose));
       while (!run_->ended())
         if (std::optional<Pose> pose = run_->next(kPatience)) poses.push_back(*std::move(pose));
     }
@@ -146,7 +145,8 @@ CloudArrays arraysOf(const py::object& xyz, const py::object& t, const py::objec
 
 void bindOdometry(py::module_& m)
 {
-  py::class_<Odometry>(m, "Odometry", "Localisation with clouds and IMU samples that are given one by one.")
+  py::class_<Odometry> odometry(m, "Odometry", "Localisation with clouds and IMU samples that are given one by one.");
+  odometry
       .def(py::init(
                [](const py::dict& body_T_lidar, const py::object& body_T_imu, const InputArguments& settings)
                {
@@ -157,32 +157,27 @@ void bindOdometry(py::module_& m)
            py::arg("body_T_lidar"), py::arg("body_T_imu"), py::arg("settings"))
       .def(
           "add_imu",
-          [](Odometry& odometry, std::int64_t stamp, const py::object& gyro, const py::object& accel)
+          [](Odometry& self, std::int64_t stamp, const py::object& gyro, const py::object& accel)
           {
-            return odometry.add(SensorImu{
+            return self.add(SensorImu{
                 SensorImu::kBody, {fromNanoseconds(stamp), vectorIn(gyro, "gyro"), vectorIn(accel, "accel"), false}});
           },
           py::arg("stamp"), py::arg("gyro"), py::arg("accel"))
       .def(
-          "add_scan", [](Odometry& odometry, const PythonScan& scan) { return odometry.addScan(scan.copy()); },
-          py::arg("scan"))
+          "add_scan", [](Odometry& self, const PythonScan& scan) { return self.addScan(scan.copy()); }, py::arg("scan"))
       .def(
           "add_cloud",
-          [](Odometry& odometry, std::int64_t stamp, const py::object& xyz, const py::object& t,
-             const py::object& lidar, const py::object& ring, const py::object& intensity,
-             std::optional<std::int64_t> period)
+          [](Odometry& self, std::int64_t stamp, const py::object& xyz, const py::object& t, const py::object& lidar,
+             const py::object& ring, const py::object& intensity, std::optional<std::int64_t> period)
           {
             std::optional<Duration> given;
             if (period) given = Duration{*period};
-            return odometry.addScan(
-                cloudScan(fromNanoseconds(stamp), given, arraysOf(xyz, t, lidar, ring, intensity), odometry.lidars()));
+            return self.addScan(
+                cloudScan(fromNanoseconds(stamp), given, arraysOf(xyz, t, lidar, ring, intensity), self.lidars()));
           },
           py::arg("stamp"), py::arg("xyz"), py::arg("t"), py::arg("lidar"), py::arg("ring"), py::arg("intensity"),
           py::arg("period"))
-      .def("finish", &Odometry::finish)
-      .def_property_readonly("warnings", [](const Odometry& odometry) { return odometry.report().warnings(); })
-      .def_property_readonly("outcome", [](const Odometry& odometry) { return odometry.report().outcome(); })
-      .def_property_readonly("good", [](const Odometry& odometry) { return odometry.report().good(); })
-      .def_property_readonly("counts", [](const Odometry& odometry) { return odometry.report().counts(); });
+      .def("finish", &Odometry::finish);
+  bindReport(odometry);
 }
 }  // namespace scanloom

@@ -59,13 +59,7 @@ class PoseStream
   /** What the program prints before it begins. Called with the GIL. */
   void warnOfOpening() { report_.warn(warnings_of_opening_, WarnedLine::CallingScanloom); }
 
-  std::vector<std::string> lidars() const
-  {
-    std::vector<std::string> names;
-    for (const RecordedLidar& lidar : input_->setup().header.lidars) names.push_back(lidar.name);
-    return names;
-  }
-
+  std::vector<std::string> lidars() const { return lidarNames(input_->setup().header); }
   const std::vector<std::string>& notes() const { return notes_; }
   const RunReport& report() const { return report_; }
 
@@ -129,34 +123,15 @@ void bindPose(py::module_& m)
 void bindPoses(py::module_& m)
 {
   bindPose(m);
-  py::class_<PoseStream>(m, "Slam", "Iterates over the poses of a run, which a thread of C++ computes meanwhile.")
-      .def(py::init(
-               [](const InputArguments& arguments, bool clouds)
-               {
-                 std::unique_ptr<PoseStream> run;
-                 {
-                   const py::gil_scoped_release others_may_run;
-                   run = std::make_unique<PoseStream>(arguments, clouds ? KeptClouds::All : KeptClouds::None);
-                 }
-                 run->warnOfOpening();
-                 return run;
-               }),
-           py::arg("input"), py::arg("clouds"))
+  py::class_<PoseStream> run(m, "Slam", "Iterates over the poses of a run, which a thread of C++ computes meanwhile.");
+  run.def(py::init([](const InputArguments& arguments, bool clouds)
+                   { return opened<PoseStream>(arguments, clouds ? KeptClouds::All : KeptClouds::None); }),
+          py::arg("input"), py::arg("clouds"))
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__", &PoseStream::next)
       .def_property_readonly("lidars", &PoseStream::lidars, "list of str: their names, by the index in cloud.lidar.")
-      .def_property_readonly("notes", &PoseStream::notes, "list of str: what was recognised.")
-      .def_property_readonly(
-          "warnings", [](const PoseStream& run) { return run.report().warnings(); }, "list of str: so far.")
-      .def_property_readonly(
-          "outcome", [](const PoseStream& run) { return run.report().outcome(); },
-          "str: OK, or what is wrong with the result; None before the end.")
-      .def_property_readonly(
-          "good", [](const PoseStream& run) { return run.report().good(); },
-          "bool: the program would end with status 0, not 3; None before the end.")
-      .def_property_readonly(
-          "counts", [](const PoseStream& run) { return run.report().counts(); },
-          "dict: of scans, poses and packets, as in summary.json; empty before the end.");
+      .def_property_readonly("notes", &PoseStream::notes, "list of str: what was recognised.");
+  bindReport(run);
   m.def(
       "write_trajectory",
       [](const std::filesystem::path& file, const std::vector<Pose>& poses)

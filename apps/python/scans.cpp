@@ -90,13 +90,7 @@ class ScanStream
   /** What the program prints before it begins. Called with the GIL. */
   void warnOfOpening() { warnInPython(std::exchange(unsaid_, {}), WarnedLine::CallingScanloom); }
 
-  std::vector<std::string> lidars() const
-  {
-    std::vector<std::string> names;
-    for (const RecordedLidar& lidar : input_.setup().header.lidars) names.push_back(lidar.name);
-    return names;
-  }
-
+  std::vector<std::string> lidars() const { return lidarNames(input_.setup().header); }
   const std::vector<std::string>& notes() const { return opened_.notes; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -122,9 +116,7 @@ class ScanStream
     const RigAccount account = input_.account();
     const std::vector<std::string> silent = silentLidars(account);
     say(silent);
-    const auto damaged = account.input.find(kDamagedInputs);
-    const bool read_whole = damaged == account.input.end() || damaged->second == 0;
-    good_ = silent.empty() && read_whole && opened_.sensors_not_used == 0;
+    good_ = silent.empty() && wasReadWhole(account.input) && opened_.sensors_not_used == 0;
   }
 
   OpenedInput opened_;
@@ -248,17 +240,7 @@ void bindScans(py::module_& m)
       .def_readwrite("assignments", &InputArguments::assignments)
       .def_readwrite("lidars", &InputArguments::lidars);
   py::class_<ScanStream>(m, "Scans", "Iterates over the scans of a recording or of live lidars.")
-      .def(py::init(
-          [](const InputArguments& arguments)
-          {
-            std::unique_ptr<ScanStream> stream;
-            {
-              const py::gil_scoped_release others_may_run;
-              stream = std::make_unique<ScanStream>(arguments);
-            }
-            stream->warnOfOpening();
-            return stream;
-          }))
+      .def(py::init(&opened<ScanStream>))
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__", &ScanStream::next)
       .def_property_readonly("lidars", &ScanStream::lidars, "list of str: their names, by the index in scan.lidar.")

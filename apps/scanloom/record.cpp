@@ -257,9 +257,7 @@ int run(RecordArguments arguments)
     throw std::runtime_error(
         "no scan was recorded: check that the lidars send to this computer (udp_dest), that they use the configured "
         "ports, and that no firewall is in between ('scanloom doctor' tells more)");
-  const auto damaged = account.input.find(kDamagedInputs);
-  const bool whole = damaged == account.input.end() || damaged->second == 0;
-  return whole && silent.empty() && loaded.sensors.not_used == 0 ? kDone : kQualityGate;
+  return wasReadWhole(account.input) && silent.empty() && loaded.sensors.not_used == 0 ? kDone : kQualityGate;
 }
 
 std::function<int()> addRecordOptions(CLI::App& app)

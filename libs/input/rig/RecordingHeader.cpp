@@ -34,4 +34,11 @@ std::vector<MountedLidar> mountedLidars(const std::vector<RecordedLidar>& record
   for (const RecordedLidar& lidar : recorded) lidars.push_back({lidar.name, lidar.body_T_sensor});
   return lidars;
 }
+
+std::vector<std::string> lidarNames(const RecordingHeader& header)
+{
+  std::vector<std::string> names;
+  for (const RecordedLidar& lidar : header.lidars) names.push_back(lidar.name);
+  return names;
+}
 }  // namespace scanloom

@@ -37,4 +37,7 @@ struct RecordingHeader
 RecordingHeader recordingHeader(const Rig&);
 
 std::vector<MountedLidar> mountedLidars(const std::vector<RecordedLidar>&);
+
+/** Their names, by sensor id. */
+std::vector<std::string> lidarNames(const RecordingHeader&);
 }  // namespace scanloom

@@ -43,4 +43,10 @@ std::optional<SensorEvent> SensorInput::next()
     if (std::optional<SensorEvent> event = next(1s)) return event;
   return std::nullopt;
 }
+
+bool wasReadWhole(const std::map<std::string, std::uint64_t>& counts)
+{
+  const auto damaged = counts.find(kDamagedInputs);
+  return damaged == counts.end() || damaged->second == 0;
+}
 }  // namespace scanloom

@@ -61,6 +61,9 @@ struct RigAccount
 /** By name: `<lidar>.<counter>` of the batcher, datagrams of no lidar, and what the input counted. */
 std::map<std::string, std::uint64_t> countsOf(const RigAccount&);
 
+/** Whether counts of an input, or of a run that has them, know of no damaged file. */
+bool wasReadWhole(const std::map<std::string, std::uint64_t>& counts);
+
 /** What is known of the sensors; live, and in a rawlog, it may become more with each event. */
 struct SensorSetup
 {

@@ -57,8 +57,7 @@ ObservationPtr withHeader(const mrpt::obs::CObservation& comment, const Recordin
 
 std::size_t lidarNamed(const std::string& name, const RecordingHeader& header)
 {
-  std::vector<std::string> names;
-  for (const RecordedLidar& lidar : header.lidars) names.push_back(lidar.name);
+  const std::vector<std::string> names = lidarNames(header);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
     throw UsageError(fmt::format("the rawlog has no lidar '{}': {}", name, suggestion(name, names)));

@@ -68,8 +68,7 @@ RawlogInput::~RawlogInput() = default;
 void RawlogInput::chooseLidars(const std::vector<std::string>& only)
 {
   const RecordingHeader& recorded = *reader_->header();
-  std::vector<std::string> names;
-  for (const RecordedLidar& lidar : recorded.lidars) names.push_back(lidar.name);
+  const std::vector<std::string> names = lidarNames(recorded);
   for (const std::string& name : only)
     if (std::find(names.begin(), names.end(), name) == names.end())
       throw ConfigError(fmt::format("no lidar of the rawlog is called '{}': {}", name, suggestion(name, names)));
