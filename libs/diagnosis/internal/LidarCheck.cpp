@@ -49,7 +49,7 @@ PointCloud moved(PointCloud points, const Rigid& here_T_there)
   return points;
 }
 
-/** Of each point, in its frame. */
+/** The cube in which each point lies, in the frame of the points. */
 std::vector<std::uint64_t> cubesOf(const PointCloud& points)
 {
   constexpr float kCube = 1;  // m: far away beams are so far apart

@@ -29,7 +29,7 @@ constexpr double kDensityShare        = 0.5;     // 1      of the shift; hard wo
 
 // Cells and pairs of cells
 constexpr double kSpreadOfFewPoints   = 0.08;    // m      deviation; dense stand, 16 beams                  #cells-of-few-points
-constexpr double kFlatness            = 0.2;     // 1      deviation over the next larger; field, stairs       #beyond-the-forest
+constexpr double kFlatness            = 0.2;     // 1      deviation over the next larger; field, stairs     #beyond-the-forest
 constexpr double kMixture             = 4;       // 1      at d2 = 1; five seeds of hard and dense           #mixtures
 
 // Covariance of a registration (LidarInformation)
@@ -38,7 +38,7 @@ constexpr double kUnmodelled          = 1.25;    // 1      on the variance; mean
 constexpr double kTranslationFloor    = 0.0008;  // m      mean errors of ranges, which no scan shows        #on-two-generators
 constexpr double kRotationFloorDeg    = 0.004;   // deg    mean errors of beam angles, likewise              #on-two-generators
 constexpr double kPlaceSize           = 6;       // m      within which cells err alike: leaves, ground      #on-two-generators
-constexpr double kLeastCurvature      = 0.05;    // 1      of Gauss-Newton; saddles 0, real streets 0.07    #saddles
+constexpr double kLeastCurvature      = 0.05;    // 1      of Gauss-Newton; saddles 0, real streets 0.07     #saddles
 constexpr double kDegenerate          = 0.1;     // 1      share of structure; corridors, dense stands       #on-two-generators
 constexpr double kDoubtful            = 0.35;    // 1      the same, if a long step changes nothing          #on-two-generators
 constexpr double kUnchangedScore      = 0.9;     // 1      corridors keep 0.92, the densest stand 0.86       #on-two-generators
@@ -77,6 +77,9 @@ constexpr double kApartDeviations     = 8;       // 1      good drives with one 
 constexpr double kFarApart            = 0.25;    // m      good drives with one lidar                        #on-two-generators
 constexpr double kFarApartRadians     = 0.05;    // rad    good drives with one lidar                        #on-two-generators
 constexpr double kFarApartDeviations  = 15;      // 1      good drives with one lidar                        #on-two-generators
+
+// A map that is levelled anew (StateEstimate::mapJumped)
+constexpr double kMapJump             = 0.25;    // m      sound drives 0.08, cars without an IMU from 1 on  #real-sequences
 
 // Another IMU takes over (SmootherReset): deviations
 constexpr double kTiltOfChange        = 0.005;   // rad    runs in which an IMU fails                        #imu-faults

@@ -3,6 +3,7 @@
 #include "base/core/Keyframe.h"
 #include "base/core/StampedPose.h"
 #include "estimation/imu/NavState.h"
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/Registration.h"
 
 #include <optional>
@@ -49,8 +50,8 @@ struct StateEstimate
   std::optional<Keyframe> keyframe;
   Trajectory since_last;  // body poses at the IMU's stamps, after the previous estimate up to this one
 
-  /** Other maps shift by less than 0.1 m at once: accelerations were taken for a tilt, and the poses before are as
-   * wrong as this one. */
-  bool mapJumped() const { return map_shift > 0.25; }
+  /** The map shifted farther than gravity shifts it in sound drives: accelerations were taken for a tilt, and the poses
+   * before are as wrong as this one. */
+  bool mapJumped() const { return map_shift > fitted::kMapJump; }
 };
 }  // namespace scanloom

@@ -7,7 +7,7 @@ namespace scanloom
 {
 namespace
 {
-/** Behind the last point of the column that begins with `first`. */
+/** The column that begins with the point `first` ends before this one. */
 std::size_t endOfColumn(const PointCloud& points, std::size_t first)
 {
   std::size_t end = first;

@@ -27,8 +27,7 @@ constexpr double kFallTime = 3;         // s: time of its fall, from upright to 
 constexpr double kShortestStop = 8;  // s: no tree falls at a shorter one
 constexpr double kLying = M_PI / 2;  // rad
 
-/** Ids of the kinds alternate, so that no two objects have the same. */
-// Of the traffic (assumed).
+// Traffic (assumed).
 constexpr double kLanes = 3.2;                 // m: from the machine's lane to the one of oncoming cars
 constexpr double kOncomingSpeed = 10;          // m/s
 constexpr double kCarAhead = 20;               // m: the car ahead is so far away, give or take kCarAheadSway
@@ -36,6 +35,7 @@ constexpr double kCarAheadSway = 4;            // m
 constexpr std::uint64_t kTraffic = 1'000'000;  // numbers of its cars; those of passers are smaller
 
 constexpr std::uint64_t kKinds = 3;
+/** Ids of the kinds alternate, so that no two objects have the same. */
 std::uint64_t idOf(ObjectKind kind, std::uint64_t number) { return kKinds * number + static_cast<std::uint64_t>(kind); }
 
 /** Angle of the fall as a share of the whole, `u` the share of its time: it falls faster and faster. */
