@@ -415,6 +415,19 @@ TEST(LidarInertialSlam, isFoundAgainWhereAWrongImuTiltedIt)
     }
 }
 
+TEST(LidarInertialSlam, anImuThatAddsMetresASecondIsLeftForTheLidar)
+{
+  const Machine machine = gentleMachine(3s);
+  for (const double push : {5.0, 8.0, 15.0, 30.0})  // m/s2, for 0.2 s; the hardest is past the gate in the first scan
+  {
+    const Driven run = runFor(
+        machine, 9s, {}, [](Scan&) {},
+        wrongFrom(Timestamp{6s}, Timestamp{6200ms}, [&](ImuSample& sample) { sample.accel.x() += push; }));
+    EXPECT_LT(largestError(run, machine), 0.25 + push * 0.2 * 0.3) << push << " m/s2: four scans that are off";
+    EXPECT_EQ(run.estimates.back().health, Health::Ok) << push;
+  }
+}
+
 TEST(LidarInertialSlam, aPlaceThatLeansAgainstGravityIsNotTakenForTheTrueOne)
 {
   // From four seconds of blindness on, scans come from a body that leans by 8 degrees; the IMU's does not.

@@ -3,6 +3,7 @@
 #include "estimation/slam/StateEstimate.h"
 #include "estimation/slam/internal/DivergenceDetector.h"
 #include "estimation/slam/internal/InnovationMonitor.h"
+#include "estimation/slam/internal/LidarTrack.h"
 
 #include <optional>
 
@@ -24,6 +25,7 @@ struct TrustHistory
   std::optional<Timestamp> initialising_until;  // none after a start from standstill
   InnovationMonitor contradiction;              // between registrations and IMU
   DivergenceDetector divergence{};              // of estimates from their registrations
+  LidarTrack lidar_track{};                     // of the usable ones
   std::optional<Timestamp> lidar_accepted{};    // when the window last began anew at a registration
   bool imu_silent = false;                      // for kImuSilence or longer up to this scan's end
   bool lost = false;                            // at the scan before

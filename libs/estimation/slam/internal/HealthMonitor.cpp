@@ -1,6 +1,7 @@
 #include "estimation/slam/internal/HealthMonitor.h"
 
 #include "base/core/Decompositions.h"
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/ndt/LidarInformation.h"
 
 #include <utility>
@@ -27,16 +28,36 @@ bool isBlind(const Continued& scan)
   return scan.assessment.health == Health::Lost && !scan.assessment.contradicted && !isWhereItIsSaidToBe(scan);
 }
 
-/** Where IMU and lidar err by much, the estimate between both is near neither. */
-DivergenceDetector compared(DivergenceDetector divergence, const GatedRegistration& registered,
-                            const Measurement& measured, const BodyEstimate& body)
+/**
+ * Where IMU and lidar err by much, the estimate between both is near neither. A registration beyond the gate counts if
+ * it goes on with those before and is far off: an IMU that errs by metres a second has carried the estimate away from
+ * all of them. What a lost body sees may be another place in all scans.
+ */
+TrustHistory compared(TrustHistory trust, const GatedRegistration& registered, const Measurement& measured,
+                      const BodyEstimate& body)
 {
-  if (!registered.result || !registered.trusted) return divergence;
+  if (!registered.usable)
+  {
+    trust.lidar_track.clear();
+    return trust;
+  }
   const Rigid local_T_body = body.window.map_T_local().inverse() * body.map_T_body;
+  const Rigid& seen = registered.result->target_T_source;
+  const Vector6d apart = boxMinus(local_T_body, seen);
+  const bool goes_on = !trust.lost && apart.head<3>().norm() > fitted::kFarApart && trust.lidar_track.goesOnTo(seen);
+  trust.lidar_track.add(seen);
+  if (!registered.trusted && !goes_on) return trust;
   const Matrix6d shared = measured.shared_noise.covariance(upInBody(body.map_T_body));
-  divergence.add(boxMinus(local_T_body, registered.result->target_T_source),
-                 body.covariance + registered.result->covariance + shared);
-  return divergence;
+  trust.divergence.add(apart, body.covariance + registered.result->covariance + shared);
+  return trust;
+}
+
+/** A lost body is where the scan agrees nearly as well as where it was seen last. */
+bool isUsable(const RegistrationResult& seen, const TrackerState& before)
+{
+  if (!before.trust.lost) return seen.trustworthy();
+  const std::optional<LastSeen>& last = before.relocalisation.lastSeen();
+  return seen.outcome == Outcome::Converged && !(last && seen.score > fitted::kScoreOfPlace * last->score);  // negative
 }
 
 DeadReckoning motionWhileLost(const LastGood& last_good, const BodyEstimate& body, Timestamp stamp)
@@ -58,13 +79,14 @@ HealthMonitor::HealthMonitor(const SlamSettings& settings)
 {
 }
 
-GatedRegistration HealthMonitor::gated(Timed<RegistrationResult> seen, const PoseGuess& predicted, bool lost) const
+GatedRegistration HealthMonitor::gated(Timed<RegistrationResult> seen, const PoseGuess& predicted,
+                                       const TrackerState& before) const
 {
-  GatedRegistration gated{std::move(seen.value), 0, false, std::move(seen.times)};
+  GatedRegistration gated{std::move(seen.value), 0, false, false, std::move(seen.times)};
   if (gated.result->outcome == Outcome::LowOverlap) return gated;
   gated.mahalanobis = mahalanobisOf(*gated.result, predicted);
-  const bool usable = lost ? gated.result->outcome == Outcome::Converged : gated.result->trustworthy();
-  gated.trusted = usable && gated.mahalanobis <= kGate;
+  gated.usable = isUsable(*gated.result, before);
+  gated.trusted = gated.usable && gated.mahalanobis <= kGate;
   return gated;
 }
 
@@ -74,7 +96,7 @@ Continued HealthMonitor::assess(const TrackerState& before, const DeskewedScan& 
 {
   TrustHistory trust = before.trust;
   trust.contradiction = measured.contradiction;
-  trust.divergence = compared(trust.divergence, registered, measured, body);
+  trust = compared(std::move(trust), registered, measured, body);
   Continued scan =
       assessed({body, registered, trust, before.relocalisation, before.resting_since}, seen, before.local_map.empty());
   if (scan.trust.divergence.level() == Divergence::Persistent)

@@ -28,8 +28,8 @@ class HealthMonitor
  public:
   explicit HealthMonitor(const SlamSettings&);
 
-  /** Compares a registration with the prediction before it joins the smoother. `lost`: at the scan before. */
-  GatedRegistration gated(Timed<RegistrationResult>, const PoseGuess& predicted, bool lost) const;
+  /** Compares a registration with the prediction before it joins the smoother. */
+  GatedRegistration gated(Timed<RegistrationResult>, const PoseGuess& predicted, const TrackerState& before) const;
 
   /**
    * Searches the body in what the scan sees where it is lost and the lidar does not contradict that; accepts the lidar

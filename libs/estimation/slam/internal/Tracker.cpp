@@ -187,7 +187,7 @@ GatedRegistration Tracker::registerToMap(const TrackerState& before, const Deske
 {
   if (before.local_map.empty() || seen.cloud.empty() || !isPositiveDefinite(predicted.covariance)) return {};
   const PoseGuess guess(predicted.window.map_T_local().inverse() * predicted.map_T_body, predicted.covariance);
-  return health_monitor_.gated(registerScan(before, seen.views, guess), guess, before.trust.lost);
+  return health_monitor_.gated(registerScan(before, seen.views, guess), guess, before);
 }
 
 Timed<RegistrationResult> Tracker::registerScan(const TrackerState& before, const std::vector<View>& views,

@@ -44,7 +44,8 @@ struct GatedRegistration
 {
   std::optional<RegistrationResult> result;  // none for the first scan of a map, or one without points
   double mahalanobis = 0;                    // distance from the prediction in standard deviations
-  bool trusted = false;                      // by its outcome and this distance
+  bool usable = false;                       // by its outcome
+  bool trusted = false;                      // by this distance, too
   StageRuns times;
 };
 
