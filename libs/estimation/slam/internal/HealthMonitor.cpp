@@ -52,12 +52,13 @@ TrustHistory compared(TrustHistory trust, const GatedRegistration& registered, c
   return trust;
 }
 
-/** A lost body is where the scan agrees nearly as well as where it was seen last. */
-bool isUsable(const RegistrationResult& seen, const TrackerState& before)
+/** A lost body is near its prediction, or where the scan fits nearly as well as the last trusted one did. */
+bool isUsable(const RegistrationResult& seen, double mahalanobis, const TrackerState& before)
 {
   if (!before.trust.lost) return seen.trustworthy();
   const std::optional<LastSeen>& last = before.relocalisation.lastSeen();
-  return seen.outcome == Outcome::Converged && !(last && seen.score > fitted::kScoreOfPlace * last->score);  // negative
+  const bool fits = !last || !(seen.score > fitted::kScoreOfPlace * last->score);  // scores are negative
+  return seen.outcome == Outcome::Converged && (fits || mahalanobis < fitted::kUsualDistance);
 }
 
 DeadReckoning motionWhileLost(const LastGood& last_good, const BodyEstimate& body, Timestamp stamp)
@@ -85,7 +86,7 @@ GatedRegistration HealthMonitor::gated(Timed<RegistrationResult> seen, const Pos
   GatedRegistration gated{std::move(seen.value), 0, false, false, std::move(seen.times)};
   if (gated.result->outcome == Outcome::LowOverlap) return gated;
   gated.mahalanobis = mahalanobisOf(*gated.result, predicted);
-  gated.usable = isUsable(*gated.result, before);
+  gated.usable = isUsable(*gated.result, gated.mahalanobis, before);
   gated.trusted = gated.usable && gated.mahalanobis <= kGate;
   return gated;
 }
