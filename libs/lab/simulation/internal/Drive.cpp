@@ -65,7 +65,8 @@ Drive::Drive(const Route& route, const DriveOptions& options, const BodyMotionOp
     ground_(ground),
     engine_(std::move(engine)),
     curve_(options.curve),
-    curve_rate_(2 * M_PI / options.curve_length)
+    curve_rate_(2 * M_PI / options.curve_length),
+    left_(options.left)
 {
 }
 
@@ -73,7 +74,7 @@ Taylor Drive::lateral(const Taylor& x) const { return curve_ * (1 - cos(curve_ra
 
 Motion Drive::at(double t) const
 {
-  Taylor x = route_.progress(t), y = lateral(x);
+  Taylor x = route_.progress(t), y = left_ + lateral(x);
   const Taylor yaw = atan(curve_ * curve_rate_ * sin(curve_rate_ * x));
   Stance stance = stand(ground_, x, y, yaw);
   if (body_.upright) stance.pitch = stance.roll = 0.0;

@@ -54,7 +54,7 @@ class Drive
   const Ground& ground() const { return ground_; }
   const Route& route() const { return route_; }
 
-  /** Where the machine drives: points (x, y) at most 0.25 m apart, from 15 m behind the start on. */
+  /** Middle of the machine's lane: points (x, y) at most 0.25 m apart, from 15 m behind the axis' origin on. */
   std::vector<Eigen::Vector2d> path() const;
 
   /** How far the path is left of its axis, m. */
@@ -67,5 +67,6 @@ class Drive
   EngineVibration engine_;
   double curve_;       // m
   double curve_rate_;  // rad/m
+  double left_;        // m, of the path
 };
 }  // namespace scanloom

@@ -36,7 +36,7 @@ void require(bool met, const std::string& problem)
 }  // namespace
 
 Route::Route(const DriveOptions& drive, const WorkCycleOptions& work, std::uint64_t seed)
-  : duration_(drive.duration), speed_up_(drive.speed_up)
+  : duration_(drive.duration), speed_up_(drive.speed_up), start_(drive.start)
 {
   if (drive.route == "winding")
     addWinding(drive);
@@ -94,11 +94,11 @@ const Route::Leg* Route::legAt(double t) const
 Taylor Route::progress(double t) const
 {
   const Leg* leg = legAt(t);
-  if (!leg) return 0.0;
+  if (!leg) return start_;
   const SmoothStep start = smoothStep((t - leg->begin) / speed_up_);
   const SmoothStep stop = smoothStep((t - leg->begin - leg->moving) / speed_up_);
   const Taylor moving = driving(t);
-  return {leg->from + leg->speed * speed_up_ * (start.integral - stop.integral), leg->speed * moving.value,
+  return {start_ + leg->from + leg->speed * speed_up_ * (start.integral - stop.integral), leg->speed * moving.value,
           leg->speed * moving.rate};
 }
 

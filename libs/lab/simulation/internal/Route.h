@@ -19,6 +19,8 @@ struct DriveOptions
   double speed_up = 2.0;
   double curve = 0.8;
   double curve_length = 22.0;
+  double start = 0;
+  double left = 0;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -32,6 +34,10 @@ struct DriveOptions
     visit(o.speed_up, Field{"speed_up", "s", "time to reach the cruising speed, and to stop", above(0)});
     visit(o.curve, Field{"curve", "m", "amplitude of the winding path", between(0, 20)});
     visit(o.curve_length, Field{"curve_length", "m", "length of one period of the winding path", above(1)});
+    visit(o.start,
+          Field{"start", "m", "where on the path the drive starts: other drives through one stand", atLeast(0)});
+    visit(o.left, Field{"left", "m", "how far left of the path the machine drives, within the lane that it keeps free",
+                        between(-1.5, 1.5)});
   }
 };
 
@@ -87,7 +93,7 @@ class Route
   std::uint64_t legs() const { return legs_.size(); }
 
   double duration() const { return duration_; }
-  double farthest() const { return farthest_; }  // m, the largest progress
+  double farthest() const { return start_ + farthest_; }  // m, the largest progress
 
  private:
   struct Leg
@@ -103,7 +109,7 @@ class Route
   const Leg* legAt(double t) const;  // the one that began last
   double endOf(const Leg& leg) const { return leg.begin + leg.moving + speed_up_; }
 
-  double duration_, speed_up_, farthest_ = 0;
+  double duration_, speed_up_, start_, farthest_ = 0;
   std::vector<Leg> legs_;
 };
 }  // namespace scanloom

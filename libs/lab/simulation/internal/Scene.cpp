@@ -13,6 +13,8 @@ constexpr Duration kImuPhase = 1230us;  // no clock starts with the recording
 
 Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
 {
+  const std::uint64_t stand_seed =
+      settings.forest.stand.seed > 0 ? static_cast<std::uint64_t>(settings.forest.stand.seed) : seed;
   const RecordingSpan span{kStart, settings.drive.duration};
   const Ground ground(settings.ground, settings.slopes);
   const Route route(settings.drive, settings.work, seed);
@@ -25,8 +27,8 @@ Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
 
   return {seed,
           span,
-          Scenery(std::make_shared<const World>(ground, settings.forest, drive.path(), seed,
-                                                build(settings.buildings, drive, seed)),
+          Scenery(std::make_shared<const World>(ground, settings.forest, drive.path(), stand_seed,
+                                                build(settings.buildings, drive, stand_seed)),
                   drive, machine, MovingObjects(settings.objects, drive, seed)),
           std::move(lidars),
           {body_T_imu,

@@ -66,6 +66,7 @@ class Places
   /** The candidates in a cell that stay. */
   std::vector<Candidate> in(const GridCell& cell) const
   {
+    if (options_.row_distance > 0) return inRows(cell);
     std::vector<Candidate> rivals;
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) addCandidates({cell.x + x, cell.y + y}, rivals);
@@ -82,6 +83,28 @@ class Places
   }
 
  private:
+  /** Planted every two thirds of the rows' distance, give or take some centimetres; one of twenty has died. */
+  std::vector<Candidate> inRows(const GridCell& cell) const
+  {
+    constexpr double kPlantingError = 0.08, kDead = 0.05;  // m, 1 (assumed)
+    const Eigen::Array2d step(options_.row_distance * 2 / 3, options_.row_distance);
+    const Eigen::Array2d corner = kCellSize * Eigen::Array2d(cell.x, cell.y);
+    const Eigen::Array2i first = (corner / step).ceil().cast<int>(),
+                         end = ((corner + kCellSize) / step).ceil().cast<int>();
+    std::vector<Candidate> planted;
+    for (int row = first.y(); row < end.y(); ++row)
+      for (int in_row = first.x(); in_row < end.x(); ++in_row)
+      {
+        Random random(seed_, RandomStream::Stand, GridCell{in_row, row}.key());
+        const double x = random.normal(), y = random.normal();
+        const bool died = random.uniform() < kDead;
+        const Eigen::Vector2d place =
+            (step * Eigen::Array2d(in_row, row)).matrix() + kPlantingError * Eigen::Vector2d(x, y);
+        if (!died) planted.push_back({place, 0, random.bits()});
+      }
+    return planted;
+  }
+
   double density() const { return options_.stems_per_hectare / kSquareMetresPerHectare; }  // 1/m2
 
   /** Candidates n per square metre so that `stay` of them stay: 1 - exp(-n A) = stay A, with A = pi spacing^2. */
@@ -132,7 +155,7 @@ Stand growStand(const StandOptions& options, const TreeOptions& trees, const Gro
   const Places places(options, seed);
   StandOptions of_old_stems = options;
   of_old_stems.stems_per_hectare = options.stumps_per_hectare;
-  of_old_stems.clustering = 0;
+  of_old_stems.clustering = of_old_stems.row_distance = 0;
   const Places old_places(of_old_stems, seed ^ 0x01d);  // other random numbers than the living stems
 
   const auto grow = [&](const Places::Candidate& candidate)
@@ -141,13 +164,18 @@ Stand growStand(const StandOptions& options, const TreeOptions& trees, const Gro
     const Eigen::Vector2d& p = candidate.place;
     return growTree(trees, {p.x(), p.y(), ground.height(p.x(), p.y())}, random);
   };
+  const auto isFelled = [&](const Places::Candidate& candidate)
+  {
+    return lane.passes(candidate.place, kFreeLane) ||
+           Random(seed, RandomStream::FelledTrees, candidate.key).uniform() < options.felled;
+  };
   Stand stand;
   for (const GridCell& cell : cellsAround(lane, options.reach))
   {
     for (const Places::Candidate& candidate : places.in(cell))
     {
       const Stem stem = grow(candidate);
-      if (lane.passes(candidate.place, kFreeLane))
+      if (isFelled(candidate))
         stand.stumps.push_back(stumpOf(stem, kStumpHeight));
       else
         stand.stems.push_back(stem);

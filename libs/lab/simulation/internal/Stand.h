@@ -16,6 +16,9 @@ struct StandOptions
   double stems_per_hectare = 650;
   double spacing = 1.2;
   double clustering = 0;
+  double row_distance = 0;
+  int seed = 0;
+  double felled = 0;
   double reach = 55;  // m: the stand is grown within this distance of the path (assumed: beyond an OS0's range)
   double stumps_per_hectare = 150;
 
@@ -27,6 +30,16 @@ struct StandOptions
     visit(o.clustering, Field{"clustering", "",
                               "how much denser and thinner the stand is in places, as a share of the mean (assumed)",
                               between(0, 0.95)});
+    visit(o.row_distance, Field{"row_distance", "m",
+                                "distance of the rows of a plantation, along the axis of the path; a stem stands every "
+                                "two thirds of it in each row; 0: stems_per_hectare in random places",
+                                between(0, 10)});
+    visit(o.seed,
+          Field{"seed", "",
+                "which stand, or which buildings: drives of different seeds through one; 0: the seed of the drive",
+                atLeast(0)});
+    visit(o.felled,
+          Field{"felled", "", "share of the stems that were felled to stumps since an earlier drive", between(0, 1)});
     visit(o.stumps_per_hectare, Field{"stumps_per_hectare", "1/ha",
                                       "number of stumps of earlier thinnings per hectare (assumed)", between(0, 5000)});
   }
