@@ -13,6 +13,7 @@
 #include "base/core/OutputFolder.h"
 #include "input/rig/InputDisplay.h"
 #include "input/rig/RigOptions.h"
+#include "run/run/GivenMap.h"
 #include "run/run/SlamFiles.h"
 #include "run/run/SlamRun.h"
 #include "warn.h"
@@ -22,6 +23,7 @@
 
 #include <iostream>
 #include <memory>
+#include <utility>
 
 namespace scanloom
 {
@@ -35,6 +37,8 @@ struct SlamArguments
   WebArguments web;
   Ros2Arguments ros2;
   std::vector<std::string> lidars;
+  std::filesystem::path map;  // empty: none
+  std::string at;             // empty: anywhere in the map
   int every_nth = 0;
   double seconds = 0;  // live lidars; 0: until it is interrupted
 };
@@ -51,9 +55,27 @@ std::string commandOf(const SlamArguments& arguments)
   for (const auto& path : arguments.recording.paths) command += " " + path.string();
   for (const auto& file : arguments.recording.metadata) command += fmt::format(" --metadata {}", file.string());
   if (!arguments.lidars.empty()) command += fmt::format(" --lidars {}", fmt::join(arguments.lidars, ","));
+  if (!arguments.map.empty()) command += fmt::format(" --map {}", arguments.map.string());
+  if (!arguments.at.empty()) command += fmt::format(" --at '{}'", arguments.at);
   if (arguments.seconds > 0) command += fmt::format(" --seconds {}", arguments.seconds);
   if (arguments.ros2.given()) command += fmt::format(" --ros2={}", arguments.ros2.name_space);
   return command + fmt::format(" --out-dir {}", arguments.output.folder.string());
+}
+
+GivenMap givenMap(const SlamArguments& arguments, const SlamSettings& settings)
+{
+  if (arguments.map.empty()) return {};
+  return readGivenMap(arguments.map, arguments.at, settings);
+}
+
+/** The map is not changed by those who are localised in it. */
+void refuseMapAsOutput(const SlamArguments& arguments)
+{
+  if (!arguments.at.empty() && arguments.map.empty())
+    throw UsageError("--at is a pose in the map of an earlier run: name its folder with --map");
+  std::error_code none;
+  if (!arguments.map.empty() && std::filesystem::equivalent(arguments.map, arguments.output.folder, none))
+    throw UsageError(fmt::format("{} is the map: choose another --out-dir", arguments.map.string()));
 }
 
 InputDisplay displayOf(const SlamInput& input, SensorInput& sensors)
@@ -84,9 +106,25 @@ void report(const SlamRunResult& result, const std::filesystem::path& folder)
   fmt::print("{}\n", (folder / "trajectory.tum").string());
 }
 
+/** Once, when it is so. */
+class FoundInMap
+{
+ public:
+  void tell(const RunProgress& progress, InputDisplay& display)
+  {
+    if (!progress.found_after || std::exchange(told_, true)) return;
+    display.say(fmt::format("found in the map after {:.1f} s", *progress.found_after));
+  }
+
+ private:
+  bool told_ = false;
+};
+
 SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings& settings, SlamFiles& files,
                                  const SlamArguments& arguments, const Ros2* ros2)
 {
+  const GivenMap map = givenMap(arguments, settings);
+  FoundInMap found;
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Web> web =
@@ -107,6 +145,7 @@ SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings&
       [&](const RunProgress& progress)
       {
         display.update(progress.share, progress.scans, {progress.recorded, progress.busy});
+        found.tell(progress, display);
         if (web) web->update({progress.recorded, progress.busy});
         const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
         if (input.live && (over || interrupted())) input.sensors->stop();
@@ -117,7 +156,7 @@ SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings&
         display.warn(warning);
         if (web) web->feed().warn(warning);
       },
-      [&](const EventMark& mark) { files.add(mark); });
+      [&](const EventMark& mark) { files.add(mark); }, map);
   if (web) web->feed().end();
   return result;
 }
@@ -199,6 +238,7 @@ int run(SlamArguments arguments)
   std::vector<std::string> names{kConfigurationFile};
   for (std::string& name : SlamFiles::names(loaded.settings.output)) names.push_back(std::move(name));
   refuseExisting(arguments.output, names);
+  refuseMapAsOutput(arguments);
   const SlamInput input = inputOf(recording, arguments, loaded, ros2.get());
   if (!input.live) refuseSeconds(arguments.seconds);
   if (arguments.configuration.dry_run)
@@ -220,6 +260,15 @@ std::function<int()> addSlamOptions(CLI::App& app)
   addRecording(app, arguments->recording);
   addOption(app, "--lidars", arguments->lidars, "names of the lidars to use, separated by commas; default: all")
       .commaSeparated();
+  addOption(app, "--map", arguments->map,
+            "result folder of an earlier slam: localise in its map, where the recording is searched until it is found; "
+            "the map is not changed")
+      .typeName("FOLDER")
+      .existingFolder();
+  addOption(app, "--at", arguments->at,
+            "where in the map the body starts, within 6 m and 30 deg: \"x y z yaw pitch roll\" (m, deg), or the last "
+            "pose of a .tum file")
+      .typeName("POSE");
   addSeconds(app, arguments->seconds);
   addWeb(app, arguments->web);
   addRos2(app, arguments->ros2);

@@ -63,6 +63,11 @@ constexpr double kDeviationOfPlace    = 0.3;     // m      the same             
 constexpr double kStartsApart         = 3;       // m      alignment finds a pose within 2 m of its start    #on-two-generators
 constexpr double kWorkingImuDeg       = 3;       // deg    tilt of an IMU that works                         #made-to-get-lost
 
+// A drive in the map of an earlier one (PlaceSearch)
+constexpr double kAgreementOfPlace    = 0.5;     // 1      of the score with itself; other stands, rows      #in-a-map
+constexpr double kSamePlace           = 0.5;     // m      between two keyframes' places; the same           #in-a-map
+constexpr double kSamePlaceDeg        = 2;       // deg    the same                                          #in-a-map
+
 // Noise that registrations share (SharedAttitudeNoise, MeasurementCorrelation, Tracker)
 constexpr double kSharedTiltDeg       = 0.03;    // deg    drives of 120 to 315 m                            #harder-worlds
 constexpr double kSightLength         = 12;      // m      drives of 120 to 315 m                            #harder-worlds

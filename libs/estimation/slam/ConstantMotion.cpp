@@ -16,6 +16,11 @@ void ConstantMotion::update(const StateEstimate& estimate)
   latest_ = now;
 }
 
+void ConstantMotion::enterMap(const Rigid& map_T_drive)
+{
+  if (latest_) latest_->map_T_body = map_T_drive * latest_->map_T_body;
+}
+
 std::vector<ImuSample> ConstantMotion::samplesUntil(Timestamp end)
 {
   constexpr std::int64_t kMost = 10'000;  // 100 s: behind it may be the wrong year of a damaged stamp

@@ -19,6 +19,9 @@ class ConstantMotion
   /** The latest estimate. */
   void update(const StateEstimate&);
 
+  /** The latest estimate is in another frame from now on. */
+  void enterMap(const Rigid& map_T_drive);
+
   /** After those given before, up to `end`: at 100 Hz, but 10,000 at most. */
   std::vector<ImuSample> samplesUntil(Timestamp end);
 

@@ -24,6 +24,8 @@ void LidarInertialSlam::changeImu(const ImuChange& change)
   for (const ImuSample& sample : change.samples) addImu(sample);
 }
 
+void LidarInertialSlam::enterMap(const MapEntry& entry) { state_ = tracker_.enterMap(*state_, entry); }
+
 std::vector<StateEstimate> LidarInertialSlam::addScan(Scan scan)
 {
   if (waiting_.wants(scan)) waiting_.add(withoutMachine(std::move(scan)));

@@ -12,8 +12,8 @@
 namespace scanloom
 {
 /**
- * The map frame: z up, origin and yaw those of the body at the start of the first scan. The same samples and scans in
- * the same order give the same bits.
+ * The map frame: z up, origin and yaw those of the body at the start of the first scan, until enterMap(). The same
+ * samples and scans in the same order give the same bits.
  */
 class LidarInertialSlam
 {
@@ -30,6 +30,10 @@ class LidarInertialSlam
   /** From the newest state on. The local map stays. The biases of the new IMU are computed from those of the old one.
    */
   void changeImu(const ImuChange&);
+
+  /** From the newest state on, estimates are in the frame of an earlier drive's map. There must have been an estimate.
+   */
+  void enterMap(const MapEntry&);
 
   /** The estimates that became possible (throws as startUp() does): a scan waits until the IMU covers it, the first
    * ones until the start is known. */

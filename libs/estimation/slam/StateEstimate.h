@@ -47,6 +47,7 @@ struct StateEstimate
   double map_shift = 0;        // m, by which the body moved because the local map was levelled anew
   bool recovered = false;      // found again: the pose does not continue the previous one
   bool map_restarted = false;  // a new local map begins here
+  bool in_map = false;         // the map frame is that of an earlier drive's map
   std::optional<Keyframe> keyframe;
   Trajectory since_last;  // body poses at the IMU's stamps, after the previous estimate up to this one
 

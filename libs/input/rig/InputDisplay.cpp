@@ -28,6 +28,14 @@ void InputDisplay::update(double share, std::uint64_t scans, const Work& work, C
   replay_->update(total_ > 0 ? static_cast<std::uint64_t>(share * static_cast<double>(total_)) : scans);
 }
 
+void InputDisplay::say(const std::string& line)
+{
+  if (live_)
+    live_->warn(line);
+  else
+    replay_->say(line);
+}
+
 void InputDisplay::warn(const std::string& warning, Clock::time_point now)
 {
   if (live_) return live_->warn(warning, now);

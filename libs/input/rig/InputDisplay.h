@@ -28,6 +28,9 @@ class InputDisplay
   /** @param share of the input that was read; @param scans so far. Also says the input's warnings. */
   void update(double share, std::uint64_t scans, const Work& = {}, Clock::time_point now = Clock::now());
 
+  /** At once, in a line of its own. */
+  void say(const std::string&);
+
   /** At once; those that come again are counted (RepeatedWarnings). */
   void warn(const std::string&, Clock::time_point now = Clock::now());
 

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <utility>
 
 namespace scanloom
 {
@@ -48,33 +49,43 @@ std::vector<std::string> SlamFiles::names(const OutputOptions& output)
 
 SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>& lidars,
                      const OutputOptions& output, const OctoMapOptions& octomap)
-  : folder_(created(folder)),
-    trajectory_(folder / "trajectory.tum"),
-    trajectory_imu_(folder / "trajectory_imu.tum"),
-    csv_(folder / "trajectory.csv")
+  : folder_(created(folder)), lidars_(lidars), output_(output), octomap_(octomap), csv_(folder / "trajectory.csv")
 {
   csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
                    "surprise,trusted,recovered,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,sigma_rz,correction_m,"
-                   "correction_deg,mark\n";
-  if (output.maps) maps_.emplace(folder, lidars, octomap, cloudClassFromName(output.keyframe_class, "keyframe_class"));
-  if (!output.dense_map.empty()) dense_map_.emplace(folder, output);
+                   "correction_deg,in_map,mark\n";
+  begin();
+}
+
+/** All that has poses; an earlier file of the name is given up. */
+void SlamFiles::begin()
+{
+  path_.clear();
+  trajectory_.reset(), trajectory_imu_.reset(), maps_.reset(), dense_map_.reset();
+  trajectory_.emplace(folder_ / "trajectory.tum");
+  trajectory_imu_.emplace(folder_ / "trajectory_imu.tum");
+  if (output_.maps)
+    maps_.emplace(folder_, lidars_, octomap_, cloudClassFromName(output_.keyframe_class, "keyframe_class"));
+  if (!output_.dense_map.empty()) dense_map_.emplace(folder_, output_);
 }
 
 void SlamFiles::add(const StateEstimate& e)
 {
+  if (e.in_map && !std::exchange(in_map_, true)) begin();
   extendPath({e.stamp, e.map_T_body});
-  trajectory_.add({e.stamp, e.map_T_body});
-  for (const StampedPose& pose : e.since_last) trajectory_imu_.add(pose);
+  trajectory_->add({e.stamp, e.map_T_body});
+  for (const StampedPose& pose : e.since_last) trajectory_imu_->add(pose);
 
   const RegistrationResult none;
   const RegistrationResult& r = e.registration ? *e.registration : none;
   const Vector6d sigma = e.since_start.diagonal().cwiseSqrt();
-  fmt::print(csv_.stream(), "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d},{:.3e},{:.4f},{:.4f},{}\n",
+  fmt::print(csv_.stream(),
+             "{},{},{},{:.4f},{:.6f},{},{},{:d},{:d},{:d},{:.2f},{:d},{:d},{:.3e},{:.4f},{:.4f},{:d},{}\n",
              nanoseconds(e.stamp), toString(e.health), e.registration ? toString(r.outcome) : "none", r.overlap,
              r.score, r.iterations, e.cloud.size(), e.keyframe.has_value(), e.scan_complete, e.imu_complete,
              e.mahalanobis, e.trusted, e.recovered, fmt::join(sigma.begin(), sigma.end(), ","),
-             e.correction.head<3>().norm(), 180 / M_PI * e.correction.tail<3>().norm(), marksUntil(e.stamp));
-  for (TumWriter* writer : {&trajectory_, &trajectory_imu_}) writer->flush();
+             e.correction.head<3>().norm(), 180 / M_PI * e.correction.tail<3>().norm(), e.in_map, marksUntil(e.stamp));
+  for (TumWriter* writer : {&*trajectory_, &*trajectory_imu_}) writer->flush();
   csv_.flush();
   if (maps_ && e.keyframe) maps_->add({*e.keyframe, e.since_start, imuOf(e)});
   if (dense_map_) dense_map_->add(e);
@@ -101,16 +112,16 @@ void SlamFiles::extendPath(const StampedPose& pose)
 
 void SlamFiles::closePoses()
 {
-  trajectory_.close();
-  trajectory_imu_.close();
+  trajectory_->close();
+  trajectory_imu_->close();
   csv_.commit();
 }
 
 /** The failure may have been that a disk is full. */
 void SlamFiles::closePosesAfterFailure()
 {
-  trajectory_.closeAfterFailure();
-  trajectory_imu_.closeAfterFailure();
+  trajectory_->closeAfterFailure();
+  trajectory_imu_->closeAfterFailure();
   csv_.commitLines();
 }
 

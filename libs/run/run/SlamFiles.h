@@ -18,7 +18,9 @@ namespace scanloom
 {
 /**
  * trajectory.tum (a pose per processed scan), trajectory_imu.tum (poses at the IMU's rate), trajectory.csv (health and
- * registration per pose), summary.json and the maps, all in the map frame.
+ * registration per pose), summary.json and the maps, all in the map frame. Where the drive is found in the map of an
+ * earlier run, all but trajectory.csv begin anew: no file has poses of two frames, and only the csv, which has none,
+ * tells of those before.
  */
 class SlamFiles
 {
@@ -43,14 +45,19 @@ class SlamFiles
   RunSummary close(RunSummary);
 
  private:
+  void begin();
   std::string marksUntil(Timestamp);
   void extendPath(const StampedPose&);
   void closePoses();
   void closePosesAfterFailure();
 
   std::filesystem::path folder_;
-  TumWriter trajectory_, trajectory_imu_;
+  std::vector<RecordedLidar> lidars_;
+  OutputOptions output_;
+  OctoMapOptions octomap_;
+  std::optional<TumWriter> trajectory_, trajectory_imu_;  // there always is one
   OutputFile csv_;
+  bool in_map_ = false;  // the frame of the files is that of an earlier run's map
   Trajectory path_;  // the newest pose and earlier ones at least 0.05 m apart, so that a rest does not fill the memory
   double path_length_ = 0;
   std::deque<EventMark> marks_;  // not yet written

@@ -1,6 +1,7 @@
 #include "run/run/SlamRun.h"
 
 #include "estimation/slam/ConstantMotion.h"
+#include "estimation/slam/PlaceSearch.h"
 #include "input/rig/silentLidars.h"
 #include "run/run/ImuInUse.h"
 #include "run/run/internal/CropReport.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <utility>
 
 namespace scanloom
 {
@@ -66,6 +68,25 @@ std::map<int, RigImu> imusOf(const SensorSetup& setup)
   return imus;
 }
 
+/** The search for the drive in the map of an earlier run, and what it found. */
+struct MapInUse
+{
+  std::shared_ptr<const PriorMap> map;
+  std::optional<PlaceSearch> search;  // until it has found the drive
+  PlaceOutcome outcome = PlaceOutcome::NotInMap;
+  Rigid map_T_drive{};
+  double found_after = 0;  // s, from the first pose
+
+  bool isFound() const { return map && !search; }
+};
+
+/** The same in the frame in which the drive began. */
+Keyframe inDrive(Keyframe keyframe, const Rigid& map_T_drive)
+{
+  keyframe.map_T_body = map_T_drive.inverse() * keyframe.map_T_body;
+  return keyframe;
+}
+
 /** Two registrations in a row give a turn without the IMU. A keyframe of the start still drifts. */
 LocalisedScan localised(const StateEstimate& estimate)
 {
@@ -81,7 +102,7 @@ class SlamRun
 {
  public:
   SlamRun(SensorInput& input, const SlamSettings& settings, const SeeEstimate& see, const Warn& warn,
-          const SeeMark& see_mark)
+          const SeeMark& see_mark, const GivenMap& given)
     : input_(input),
       see_(see),
       warn_(warn),
@@ -91,6 +112,8 @@ class SlamRun
       slam_(settingsInUse(), imuPose(), mountedLidars(lidars())),
       check_(mountedLidars(lidars()), imusOf(input.setup()), imu_ ? std::optional(imu_->sensor()) : std::nullopt, warn)
   {
+    map_.map = given.map;
+    if (given.map) map_.search.emplace(given.map, settings, mountedLidars(lidars()), given.map_T_body);
   }
 
   /** Waits for an event no longer than a person who wants to stop it would. */
@@ -108,6 +131,7 @@ class SlamRun
   {
     if (mayGoWithoutImu()) goOnWithoutImu();
     keep(slam_.finish());
+    if (map_.search) warn_(whyNotInMap());
     times_.measure("rig_check", [&] { check_.finish(); });
     for (const auto& [name, refused] : refusedReadings())
       warn_(fmt::format("the IMU '{}': samples were refused: {}", name, refused.toString()));
@@ -125,7 +149,8 @@ class SlamRun
   RunProgress progress() const
   {
     const double waited = 1e-3 * times_.stages().at("input").total_ms;
-    return {input_.progress(), counts_.scans, counts_.recorded(), secondsSince(start_) - waited};
+    return {input_.progress(), counts_.scans, counts_.recorded(), secondsSince(start_) - waited,
+            map_.isFound() ? std::optional(map_.found_after) : std::nullopt};
   }
 
   bool hasBegun() const { return counts_.scans > 0; }
@@ -146,7 +171,7 @@ class SlamRun
     const bool whole = slam_.mapRestarts() == 0;
     const RigAccount account = input_.account();
     const bool silent = !silentLidars(account).empty();
-    result.passed = counts_.passed() && whole && !silent && !check_.warned() && !imu_of_other_clock_;
+    result.passed = counts_.passed() && whole && !silent && !check_.warned() && !imu_of_other_clock_ && !map_.search;
     result.with_imu = imu_.has_value();
     summary.imu = check_.imu();
     summary.lidars = check_.lidars();
@@ -154,6 +179,7 @@ class SlamRun
     if (silent && summary.outcome == "OK") summary.outcome = "LIDAR MISSING";
     if (imu_of_other_clock_ && summary.outcome == "OK") summary.outcome = "IMU MISSING";
     if (check_.warned() && summary.outcome == "OK") summary.outcome = "RIG NOT FIT";
+    if (map_.search && counts_.passed() && whole && !interrupted) summary.outcome = "NOT IN MAP";
     summary.counts = countsOf(account);
     summary.counts["scans_skipped"] = slam_.skippedScans();
     summary.counts["recoveries"] = slam_.recoveries();
@@ -290,9 +316,43 @@ class SlamRun
       if (motion_) estimate.imu.reset();  // it was assumed
       counts_.add(estimate);
       if (motion_) motion_->update(estimate);
-      times_.measure("rig_check", [&] { check_.add(localised(estimate)); });
+      times_.measure("rig_check", [&] { check(estimate); });
       see_(estimate);
+      if (map_.search && estimate.keyframe) times_.measure("place_search", [&] { search(*estimate.keyframe); });
     }
+  }
+
+  /** The lidars are compared over the whole drive: in the frame in which it began. */
+  void check(const StateEstimate& estimate)
+  {
+    LocalisedScan scan = localised(estimate);
+    const bool enters = estimate.in_map && !std::exchange(was_in_map_, estimate.in_map);
+    if (enters) scan.registered.reset();  // a step from one frame to the other is no turn
+    std::optional<Keyframe> in_drive;
+    if (scan.keyframe && estimate.in_map) in_drive = inDrive(*scan.keyframe, map_.map_T_drive);
+    if (in_drive) scan.keyframe = &*in_drive;
+    check_.add(scan);
+  }
+
+  /** From the next scan on, estimates are in the map if the keyframe is found there. */
+  void search(const Keyframe& keyframe)
+  {
+    const SearchedPlace searched = map_.search->add(keyframe);
+    map_.outcome = searched.outcome;
+    if (searched.outcome != PlaceOutcome::Found) return;
+    const FoundPlace& place = *searched.place;
+    slam_.enterMap({map_.map, place.map_T_drive, place.covariance});
+    if (motion_) motion_->enterMap(place.map_T_drive);
+    map_.map_T_drive = place.map_T_drive;
+    map_.found_after = counts_.recorded();
+    map_.search.reset();
+  }
+
+  std::string whyNotInMap() const
+  {
+    return fmt::format("{}: the poses are in a frame of their own", map_.outcome == PlaceOutcome::LookAlike
+                                                                        ? "two places in this map look alike"
+                                                                        : "not in this map");
   }
 
   SteadyClock::time_point start_ = SteadyClock::now();
@@ -311,6 +371,8 @@ class SlamRun
   TimesSeen times_of_scans_;
   bool imu_of_other_clock_ = false;
   std::vector<MarkedEvent> marks_;
+  MapInUse map_;
+  bool was_in_map_ = false;
   RigCheck check_;
   StageTimes times_;
   RunCounts counts_;
@@ -318,9 +380,9 @@ class SlamRun
 }  // namespace
 
 SlamRunResult runSlam(SensorInput& input, const SlamSettings& settings, const SeeEstimate& see,
-                      const KeepGoing& keepGoing, const Warn& warn, const SeeMark& see_mark)
+                      const KeepGoing& keepGoing, const Warn& warn, const SeeMark& see_mark, const GivenMap& map)
 {
-  SlamRun run(input, settings, see, warn, see_mark);
+  SlamRun run(input, settings, see, warn, see_mark, map);
   bool going = true;
   try
   {

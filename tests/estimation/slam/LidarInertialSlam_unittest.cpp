@@ -7,6 +7,7 @@
 #include "base/core/Angle.h"
 #include "base/core/Decompositions.h"
 #include "estimation/ndt/RayWorld.h"
+#include "estimation/slam/PriorMap.h"
 
 namespace scanloom::lidar_inertial_slam_unittest
 {
@@ -795,5 +796,49 @@ TEST(LidarInertialSlam, sixteenBeamsFollowAMachineThroughAFlatHall)
   }
   EXPECT_LT(largestError(run, machine), 0.25) << "of 25 m";
   for (const StateEstimate& e : run.estimates) EXPECT_EQ(e.health, Health::Ok);
+}
+
+namespace
+{
+/** Of the stand, in its own frame. */
+std::shared_ptr<const PriorMap> mapOf(const StandOfStems& stand, const std::vector<MountedLidar>& lidars)
+{
+  std::vector<Keyframe> keyframes;
+  for (const double x : {0, 4, 8})
+  {
+    const Rigid world_T_body = Rigid::fromXyzYawPitchRoll(x, 0, 0, 0, 0, 0);
+    const Scan scan = stand.scanAt(Timestamp{0s}, [&](Timestamp) { return world_T_body; });
+    keyframes.push_back({scan.end(), world_T_body, scan.points});
+  }
+  return std::make_shared<const PriorMap>(keyframes, lidars, SlamSettings{});
+}
+}  // namespace
+
+TEST(LidarInertialSlam, goesOnInTheMapOfAnEarlierDriveWithItsVelocity)
+{
+  const Machine machine = gentleMachine(3s);
+  const StandOfStems stand;
+  const std::vector<MountedLidar> lidars{{"left", Rigid::fromXyzYawPitchRoll(0, 0, 3, 0, 0, 0)}};
+  LidarInertialSlam slam(withMachineBox(), kBodyTImu, lidars);
+  Driven run;
+  Timestamp imu{0ms};
+  for (Timestamp start{100ms}; start < Timestamp{9s}; start += 100ms)
+  {
+    for (; imu <= start + 105ms; imu += 5ms) slam.addImu(machine.sampleAt(imu));
+    for (StateEstimate& e : slam.addScan(stand.scanAt(start, [&](Timestamp t) { return machine.bodyAt(t); })))
+      run.estimates.push_back(std::move(e));
+    if (start != Timestamp{6s}) continue;
+    slam.enterMap({mapOf(stand, lidars), worldTMap(run, machine), 1e-4 * Matrix6d::Identity()});
+  }
+  const Timestamp entered = run.estimates.back().stamp - 2s;
+  for (const StateEstimate& e : run.estimates)
+  {
+    if (e.stamp < entered) continue;
+    EXPECT_TRUE(e.in_map);
+    EXPECT_EQ(e.health, Health::Ok);
+    EXPECT_FALSE(e.keyframe) << "the map has some";
+    EXPECT_LT((e.map_T_body.translation - machine.bodyAt(e.stamp).translation).norm(), 0.05);
+    EXPECT_LT((e.velocity - machine.imuAt(e.stamp).velocity).norm(), 0.1);
+  }
 }
 }  // namespace scanloom::lidar_inertial_slam_unittest

@@ -1,6 +1,7 @@
 #include "estimation/slam/internal/LocalMap.h"
 
 #include "estimation/ndt/cellAt.h"
+#include "estimation/slam/PriorMap.h"
 #include "support/with.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ namespace scanloom::local_map_unittest
 namespace
 {
 /** A full cube of points around the origin of the body, one cell of the map. */
-std::vector<View> cube()
+PointCloud cubePoints()
 {
   PointCloud points;
   points.resize(27);
@@ -22,8 +23,10 @@ std::vector<View> cube()
     points.y[i] = 0.3f + 0.2f * static_cast<float>(i / 3 % 3);
     points.z[i] = 0.3f + 0.2f * static_cast<float>(i / 9);
   }
-  return viewsOf(points, {});
+  return points;
 }
+
+std::vector<View> cube() { return viewsOf(cubePoints(), {}); }
 
 Rigid at(double x, double yaw_deg = 0) { return Rigid::fromXyzYawPitchRoll(x, 0, 0, yaw_deg * M_PI / 180, 0, 0); }
 }  // namespace
@@ -102,5 +105,49 @@ TEST(LocalMap, aKeyframeIsAlignedToWhatItSees)
   LocalMap further = map;
   EXPECT_GT(map.add(cube(), at(0), alignment)(2, 2), 1.5 * further.add(cube(), at(4), alignment)(2, 2))
       << "it sees the first keyframe, which has no error, instead of the nine; alike if all counted alike";
+}
+
+namespace
+{
+/** Keyframes of an earlier drive, each of a cube. */
+std::shared_ptr<const PriorMap> priorWith(const std::vector<double>& places)
+{
+  std::vector<Keyframe> keyframes;
+  for (const double x : places) keyframes.push_back({Timestamp{}, at(x), cubePoints()});
+  return std::make_shared<const PriorMap>(keyframes, std::vector<MountedLidar>{{}}, SlamSettings{});
+}
+}  // namespace
+
+TEST(LocalMap, takesUpTheNearestKeyframesOfAnEarlierDrive)
+{
+  LocalMap map(with(&LocalMapOptions::keyframes, 2), SlamSettings{}.map_cells, priorWith({0, 10, 20, 60}));
+  map.moveTo({1, 0, 0});
+  EXPECT_EQ(map.ndt().points(), 2u * 27u) << "0 and 10";
+  map.moveTo({2.5, 0, 0});
+  map.moveTo({16, 0, 0});
+  EXPECT_EQ(map.ndt().points(), 2u * 27u) << "10 and 20";
+  EXPECT_EQ(cellAt(map.ndt(), {0, 0, 0}), nullptr);
+  map.moveTo({100, 0, 0});
+  EXPECT_EQ(map.ndt().points(), 0u);
+  EXPECT_TRUE(map.empty());
+}
+
+TEST(LocalMap, wantsOwnKeyframesOnlyWhereNeitherDriveHasOne)
+{
+  LocalMap map({}, SlamSettings{}.map_cells, priorWith({0, 10}));
+  map.moveTo({5, 0, 0});
+  EXPECT_FALSE(map.wants(at(3.9)));
+  EXPECT_FALSE(map.wants(at(10, 90)));
+  EXPECT_TRUE(map.wants(at(5)));
+  map.add(cube(), at(5), Matrix6d::Zero());
+  EXPECT_FALSE(map.wants(at(5)));
+}
+
+TEST(LocalMap, creepsTheLessTheMoreOfAnEarlierDriveItHas)
+{
+  const Matrix6d alignment = 1e-4 * Matrix6d::Identity();
+  LocalMap map({}, SlamSettings{}.map_cells, priorWith({0, 0, 0}));
+  map.moveTo({0, 0, 0});
+  EXPECT_NEAR(map.add(cube(), at(0), alignment)(0, 0), 1e-4 / 16, 1e-9) << "one keyframe of four has an error";
 }
 }  // namespace scanloom::local_map_unittest

@@ -45,6 +45,24 @@ TEST(SmootherReset, theBetterAccelerometerTakesOutTheTiltOfTheOneBefore)
   change.imu.noise.accel_bias_sigma = 2;
   EXPECT_NEAR(tiltDegrees(continuedBy(change, tilted, Rigid::identity())), tiltDegrees(tilted), 0.1);
 }
+
+TEST(SmootherReset, aStateInAnotherFrameKeepsItsVelocityAndBiases)
+{
+  NavEstimate newest = *initialiseAtRest(restingImu({0.02, 0.01, 0}), Rigid::identity(), {}, 0.2);
+  newest.state.velocity = {1, 2, 0.1};
+  newest.covariance.block<3, 3>(6, 6) = Eigen::Vector3d(1e-4, 4e-4, 9e-4).asDiagonal();
+  const Rigid map_T_drive = Rigid::fromXyzYawPitchRoll(10, -20, 3, M_PI / 2, 0, 0);
+  const Matrix6d covariance = 1e-4 * Matrix6d::Identity();
+  const NavEstimate moved = inFrame(map_T_drive, covariance, newest, {Rigid::identity(), {}});
+  EXPECT_LT((moved.state.velocity - Eigen::Vector3d(-2, 1, 0.1)).norm(), 1e-9);
+  EXPECT_LT(boxMinus(moved.state.map_T_imu, map_T_drive * newest.state.map_T_imu).norm(), 1e-12);
+  EXPECT_EQ(moved.state.bias.accel, newest.state.bias.accel);
+  EXPECT_NEAR(moved.covariance(0, 0), 1e-4, 1e-9);
+  EXPECT_NEAR(moved.covariance(6, 6), 4e-4, 1e-9) << "y of the drive is x of the map";
+  EXPECT_NEAR(moved.covariance(12, 12), newest.covariance(12, 12), 1e-12);
+  EXPECT_EQ(moved.covariance(0, 12), 0);
+}
+
 TEST(SmootherReset, aWindowBeginsAlsoWithACovarianceThatRoundingHasSpoilt)
 {
   NavEstimate start{NavState{}, Matrix15d::Identity()};

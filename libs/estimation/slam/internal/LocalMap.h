@@ -1,4 +1,5 @@
-/** The last keyframes (paper, section 2.2), or those nearby, as one NDT map. */
+/** The last keyframes (paper, section 2.2), or those nearby, as one NDT map; in a map of an earlier drive, with its
+ * keyframes nearby. */
 #pragma once
 #include "base/core/Field.h"
 #include "base/core/Rigid.h"
@@ -6,10 +7,14 @@
 #include "estimation/slam/internal/MapDriftModel.h"
 
 #include <deque>
+#include <memory>
 #include <optional>
+#include <vector>
 
 namespace scanloom
 {
+class PriorMap;
+
 struct LocalMapOptions
 {
   double keyframe_distance = 4.0;
@@ -32,11 +37,20 @@ struct LocalMapOptions
 class LocalMap
 {
  public:
-  LocalMap(const LocalMapOptions&, const NdtOptions&);
+  /** `prior`: the map of an earlier drive, in the same frame; none: there is none. */
+  LocalMap(const LocalMapOptions&, const NdtOptions&, std::shared_ptr<const PriorMap> prior = nullptr);
 
-  /** The body is far enough from the newest keyframe for another one; always if there is none. */
+  /**
+   * The body is far enough from the newest keyframe for another one; always if there is none. In the map of an earlier
+   * drive: from all keyframes, its own and that drive's.
+   */
   bool wants(const Rigid& map_T_body) const;
 
+  /** Takes up the nearest keyframes of the earlier drive's map instead of others, once the place is 2 m from the last.
+   */
+  void moveTo(const Eigen::Vector3d& place);
+
+  /** Also gives up the map of an earlier drive. */
   void clear();
 
   /**
@@ -46,7 +60,10 @@ class LocalMap
    */
   Matrix6d add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment);
 
-  bool empty() const { return keyframes_.empty(); }
+  bool empty() const { return keyframes_.empty() && of_prior_.empty(); }
+
+  /** Whether registrations are in the frame of an earlier drive's map. */
+  bool isInPriorMap() const { return prior_ != nullptr; }
 
   /** Where the oldest keyframe of the map is; there must be one. */
   const Eigen::Vector3d& oldest() const;
@@ -69,5 +86,8 @@ class LocalMap
   MapDriftModel errors_;
   ErrorShares map_error_;  // of what the newest keyframe sees
   NdtMap ndt_;
+  std::shared_ptr<const PriorMap> prior_;
+  std::vector<std::size_t> of_prior_;        // its keyframes that are in the map, in increasing order
+  std::optional<Eigen::Vector3d> moved_to_;  // where these were the nearest
 };
 }  // namespace scanloom

@@ -7,6 +7,9 @@
 #include "estimation/ndt/Minimiser.h"
 #include "estimation/ndt/NormalEquations.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,28 +25,46 @@ constexpr std::array kFactors{8, 4, 2, 1};  // cell sizes of the levels over tha
 struct Scored
 {
   Rigid pose;
-  double value;
+  double value = 0;
 };
+
+/** Far off, cells of fewer points mislead. */
+NdtOptions withFullCells(NdtOptions cells)
+{
+  cells.min_points = std::max(cells.min_points, GaussianCell::kMinPointsForCovariance);
+  return cells;
+}
 
 /** Map and scan in cells of several sizes, made once for searches from many places. */
 class Pyramid
 {
  public:
-  Pyramid(const NdtMap& map, const std::vector<View>& views, NdtOptions cells)
+  /** `broad`: the level whose cells are large enough for poses between the starts. */
+  Pyramid(const MapLevels& map, const std::vector<View>& views, const NdtOptions& cells, std::size_t broad = 1)
+    : targets_(map.levels), broad_(broad)
   {
-    cells.min_points = std::max(cells.min_points, GaussianCell::kMinPointsForCovariance);  // far off, others mislead
     std::vector<double> sizes;
-    for (const int factor : kFactors)
-    {
-      targets_.push_back(map.coarser(factor));
-      sizes.push_back(factor * map.options().cell_size);
-    }
-    sources_ = ndtLevels(views, sizes, cells);
+    for (const NdtMap& level : targets_) sizes.push_back(level.options().cell_size);
+    sources_ = ndtLevels(views, sizes, withFullCells(cells));
   }
 
   RegistrationResult align(const PoseGuess& guess, const RegistrationOptions& options) const
   {
     return alignCoarseToFine(pairLevels(targets_, sources_), guess, options);
+  }
+
+  /** Score of each start, in cells that are large enough for poses between the starts; negative. */
+  std::vector<Scored> scored(const std::vector<Rigid>& starts) const
+  {
+    std::vector<Scored> scores(starts.size());
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, starts.size(), 16),
+                      [&](const tbb::blocked_range<std::size_t>& range)
+                      {
+                        CellCorrespondences correspondences(targets_[broad_], sources_[broad_], 7);
+                        for (std::size_t i = range.begin(); i < range.end(); ++i)
+                          scores[i] = {starts[i], normalEquations(correspondences, starts[i], fitted::kBroadD2).value};
+                      });
+    return scores;
   }
 
   /**
@@ -53,15 +74,13 @@ class Pyramid
    */
   std::vector<Rigid> mostPromising(const std::vector<Rigid>& starts, std::size_t count) const
   {
-    const std::size_t level = 1;
     RegistrationOptions few;
     few.d2 = few.first_d2 = fitted::kBroadD2;
     few.max_iterations = 5;
     few.neighbours = 7;
-    CellCorrespondences correspondences(targets_[level], sources_[level], few.neighbours);
+    CellCorrespondences correspondences(targets_[broad_], sources_[broad_], few.neighbours);
     const auto byScore = [](const Scored& a, const Scored& b) { return a.value < b.value; };  // negative
-    std::vector<Scored> best;
-    for (const Rigid& start : starts) best.push_back({start, normalEquations(correspondences, start, few.d2).value});
+    std::vector<Scored> best = scored(starts);
     std::stable_sort(best.begin(), best.end(), byScore);
     best.resize(std::min(count, best.size()));
     for (Scored& s : best)
@@ -76,7 +95,9 @@ class Pyramid
   }
 
  private:
-  std::vector<NdtMap> targets_, sources_;
+  const std::vector<NdtMap>& targets_;
+  std::size_t broad_;
+  std::vector<NdtMap> sources_;
 };
 
 bool agrees(const RegistrationResult& result, const PoseGuess& guess)
@@ -89,19 +110,12 @@ bool fitsAsWell(const RegistrationResult& result, double score)
   return result.score < fitted::kScoreOfAgreement * score;  // scores are negative
 }
 
-bool isFarFrom(const Rigid& pose, const Rigid& other)
-{
-  const Vector6d apart = boxMinus(pose, other);
-  return apart.head<3>().norm() > 1 || apart.tail<3>().norm() > 0.1;
-}
-
-/** Stricter than trustworthy(), which suffices only where the pose is known roughly. */
-bool isPlace(const RegistrationResult& result)
-{
-  return result.outcome == Outcome::Converged && result.overlap >= fitted::kOverlapOfPlace &&
-         result.covariance.topLeftCorner<3, 3>().trace() < fitted::kDeviationOfPlace * fitted::kDeviationOfPlace;
-}
 }  // namespace
+
+MapLevels::MapLevels(const NdtMap& map)
+{
+  for (const int factor : kFactors) levels.push_back(map.coarser(factor));
+}
 
 ScanRegistrationOptions withLimitedEffort(ScanRegistrationOptions options)
 {
@@ -120,7 +134,11 @@ Timed<RegistrationResult> registerRoughly(const NdtMap& map, const std::vector<V
   StageRuns times;
   if (guess.covariance && !isWithinReach(guess, options.scan_cells))
   {
-    const auto throughPyramid = [&] { return Pyramid(map, views, options.fine_cells).align(guess, options.rough); };
+    const auto throughPyramid = [&]
+    {
+      const MapLevels levels(map);
+      return Pyramid(levels, views, options.fine_cells).align(guess, options.rough);
+    };
     return {times.measure("rough_alignment", throughPyramid), times};
   }
   const NdtMap scan = times.measure("scan_ndt", [&] { return NdtMap(views, options.scan_cells, Grid::Turned); });
@@ -191,13 +209,49 @@ std::vector<Rigid> startsWithin(const SearchArea& area)
   return starts;
 }
 
+bool isFarFrom(const Rigid& pose, const Rigid& other)
+{
+  const Vector6d apart = boxMinus(pose, other);
+  return apart.head<3>().norm() > 1 || apart.tail<3>().norm() > 0.1;
+}
+
+bool isPlace(const RegistrationResult& result)
+{
+  return result.outcome == Outcome::Converged && result.overlap >= fitted::kOverlapOfPlace &&
+         result.covariance.topLeftCorner<3, 3>().trace() < fitted::kDeviationOfPlace * fitted::kDeviationOfPlace;
+}
+
+double scoreWithItself(const std::vector<View>& views, const NdtOptions& map_cells, const NdtOptions& cells,
+                       const RegistrationOptions& options)
+{
+  return align(NdtMap(views, map_cells), NdtMap(views, withFullCells(cells)), Rigid::identity(), options).score;
+}
+
+std::vector<RegistrationResult> placesFrom(const MapLevels& map, std::size_t level, const std::vector<View>& views,
+                                           const std::vector<Rigid>& starts, std::size_t count, const NdtOptions& cells,
+                                           const RegistrationOptions& options)
+{
+  const Pyramid pyramid(map, views, cells, level);
+  std::vector<Rigid> apart;
+  for (const Rigid& start : pyramid.mostPromising(starts, 10 * count))
+  {
+    const auto isNear = [&](const Rigid& other) { return !isFarFrom(start, other); };
+    if (apart.size() < count && std::none_of(apart.begin(), apart.end(), isNear)) apart.push_back(start);
+  }
+  std::vector<RegistrationResult> found;
+  for (const Rigid& start : apart) found.push_back(pyramid.align(start, options));
+  std::stable_sort(found.begin(), found.end(), [](auto& a, auto& b) { return a.score < b.score; });
+  return found;
+}
+
 std::optional<RegistrationResult> relocalise(const NdtMap& map, const std::vector<View>& views,
                                              const std::vector<Rigid>& starts,
                                              const std::function<bool(const Rigid& map_T_body)>& isPossible,
                                              const NdtOptions& cells, const RegistrationOptions& options)
 {
   const std::size_t others = 2;  // are tried only where the first is a place
-  const Pyramid pyramid(map, views, cells);
+  const MapLevels levels(map);
+  const Pyramid pyramid(levels, views, cells);
   std::vector<RegistrationResult> found;
   for (const Rigid& start : pyramid.mostPromising(starts, 1 + others))
   {

@@ -47,6 +47,33 @@ Timed<RegistrationResult> registerTwice(const NdtMap& map, const std::vector<Vie
  * where rounding has left the sum of both covariances without an inverse. */
 double mahalanobisOf(const RegistrationResult&, const PoseGuess& predicted);
 
+/** A map in cells of several sizes, coarse first, made once for many searches. */
+struct MapLevels
+{
+  explicit MapLevels(const NdtMap&);
+
+  std::vector<NdtMap> levels;
+};
+
+/** Poses that are not the same, found twice. */
+bool isFarFrom(const Rigid& pose, const Rigid& other);
+
+/** Whether the pose of a body that may be anywhere can be right: stricter than trustworthy(), which suffices only where
+ * the pose is known roughly. */
+bool isPlace(const RegistrationResult&);
+
+/** Score of what was seen with a map made of the same: no map gives much more. */
+double scoreWithItself(const std::vector<View>& seen_from_body, const NdtOptions& map_cells, const NdtOptions& cells,
+                       const RegistrationOptions&);
+
+/**
+ * The poses that alignment finds from the `count` most promising starts that are far from each other, best score first.
+ * `level`: whose cells are large enough for poses between the starts. Nothing says that any of them is right.
+ */
+std::vector<RegistrationResult> placesFrom(const MapLevels&, std::size_t level, const std::vector<View>& seen_from_body,
+                                           const std::vector<Rigid>& starts, std::size_t count, const NdtOptions& cells,
+                                           const RegistrationOptions&);
+
 /** Where a lost body is searched. */
 struct SearchArea
 {

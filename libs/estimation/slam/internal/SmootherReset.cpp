@@ -109,6 +109,22 @@ NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, co
   return found;
 }
 
+NavEstimate inFrame(const Rigid& map_T_drive, const Matrix6d& body_covariance, const NavEstimate& newest,
+                    const MountedImu& imu)
+{
+  const Eigen::Matrix3d map_R_drive = map_T_drive.rotation.toRotationMatrix();
+  NavEstimate moved = newest;
+  moved.state.map_T_imu = map_T_drive * newest.state.map_T_imu;
+  moved.state.velocity = map_R_drive * newest.state.velocity;
+  const Matrix6d tilt =
+      tiltCovariance(moved.state.map_T_imu * imu.body_T_imu.inverse(), imu.noise.accel_bias_sigma / kGravity);
+  moved.covariance.setZero();
+  moved.covariance.topLeftCorner<6, 6>() = movedTo(imu.body_T_imu, body_covariance + tilt);
+  moved.covariance.block<3, 3>(6, 6) = map_R_drive * newest.covariance.block<3, 3>(6, 6) * map_R_drive.transpose();
+  moved.covariance.bottomRightCorner<6, 6>() = newest.covariance.bottomRightCorner<6, 6>();
+  return moved;
+}
+
 bool knowsVelocity(const NavEstimate& estimate)
 {
   return estimate.covariance.diagonal().segment<3>(6).maxCoeff() < kAtRest * kAtRest;

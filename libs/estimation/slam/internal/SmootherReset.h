@@ -39,6 +39,13 @@ NavEstimate continuedBy(const ImuChange&, const NavEstimate& newest, const Rigid
 NavEstimate foundAt(const Rigid& map_T_body, const Matrix6d& body_covariance, const NavEstimate& newest,
                     const ImuBias& bias, const MountedImu&);
 
+/**
+ * The newest state in the frame of another level map, in which the body's pose has this covariance and the map is level
+ * within accel_bias_sigma / gravity. Velocity and biases stay as well known as they are, each by itself.
+ */
+NavEstimate inFrame(const Rigid& map_T_drive, const Matrix6d& body_covariance, const NavEstimate& newest,
+                    const MountedImu&);
+
 /** Whether the velocity is known better than atRest() assumes it. */
 bool knowsVelocity(const NavEstimate&);
 

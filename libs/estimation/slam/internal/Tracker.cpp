@@ -86,7 +86,10 @@ StateEstimate estimateOf(DeskewedScan seen, const Prediction& predicted, const C
   estimate.stamp = seen.stamp;
   estimate.map_T_body = scan.body.map_T_body;
   estimate.covariance = scan.body.covariance;
-  estimate.since_start = since_start + scaleError(scan.body.map_T_body);
+  estimate.in_map = map.local_map.isInPriorMap();
+  estimate.since_start = since_start;
+  // In the map of an earlier drive the way since that one's start is part of the map.
+  if (!estimate.in_map) estimate.since_start += scaleError(scan.body.map_T_body);
   estimate.correction = boxMinus(scan.body.map_T_body, predicted.map_T_body);
   estimate.velocity = scan.body.velocity;
   estimate.imu_bias = scan.body.window.smoother.newest().bias;
@@ -248,6 +251,7 @@ UpdatedMap Tracker::updateMap(LocalMap local_map, const DeskewedScan& seen, cons
   map.restarted = scan.begins_map && !map.local_map.empty();
   if (map.restarted) map.local_map.clear();
   const Rigid local_T_body = map.window.map_T_local().inverse() * scan.body.map_T_body;
+  map.local_map.moveTo(local_T_body.translation);
   const bool is_wanted = map.local_map.empty() || (isSure(seen, scan) && map.local_map.wants(local_T_body));
   if (!is_wanted) return map;
   StageRuns times;
@@ -266,7 +270,9 @@ UpdatedMap Tracker::withKeyframe(UpdatedMap map, const DeskewedScan& seen, const
   else
     map.window.before += drift;
   map.keyframe = Keyframe{seen.stamp, map_T_local * pose.local_T_body, seen.cloud};
-  if (settings_.slam.relative && !map.window.smoother.hasAnchor()) map.window.anchorAt(local_T_body);
+  // The map of an earlier drive does not move: registrations in it are poses, not relative to a keyframe.
+  const bool is_relative = settings_.slam.relative && !map.local_map.isInPriorMap();
+  if (is_relative && !map.window.smoother.hasAnchor()) map.window.anchorAt(local_T_body);
   return map;
 }
 
@@ -281,6 +287,22 @@ KeyframePose Tracker::alignFinely(const UpdatedMap& map, const std::vector<View>
   const RegistrationResult fine = align(map.local_map.ndt(), source, guess, settings_.registration.fine);
   if (!fine.trustworthy()) return estimated;
   return {fine.target_T_source, inverse(fine.information + inverse(estimated.covariance))};
+}
+
+TrackerState Tracker::enterMap(const TrackerState& before, const MapEntry& entry) const
+{
+  const MountedImu imu = before.window.imu();
+  const NavEstimate start = inFrame(entry.map_T_drive, entry.covariance, before.window.newest(), imu);
+  const Timestamp stamp = start.state.stamp;
+  const Rigid map_T_body = start.state.map_T_imu * imu.body_T_imu.inverse();
+  TrackerState state{windowFrom(start, imu, settings_.smoother),
+                     LocalMap(settings_.local_map, settings_.map_cells, entry.map)};
+  state.local_map.moveTo(map_T_body.translation);
+  state.trust.last_trusted = stamp;
+  state.trust.initialising_until = before.trust.initialising_until;
+  state.scans_seen = before.scans_seen;
+  state.last_good = {stamp, start.state.velocity, movedTo(map_T_body.inverse(), entry.covariance)};
+  return state;
 }
 
 TrackerState Tracker::changeImu(TrackerState state, const ImuChange& change) const

@@ -2,12 +2,14 @@
 #pragma once
 #include "base/core/MountedLidar.h"
 #include "base/core/StageTimes.h"
+#include "estimation/slam/PriorMap.h"
 #include "estimation/slam/internal/HealthMonitor.h"
 #include "estimation/slam/internal/SlamSettings.h"
 #include "estimation/slam/internal/TrackerState.h"
 #include "estimation/slam/internal/TrackingSteps.h"
 #include "input/batching/Scan.h"
 
+#include <memory>
 #include <vector>
 
 namespace scanloom
@@ -17,6 +19,14 @@ struct TrackedScan
   TrackerState state;
   StateEstimate estimate;
   StageRuns times;
+};
+
+/** Where a drive is found in the map of an earlier one. */
+struct MapEntry
+{
+  std::shared_ptr<const PriorMap> map;
+  Rigid map_T_drive;
+  Matrix6d covariance;  // of the body's pose in the map, tangent of boxPlus
 };
 
 class Tracker
@@ -30,6 +40,9 @@ class Tracker
   /** The state after a scan without the machine's points. The samples are the IMU's from the newest state to the scan's
    * end (ImuBuffer::between). */
   TrackedScan step(TrackerState, Scan, const std::vector<ImuSample>&) const;
+
+  /** The same state in the frame of the map; what was registered before is in another one and forgotten. */
+  TrackerState enterMap(const TrackerState&, const MapEntry&) const;
 
   /** The same state, as another IMU of the same body continues it. */
   TrackerState changeImu(TrackerState, const ImuChange&) const;

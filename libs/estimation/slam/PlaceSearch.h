@@ -1,0 +1,73 @@
+/** Finds a drive in a map that an earlier one has made, without knowing where in it the drive started. */
+#pragma once
+#include "estimation/slam/PriorMap.h"
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace scanloom
+{
+/** Where a drive's frame is in a map's frame, by what its last keyframes have seen. */
+struct FoundPlace
+{
+  Rigid map_T_drive;
+  Rigid map_T_body;      // at the newest keyframe
+  Matrix6d covariance;   // of map_T_body, tangent of boxPlus
+  double agreement = 0;  // score over that of the keyframes with themselves: 1 if the map were made of them
+};
+
+enum class PlaceOutcome
+{
+  Found,
+  Unconfirmed,  // by one keyframe only
+  LookAlike,    // places fit about as well as each other
+  NotInMap,
+};
+
+struct SearchedPlace
+{
+  PlaceOutcome outcome = PlaceOutcome::NotInMap;
+  std::optional<FoundPlace> place;  // Found or Unconfirmed
+};
+
+class PlaceSearch
+{
+ public:
+  /**
+   * `about`: where the body is at the drive's first keyframe, within 6 m and 30 deg of heading; none: anywhere in the
+   * map.
+   */
+  PlaceSearch(std::shared_ptr<const PriorMap>, const SlamSettings&, const std::vector<MountedLidar>&,
+              const std::optional<Rigid>& about = std::nullopt);
+
+  /**
+   * Searches what the drive's last keyframes, this one included, have seen together. A place is found if two keyframes
+   * have it independently, or one where the place is known about. Both frames are level.
+   */
+  SearchedPlace add(const Keyframe& in_drive);
+
+ private:
+  struct Seen
+  {
+    Rigid drive_T_body;
+    std::vector<View> views;  // from the body
+  };
+
+  std::vector<View> seenFrom(const Rigid& drive_T_level) const;
+  std::vector<Rigid> starts(double grid, const Rigid& drive_T_level) const;
+  SearchedPlace confirmed(const FoundPlace&, const Rigid& drive_T_body);
+
+  std::shared_ptr<const PriorMap> map_;
+  NdtOptions map_cells_, cells_;
+  RegistrationOptions alignment_;
+  MapLevels levels_;
+  std::vector<Rigid> body_T_lidar_;
+  CellCorrections corrections_;
+  std::optional<Rigid> about_;
+  std::optional<Rigid> map_T_drive_about_;  // from the first keyframe on
+  std::optional<Rigid> map_T_drive_;        // by the last keyframe that had a place
+  std::deque<Seen> seen_;
+};
+}  // namespace scanloom

@@ -1,0 +1,82 @@
+// Two drives through one stand: the second one is localised in the map of the first.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/formats/Trajectory.h"
+#include "support/TemporaryFolder.h"
+#include "support/runProgram.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace scanloom::in_a_map_unittest
+{
+namespace
+{
+using testing::HasSubstr;
+
+struct InAMap : testing::Test
+{
+  TemporaryFolder folder;
+
+  std::string in(const std::string& name) const { return (folder / name).string(); }
+
+  void simulate(const std::string& name, const std::string& settings) const
+  {
+    const std::string command = SCANLOOM_BIN_DIR "/scanloom simulate -c " SCANLOOM_SOURCE_DIR
+                                                 "/params/simulation/sparse.ini --set simulated_stand.seed=7 "
+                                                 "--set simulated_drive.standstill=3 " +
+                                settings + " --out-dir " + in(name) + " 2>&1";
+    const Ended ended = runProgram(command);
+    ASSERT_EQ(ended.status, 0) << ended.output;
+  }
+
+  Ended slam(const std::string& recording, const std::string& settings) const
+  {
+    return runProgram(SCANLOOM_BIN_DIR "/scanloom slam " + in(recording) + " " + settings +
+                      " --every-nth 2 --out-dir " + in(recording + "_slam") + " 2>&1 </dev/null");
+  }
+
+  Trajectory truthOf(const std::string& recording) const { return readTum(folder / recording / "groundtruth.tum"); }
+  Trajectory posesOf(const std::string& recording) const
+  {
+    return readTum(folder / (recording + "_slam") / "trajectory.tum");
+  }
+};
+
+/** The true pose at the time of an estimate, within a step of the truth. */
+Rigid poseAt(const Trajectory& truth, Timestamp stamp)
+{
+  const auto earlier = [](const StampedPose& pose, Timestamp t) { return pose.stamp < t; };
+  return std::lower_bound(truth.begin(), truth.end() - 1, stamp, earlier)->map_T_body;
+}
+}  // namespace
+
+TEST_F(InAMap, aSecondDriveHasItsPosesInTheFrameOfTheFirst)
+{
+  simulate("first", "--seed 1 --set simulated_drive.duration=20");
+  simulate("second",
+           "--seed 2 --set simulated_drive.duration=16 --set simulated_drive.start=3 "
+           "--set simulated_drive.left=0.5");
+  Ended ended = slam("first", "");
+  ASSERT_EQ(ended.status, 0) << ended.output;
+  ended = slam("second", "--map " + in("first_slam"));
+  ASSERT_EQ(ended.status, 0) << ended.output;
+  EXPECT_THAT(ended.output, HasSubstr("found in the map after "));
+
+  const Trajectory map = posesOf("first"), poses = posesOf("second"), truth = truthOf("second");
+  const Rigid world_T_map = poseAt(truthOf("first"), map.front().stamp) * map.front().map_T_body.inverse();
+  ASSERT_GT(poses.size(), 30U);
+  for (const StampedPose& pose : poses)
+    EXPECT_LT(boxMinus(world_T_map * pose.map_T_body, poseAt(truth, pose.stamp)).head<3>().norm(), 0.15);
+}
+
+TEST_F(InAMap, aFolderWithoutAMapSaysWhatToDo)
+{
+  simulate("drive", "--seed 1 --set simulated_drive.duration=4");
+  const Ended ended = slam("drive", "--map " + in("drive"));
+  EXPECT_EQ(ended.status, 2) << ended.output;
+  EXPECT_THAT(ended.output, HasSubstr("result folder of `scanloom slam`"));
+}
+}  // namespace scanloom::in_a_map_unittest
