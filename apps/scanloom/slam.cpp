@@ -113,7 +113,7 @@ class FoundInMap
   void tell(const RunProgress& progress, InputDisplay& display)
   {
     if (!progress.found_after || std::exchange(told_, true)) return;
-    display.say(fmt::format("found in the map after {:.1f} s", *progress.found_after));
+    display.say(fmt::format("found in the map after {:.1f} s", seconds(*progress.found_after)));
   }
 
  private:

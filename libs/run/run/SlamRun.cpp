@@ -1,10 +1,10 @@
 #include "run/run/SlamRun.h"
 
 #include "estimation/slam/ConstantMotion.h"
-#include "estimation/slam/PlaceSearch.h"
 #include "input/rig/silentLidars.h"
 #include "run/run/ImuInUse.h"
 #include "run/run/internal/CropReport.h"
+#include "run/run/internal/MapInUse.h"
 #include "run/run/internal/RunCounts.h"
 #include "run/run/internal/reasonOf.h"
 
@@ -68,25 +68,6 @@ std::map<int, RigImu> imusOf(const SensorSetup& setup)
   return imus;
 }
 
-/** The search for the drive in the map of an earlier run, and what it found. */
-struct MapInUse
-{
-  std::shared_ptr<const PriorMap> map;
-  std::optional<PlaceSearch> search;  // until it has found the drive
-  PlaceOutcome outcome = PlaceOutcome::NotInMap;
-  Rigid map_T_drive{};
-  double found_after = 0;  // s, from the first pose
-
-  bool isFound() const { return map && !search; }
-};
-
-/** The same in the frame in which the drive began. */
-Keyframe inDrive(Keyframe keyframe, const Rigid& map_T_drive)
-{
-  keyframe.map_T_body = map_T_drive.inverse() * keyframe.map_T_body;
-  return keyframe;
-}
-
 /** Two registrations in a row give a turn without the IMU. A keyframe of the start still drifts. */
 LocalisedScan localised(const StateEstimate& estimate)
 {
@@ -110,10 +91,9 @@ class SlamRun
       settings_(settings),
       imu_(chosenImu(input, settings.slam.imu, fromSeconds(1e-3 * settings.slam.imu_delay_ms))),
       slam_(settingsInUse(), imuPose(), mountedLidars(lidars())),
-      check_(mountedLidars(lidars()), imusOf(input.setup()), imu_ ? std::optional(imu_->sensor()) : std::nullopt, warn)
+      check_(mountedLidars(lidars()), imusOf(input.setup()), imu_ ? std::optional(imu_->sensor()) : std::nullopt, warn),
+      map_(given, settings, mountedLidars(lidars()))
   {
-    map_.map = given.map;
-    if (given.map) map_.search.emplace(given.map, settings, mountedLidars(lidars()), given.map_T_body);
   }
 
   /** Waits for an event no longer than a person who wants to stop it would. */
@@ -131,7 +111,7 @@ class SlamRun
   {
     if (mayGoWithoutImu()) goOnWithoutImu();
     keep(slam_.finish());
-    if (map_.search) warn_(whyNotInMap());
+    if (map_.isSearched()) warn_(map_.whyNotFound());
     times_.measure("rig_check", [&] { check_.finish(); });
     for (const auto& [name, refused] : refusedReadings())
       warn_(fmt::format("the IMU '{}': samples were refused: {}", name, refused.toString()));
@@ -149,8 +129,7 @@ class SlamRun
   RunProgress progress() const
   {
     const double waited = 1e-3 * times_.stages().at("input").total_ms;
-    return {input_.progress(), counts_.scans, counts_.recorded(), secondsSince(start_) - waited,
-            map_.isFound() ? std::optional(map_.found_after) : std::nullopt};
+    return {input_.progress(), counts_.scans, counts_.recorded(), secondsSince(start_) - waited, map_.foundAfter()};
   }
 
   bool hasBegun() const { return counts_.scans > 0; }
@@ -171,7 +150,8 @@ class SlamRun
     const bool whole = slam_.mapRestarts() == 0;
     const RigAccount account = input_.account();
     const bool silent = !silentLidars(account).empty();
-    result.passed = counts_.passed() && whole && !silent && !check_.warned() && !imu_of_other_clock_ && !map_.search;
+    result.passed =
+        counts_.passed() && whole && !silent && !check_.warned() && !imu_of_other_clock_ && !map_.isSearched();
     result.with_imu = imu_.has_value();
     summary.imu = check_.imu();
     summary.lidars = check_.lidars();
@@ -179,7 +159,7 @@ class SlamRun
     if (silent && summary.outcome == "OK") summary.outcome = "LIDAR MISSING";
     if (imu_of_other_clock_ && summary.outcome == "OK") summary.outcome = "IMU MISSING";
     if (check_.warned() && summary.outcome == "OK") summary.outcome = "RIG NOT FIT";
-    if (map_.search && counts_.passed() && whole && !interrupted) summary.outcome = "NOT IN MAP";
+    if (map_.isSearched() && counts_.passed() && whole && !interrupted) summary.outcome = "NOT IN MAP";
     summary.counts = countsOf(account);
     summary.counts["scans_skipped"] = slam_.skippedScans();
     summary.counts["recoveries"] = slam_.recoveries();
@@ -318,41 +298,24 @@ class SlamRun
       if (motion_) motion_->update(estimate);
       times_.measure("rig_check", [&] { check(estimate); });
       see_(estimate);
-      if (map_.search && estimate.keyframe) times_.measure("place_search", [&] { search(*estimate.keyframe); });
     }
+    std::optional<MapEntry> entry;
+    times_.measure("place_search", [&] { entry = map_.add(estimates); });
+    if (!entry) return;
+    slam_.enterMap(*entry);
+    if (motion_) motion_->enterMap(entry->map_T_drive);
   }
 
   /** The lidars are compared over the whole drive: in the frame in which it began. */
   void check(const StateEstimate& estimate)
   {
     LocalisedScan scan = localised(estimate);
-    const bool enters = estimate.in_map && !std::exchange(was_in_map_, estimate.in_map);
-    if (enters) scan.registered.reset();  // a step from one frame to the other is no turn
+    // A step from one frame to the other is no turn.
+    if (std::exchange(was_in_map_, estimate.in_map) != estimate.in_map) scan.registered.reset();
     std::optional<Keyframe> in_drive;
-    if (scan.keyframe && estimate.in_map) in_drive = inDrive(*scan.keyframe, map_.map_T_drive);
+    if (scan.keyframe && map_.foundAfter()) in_drive = map_.inDrive(*scan.keyframe);
     if (in_drive) scan.keyframe = &*in_drive;
     check_.add(scan);
-  }
-
-  /** From the next scan on, estimates are in the map if the keyframe is found there. */
-  void search(const Keyframe& keyframe)
-  {
-    const SearchedPlace searched = map_.search->add(keyframe);
-    map_.outcome = searched.outcome;
-    if (searched.outcome != PlaceOutcome::Found) return;
-    const FoundPlace& place = *searched.place;
-    slam_.enterMap({map_.map, place.map_T_drive, place.covariance});
-    if (motion_) motion_->enterMap(place.map_T_drive);
-    map_.map_T_drive = place.map_T_drive;
-    map_.found_after = counts_.recorded();
-    map_.search.reset();
-  }
-
-  std::string whyNotInMap() const
-  {
-    return fmt::format("{}: the poses are in a frame of their own", map_.outcome == PlaceOutcome::LookAlike
-                                                                        ? "two places in this map look alike"
-                                                                        : "not in this map");
   }
 
   SteadyClock::time_point start_ = SteadyClock::now();
@@ -371,9 +334,9 @@ class SlamRun
   TimesSeen times_of_scans_;
   bool imu_of_other_clock_ = false;
   std::vector<MarkedEvent> marks_;
-  MapInUse map_;
-  bool was_in_map_ = false;
   RigCheck check_;
+  MapInUse map_;
+  bool was_in_map_ = false;  // at the scan before
   StageTimes times_;
   RunCounts counts_;
 };

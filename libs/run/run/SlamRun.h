@@ -14,9 +14,9 @@ struct RunProgress
 {
   double share = 0;  // of the input that was read, 0 to 1
   std::uint64_t scans = 0;
-  double recorded = 0;                // s, from the first pose to the newest
-  double busy = 0;                    // s, without waiting for input
-  std::optional<double> found_after;  // s, from the first pose until the drive was found in the map given
+  double recorded = 0;                  // s, from the first pose to the newest
+  double busy = 0;                      // s, without waiting for input
+  std::optional<Duration> found_after;  // from the first pose until the drive was found in the map given
 };
 
 /** Called after each event, and when none came for 0.1 s; false stops the run and keeps what was processed. */
@@ -58,7 +58,8 @@ struct SlamRunResult
  * or when a scan arrives that ends ImuInUse::patience() later. By then, if the IMU is silent and another one is not,
  * that one has taken over, and the scan is processed with its samples.
  *
- * With a map, each keyframe is searched in it until one is found; from there on, estimates are in the map's frame.
+ * With a map, the drive is searched in it, keyframe by keyframe and beside the run, until it is found, and again where
+ * it was LOST for so long that a new map began. From there on, estimates are in the map's frame.
  */
 SlamRunResult runSlam(
     SensorInput&, const SlamSettings&, const SeeEstimate&, const KeepGoing&, const Warn&,
