@@ -101,6 +101,15 @@ bool areSame(const Rigid& map_T_body, const Rigid& other)
   return apart.head<3>().norm() < fitted::kSamePlace && apart.tail<3>().norm() < fitted::kSamePlaceDeg * kDegree;
 }
 
+/** Keyframes of one drive, and places in the map beside each other, err alike: a registration of all of them states too
+ * little. Places that may differ by so much are known to a third of it. */
+Matrix6d withSharedErrors(Matrix6d covariance)
+{
+  covariance.diagonal().head<3>().array() += std::pow(fitted::kSamePlace / 3, 2);
+  covariance.diagonal().tail<3>().array() += std::pow(fitted::kSamePlaceDeg * kDegree / 3, 2);
+  return covariance;
+}
+
 /** Nothing, one place, or places that look alike. Candidates come best first. */
 struct Judged
 {
@@ -159,10 +168,10 @@ SearchedPlace PlaceSearch::add(const Keyframe& keyframe)
   }
   if (!found.place) return {found.outcome, std::nullopt};
   const Rigid map_T_drive = found.place->target_T_source * drive_T_level.inverse();
-  return confirmed(
-      {map_T_drive, map_T_drive * drive_T_body,
-       movedTo(drive_T_level.inverse() * drive_T_body, found.place->covariance), found.place->score / own_score},
-      drive_T_body);
+  return confirmed({map_T_drive, map_T_drive * drive_T_body,
+                    withSharedErrors(movedTo(drive_T_level.inverse() * drive_T_body, found.place->covariance)),
+                    found.place->score / own_score},
+                   drive_T_body);
 }
 
 std::vector<View> PlaceSearch::seenFrom(const Rigid& drive_T_level) const
