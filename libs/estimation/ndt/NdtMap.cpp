@@ -360,12 +360,12 @@ Eigen::Vector3i NdtMap::indexOf(const Eigen::Vector3d& in_points_frame) const
 
 namespace
 {
-template <typename Points>
-std::vector<NdtMap> levelsOf(const Points& points, const std::vector<double>& cell_sizes, NdtOptions options)
+template <typename MapOfCells>
+std::vector<NdtMap> levelsOf(const MapOfCells& mapOf, const std::vector<double>& cell_sizes, NdtOptions options)
 {
   if (cell_sizes.empty()) throw std::invalid_argument("ndtLevels: at least one size of cells is needed");
   options.cell_size = *std::min_element(cell_sizes.begin(), cell_sizes.end());
-  const NdtMap finest(points, options);
+  const NdtMap finest = mapOf(options);
   std::vector<NdtMap> levels;
   for (const double size : cell_sizes)
   {
@@ -377,7 +377,7 @@ std::vector<NdtMap> levelsOf(const Points& points, const std::vector<double>& ce
     else if (times == std::floor(times))
       levels.push_back(finest.coarser(static_cast<int>(times)));
     else
-      levels.emplace_back(points, own);
+      levels.push_back(mapOf(own));
   }
   return levels;
 }
@@ -386,11 +386,12 @@ std::vector<NdtMap> levelsOf(const Points& points, const std::vector<double>& ce
 std::vector<NdtMap> ndtLevels(const std::vector<Eigen::Vector3f>& points, const std::vector<double>& cell_sizes,
                               NdtOptions options)
 {
-  return levelsOf(points, cell_sizes, options);
+  return levelsOf([&](const NdtOptions& o) { return NdtMap(points, o); }, cell_sizes, options);
 }
 
-std::vector<NdtMap> ndtLevels(const std::vector<View>& views, const std::vector<double>& cell_sizes, NdtOptions options)
+std::vector<NdtMap> ndtLevels(const std::vector<View>& views, const std::vector<double>& cell_sizes, NdtOptions options,
+                              Grid grid)
 {
-  return levelsOf(views, cell_sizes, options);
+  return levelsOf([&](const NdtOptions& o) { return NdtMap(views, o, grid); }, cell_sizes, options);
 }
 }  // namespace scanloom

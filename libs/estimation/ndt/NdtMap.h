@@ -121,5 +121,5 @@ class NdtMap
  * NdtMap does.
  */
 std::vector<NdtMap> ndtLevels(const std::vector<Eigen::Vector3f>&, const std::vector<double>& cell_sizes, NdtOptions);
-std::vector<NdtMap> ndtLevels(const std::vector<View>&, const std::vector<double>& cell_sizes, NdtOptions);
+std::vector<NdtMap> ndtLevels(const std::vector<View>&, const std::vector<double>& cell_sizes, NdtOptions, Grid);
 }  // namespace scanloom

@@ -45,7 +45,7 @@ class Pyramid
   {
     std::vector<double> sizes;
     for (const NdtMap& level : targets_) sizes.push_back(level.options().cell_size);
-    sources_ = ndtLevels(views, sizes, withFullCells(cells));
+    sources_ = ndtLevels(views, sizes, withFullCells(cells), Grid::Turned);
   }
 
   RegistrationResult align(const PoseGuess& guess, const RegistrationOptions& options) const
@@ -224,7 +224,7 @@ bool isPlace(const RegistrationResult& result)
 double scoreWithItself(const std::vector<View>& views, const NdtOptions& map_cells, const NdtOptions& cells,
                        const RegistrationOptions& options)
 {
-  return align(NdtMap(views, map_cells), NdtMap(views, withFullCells(cells)), Rigid::identity(), options).score;
+  return align(NdtMap(views, map_cells), NdtMap(views, withFullCells(cells), Grid::Turned), Rigid::identity(), options).score;
 }
 
 std::vector<RegistrationResult> placesFrom(const MapLevels& map, std::size_t level, const std::vector<View>& views,
