@@ -28,6 +28,26 @@ struct Scored
   double value = 0;
 };
 
+bool hasBetterScore(const Scored& a, const Scored& b) { return a.value < b.value; }  // scores are negative
+
+std::vector<Rigid> posesOf(const std::vector<Scored>& scored)
+{
+  std::vector<Rigid> poses;
+  for (const Scored& s : scored) poses.push_back(s.pose);
+  return poses;
+}
+
+constexpr std::size_t kAllCells = std::numeric_limits<std::size_t>::max();
+
+/** `most` of the cells, or all; their order is that of places. */
+std::vector<GaussianCell> evenly(const std::vector<GaussianCell>& cells, std::size_t most)
+{
+  if (cells.size() <= most) return cells;
+  std::vector<GaussianCell> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(cells[i * cells.size() / most]);
+  return some;
+}
+
 /** Far off, cells of fewer points mislead. */
 NdtOptions withFullCells(NdtOptions cells)
 {
@@ -53,17 +73,24 @@ class Pyramid
     return alignCoarseToFine(pairLevels(targets_, sources_), guess, options);
   }
 
-  /** Score of each start, in cells that are large enough for poses between the starts; negative. */
-  std::vector<Scored> scored(const std::vector<Rigid>& starts) const
+  /**
+   * The `count` starts with the best scores, best first, by `most` of the scan's cells, evenly among all. Cells are
+   * large enough for poses between the starts.
+   */
+  std::vector<Scored> best(const std::vector<Rigid>& starts, std::size_t count, std::size_t most) const
   {
+    const std::vector<GaussianCell> cells = evenly(sources_[broad_].cells(), most);
     std::vector<Scored> scores(starts.size());
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, starts.size(), 16),
                       [&](const tbb::blocked_range<std::size_t>& range)
                       {
-                        CellCorrespondences correspondences(targets_[broad_], sources_[broad_], 7);
+                        CellCorrespondences correspondences(targets_[broad_], cells,
+                                                            sources_[broad_].options().cell_size, 7);
                         for (std::size_t i = range.begin(); i < range.end(); ++i)
                           scores[i] = {starts[i], normalEquations(correspondences, starts[i], fitted::kBroadD2).value};
                       });
+    std::stable_sort(scores.begin(), scores.end(), hasBetterScore);
+    scores.resize(std::min(count, scores.size()));
     return scores;
   }
 
@@ -79,19 +106,14 @@ class Pyramid
     few.max_iterations = 5;
     few.neighbours = 7;
     CellCorrespondences correspondences(targets_[broad_], sources_[broad_], few.neighbours);
-    const auto byScore = [](const Scored& a, const Scored& b) { return a.value < b.value; };  // negative
-    std::vector<Scored> best = scored(starts);
-    std::stable_sort(best.begin(), best.end(), byScore);
-    best.resize(std::min(count, best.size()));
-    for (Scored& s : best)
+    std::vector<Scored> moved = best(starts, count, kAllCells);
+    for (Scored& s : moved)
     {
       const Minimum near = minimise(correspondences, s.pose, {}, few, {});
       s = {near.target_T_source, near.equations.value};
     }
-    std::stable_sort(best.begin(), best.end(), byScore);
-    std::vector<Rigid> poses;
-    for (const Scored& s : best) poses.push_back(s.pose);
-    return poses;
+    std::stable_sort(moved.begin(), moved.end(), hasBetterScore);
+    return posesOf(moved);
   }
 
  private:
@@ -224,16 +246,19 @@ bool isPlace(const RegistrationResult& result)
 double scoreWithItself(const std::vector<View>& views, const NdtOptions& map_cells, const NdtOptions& cells,
                        const RegistrationOptions& options)
 {
-  return align(NdtMap(views, map_cells), NdtMap(views, withFullCells(cells), Grid::Turned), Rigid::identity(), options).score;
+  return align(NdtMap(views, map_cells), NdtMap(views, withFullCells(cells), Grid::Turned), Rigid::identity(), options)
+      .score;
 }
 
 std::vector<RegistrationResult> placesFrom(const MapLevels& map, std::size_t level, const std::vector<View>& views,
                                            const std::vector<Rigid>& starts, std::size_t count, const NdtOptions& cells,
                                            const RegistrationOptions& options)
 {
+  constexpr std::size_t kCellsToScreen = 500;  // of some thousand: a tenth of the time
   const Pyramid pyramid(map, views, cells, level);
   std::vector<Rigid> apart;
-  for (const Rigid& start : pyramid.mostPromising(starts, 10 * count))
+  const std::vector<Rigid> likely = posesOf(pyramid.best(starts, 100 * count, kCellsToScreen));
+  for (const Rigid& start : pyramid.mostPromising(likely, 10 * count))
   {
     const auto isNear = [&](const Rigid& other) { return !isFarFrom(start, other); };
     if (apart.size() < count && std::none_of(apart.begin(), apart.end(), isNear)) apart.push_back(start);
