@@ -8,5 +8,6 @@ void bindScans(pybind11::module_&);         // Cloud, Scan, ImuSamples, Scans
 void bindPoses(pybind11::module_&);         // Pose, Slam, write_trajectory
 void bindOdometry(pybind11::module_&);      // Odometry
 void bindRegistration(pybind11::module_&);  // Registration, register
+void bindSite(pybind11::module_&);          // Place, Site
 void bindEvaluation(pybind11::module_&);    // Evaluation, evaluate
 }  // namespace scanloom

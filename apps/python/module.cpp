@@ -61,5 +61,6 @@ PYBIND11_MODULE(_scanloom, m)
   scanloom::bindPoses(m);
   scanloom::bindOdometry(m);
   scanloom::bindRegistration(m);
+  scanloom::bindSite(m);
   scanloom::bindEvaluation(m);
 }

@@ -5,7 +5,7 @@ import re
 import unittest
 from pathlib import Path
 
-from support import DRIVE, SOURCE, python
+from support import DRIVE, SOURCE, program, python
 
 PAGE = (SOURCE / "doc" / "python.md").read_text()
 EXAMPLES = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
@@ -16,6 +16,8 @@ class Page(unittest.TestCase):
     def setUpClass(cls):
         if not Path("drive").exists():
             Path("drive").symlink_to(DRIVE)
+        ended = program("slam", "drive", "--out-dir", "map", "-w")
+        assert ended.returncode == 0, ended.stderr
 
     def test_has_ten_examples(self):
         self.assertEqual(re.findall(r"^\*\*(\d+)\. ", PAGE, re.MULTILINE), [str(i) for i in range(1, 11)])

@@ -10,11 +10,11 @@ ends a loop over scans or poses.
 import os
 
 from . import _scanloom
-from ._scanloom import (Cloud, Evaluation, ImuSamples, Pose, Registration, Scan, Scans, ScanloomWarning, Slam,
+from ._scanloom import (Cloud, Evaluation, ImuSamples, Place, Pose, Registration, Scan, Scans, ScanloomWarning, Slam,
                         UsageError, __version__)
 
-__all__ = ["Cloud", "Configuration", "Evaluation", "ImuSamples", "Odometry", "Pose", "Registration", "Scan", "Scans",
-           "ScanloomWarning", "Slam", "UsageError", "evaluate", "register", "scans", "slam", "write_trajectory"]
+__all__ = ["Cloud", "Configuration", "Evaluation", "ImuSamples", "Odometry", "Place", "Pose", "Registration", "Scan",
+           "Scans", "ScanloomWarning", "Site", "Slam", "UsageError", "evaluate", "register", "scans", "slam", "write_trajectory"]
 
 
 class Configuration:
@@ -113,6 +113,28 @@ def _file_or_poses(given):
 def write_trajectory(file, poses):
     """Writes poses as TUM (.tum), EuRoC (.csv) or KITTI (.txt), by the file's ending."""
     _scanloom.write_trajectory(file, list(poses))
+
+
+class Site(_scanloom.Site):
+    """The map of an earlier drive: a result folder of `scanloom slam`.
+
+    configuration, settings: as for scans(); the cells are those of [map_cells] and [fine_cells].
+    """
+
+    def __init__(self, folder, *, configuration=None, settings=None):
+        super().__init__(folder, _arguments(None, settings, configuration))
+
+    def locate(self, cloud, *, level_T_body=None, about=None):
+        """Where in the map a cloud was seen.
+
+        cloud: that of a pose, by slam(clouds=True), or a Scan, which holds the machine's own points; `lidar` counts as
+          in `lidars`.
+        level_T_body: (4, 4), a pose of the body in a frame whose z is up, as of slam(); default: the body stands level.
+        about: (4, 4) map_T_body within 6 m and 30 deg of heading; default: anywhere in the map.
+        One cloud alone is `found` only with `about`; else it is `unconfirmed`, and a second one some metres on proves it
+        if it is at the same place by the odometry in between. Whatever is not found is a ScanloomWarning.
+        """
+        return super().locate(cloud, level_T_body, about)
 
 
 class Odometry(_scanloom.Odometry):

@@ -124,6 +124,26 @@ class Registration:
     iterations: int
     trustworthy: bool
 
+class Place:
+    outcome: str
+    map_T_body: Optional[NDArray[np.float64]]  # (4, 4)
+    covariance: Optional[NDArray[np.float64]]  # (6, 6)
+    agreement: float
+
+class Site:
+    lidars: list[str]
+    def __init__(
+        self, folder: Path, *, configuration: Configurations = None, settings: Optional[Settings] = None
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    def locate(
+        self,
+        cloud: Cloud,
+        *,
+        level_T_body: Optional[ArrayLike] = None,
+        about: Optional[ArrayLike] = None,
+    ) -> Place: ...
+
 class Evaluation:
     drift: float  # m
     drift_percent: Optional[float]

@@ -24,14 +24,12 @@ void ConstantMotion::enterMap(const Rigid& map_T_drive)
 std::vector<ImuSample> ConstantMotion::samplesUntil(Timestamp end)
 {
   constexpr std::int64_t kMost = 10'000;  // 100 s: behind it may be the wrong year of a damaged stamp
-  const Duration step = std::max<Duration>(10ms, (end - given_) / kMost);
+  const Duration step = std::max<Duration>(10ms, (end - given_.value_or(start_)) / kMost);
   std::vector<ImuSample> samples;
-  while (given_ < end)
+  while (!given_ || *given_ < end)
   {
-    given_ = std::min(given_ + step, end);
-    Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
-    if (latest_) turned = latest_->map_T_body.rotation * expSo3(seconds(given_ - latest_->stamp) * turn_rate_);
-    samples.push_back({given_, turn_rate_, turned.conjugate() * -gravityInMap()});
+    given_ = given_ ? std::min(*given_ + step, end) : start_;
+    samples.push_back({*given_, turn_rate_, -gravityInMap()});
   }
   return samples;
 }

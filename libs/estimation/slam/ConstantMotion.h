@@ -1,5 +1,5 @@
-/** Where there is no IMU: the samples that one in the body's origin would measure at constant velocity and turn rate.
- */
+/** Where there is no IMU: the samples that one in the body's origin would measure at constant velocity and turn rate,
+ * if the body stood level: what it does on average, and what keeps the map level. */
 #pragma once
 #include "base/core/ImuSample.h"
 #include "estimation/slam/StateEstimate.h"
@@ -13,8 +13,8 @@ namespace scanloom
 class ConstantMotion
 {
  public:
-  /** From `start` on; until the first estimate the body is taken for level, without a turn. */
-  explicit ConstantMotion(Timestamp start) : given_(start) {}
+  /** From `start` on; without a turn until the second estimate. */
+  explicit ConstantMotion(Timestamp start) : start_(start) {}
 
   /** The latest estimate. */
   void update(const StateEstimate&);
@@ -22,12 +22,13 @@ class ConstantMotion
   /** The latest estimate is in another frame from now on. */
   void enterMap(const Rigid& map_T_drive);
 
-  /** After those given before, up to `end`: at 100 Hz, but 10,000 at most. */
+  /** After those given before, the first at the start, up to `end`: at 100 Hz, but about 10,000 at most. */
   std::vector<ImuSample> samplesUntil(Timestamp end);
 
  private:
   std::optional<StampedPose> latest_;                    // of the body in the map
   Eigen::Vector3d turn_rate_ = Eigen::Vector3d::Zero();  // rad/s, in the body's frame
-  Timestamp given_;
+  Timestamp start_;
+  std::optional<Timestamp> given_;  // stamp of the last sample
 };
 }  // namespace scanloom

@@ -87,12 +87,9 @@ std::vector<Rigid> startsAbout(const Rigid& map_T_level, double grid)
   return starts;
 }
 
-/** A drive's frame that leans in the map is a wrong place: gravity has levelled both. */
-bool isLevel(const Rigid& pose)
-{
-  const double cosine = (pose.rotation * Eigen::Vector3d::UnitZ()).z();
-  return cosine > std::cos(fitted::kWorkingImuDeg * kDegree);
-}
+constexpr double kLeanOfStart = 12 * kDegree;  // rad, of a machine on the ground that it drives on
+
+double leanOf(const Rigid& pose) { return std::acos(std::min(1.0, (pose.rotation * Eigen::Vector3d::UnitZ()).z())); }
 
 /** Where the body would be by another keyframe's place, and where it is. */
 bool areSame(const Rigid& map_T_body, const Rigid& other)
@@ -117,12 +114,14 @@ struct Judged
   std::optional<RegistrationResult> place;
 };
 
-Judged judged(const std::vector<RegistrationResult>& candidates, const Rigid& drive_T_level, double own_score)
+/** A drive's frame that leans in the map by more than `lean` is a wrong place: gravity has levelled both. */
+Judged judged(const std::vector<RegistrationResult>& candidates, const Rigid& drive_T_level, double own_score,
+              double lean)
 {
   const auto isRight = [&](const RegistrationResult& found)
   {
     return isPlace(found) && found.score < fitted::kAgreementOfPlace * own_score &&  // scores are negative
-           isLevel(found.target_T_source * drive_T_level.inverse());
+           leanOf(found.target_T_source * drive_T_level.inverse()) < lean;
   };
   const auto best = std::find_if(candidates.begin(), candidates.end(), isRight);
   if (best == candidates.end()) return {};
@@ -136,7 +135,7 @@ Judged judged(const std::vector<RegistrationResult>& candidates, const Rigid& dr
 }  // namespace
 
 PlaceSearch::PlaceSearch(std::shared_ptr<const PriorMap> map, const SlamSettings& settings,
-                         const std::vector<MountedLidar>& lidars, const std::optional<Rigid>& about)
+                         const std::vector<MountedLidar>& lidars, const std::optional<Rigid>& about, LevelBy level)
   : map_(std::move(map)),
     map_cells_(settings.map_cells),
     cells_(settings.registration.fine_cells),
@@ -144,6 +143,7 @@ PlaceSearch::PlaceSearch(std::shared_ptr<const PriorMap> map, const SlamSettings
     levels_(map_->whole()),
     body_T_lidar_(posesOf(lidars)),
     corrections_(settings.slam.forest ? forestCorrections() : CellCorrections{}),
+    lean_(level == LevelBy::Imu ? fitted::kWorkingImuDeg * kDegree : kLeanOfStart),
     about_(about)
 {
 }
@@ -164,7 +164,7 @@ SearchedPlace PlaceSearch::add(const Keyframe& keyframe)
     if (found.outcome != PlaceOutcome::NotInMap) break;
     const auto candidates = placesFrom(levels_, screening.level, together, starts(screening.grid, drive_T_level),
                                        kCandidates, cells_, alignment_);
-    found = judged(candidates, drive_T_level, own_score);
+    found = judged(candidates, drive_T_level, own_score, lean_);
   }
   if (!found.place) return {found.outcome, std::nullopt};
   const Rigid map_T_drive = found.place->target_T_source * drive_T_level.inverse();

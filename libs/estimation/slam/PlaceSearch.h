@@ -32,6 +32,13 @@ struct SearchedPlace
   std::optional<FoundPlace> place;  // Found or Unconfirmed
 };
 
+/** By what z is up in a drive's frame. */
+enum class LevelBy
+{
+  Imu,         // to 3 deg
+  Assumption,  // that the machine stood level at the start: to 12 deg
+};
+
 class PlaceSearch
 {
  public:
@@ -40,7 +47,7 @@ class PlaceSearch
    * map.
    */
   PlaceSearch(std::shared_ptr<const PriorMap>, const SlamSettings&, const std::vector<MountedLidar>&,
-              const std::optional<Rigid>& about = std::nullopt);
+              const std::optional<Rigid>& about = std::nullopt, LevelBy = LevelBy::Imu);
 
   /**
    * Searches what the drive's last keyframes, this one included, have seen together. A place is found if two keyframes
@@ -65,6 +72,7 @@ class PlaceSearch
   MapLevels levels_;
   std::vector<Rigid> body_T_lidar_;
   CellCorrections corrections_;
+  double lean_;  // rad, of the drive's frame in the map's, at most
   std::optional<Rigid> about_;
   std::optional<Rigid> map_T_drive_about_;  // from the first keyframe on
   std::optional<Rigid> map_T_drive_;        // by the last keyframe that had a place

@@ -11,7 +11,7 @@ namespace scanloom
 {
 PriorMap::PriorMap(const std::vector<scanloom::Keyframe>& keyframes, const std::vector<MountedLidar>& lidars,
                    const SlamSettings& settings)
-  : cells_(settings.map_cells), keyframes_(keyframes.size())
+  : cells_(settings.map_cells), lidars_(lidars), keyframes_(keyframes.size())
 {
   if (keyframes.empty()) throw std::invalid_argument("a map without a keyframe");
   const CellCorrections corrections = settings.slam.forest ? forestCorrections() : CellCorrections{};

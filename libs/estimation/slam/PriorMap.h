@@ -27,6 +27,7 @@ class PriorMap
   PriorMap(const std::vector<scanloom::Keyframe>&, const std::vector<MountedLidar>& lidars, const SlamSettings&);
 
   const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+  const std::vector<MountedLidar>& lidars() const { return lidars_; }
 
   /** Indices of the `count` keyframes that are nearest to a place and within `radius` (m) of it, in increasing order.
    */
@@ -37,6 +38,7 @@ class PriorMap
 
  private:
   NdtOptions cells_;
+  std::vector<MountedLidar> lidars_;
   std::vector<Keyframe> keyframes_;
 };
 }  // namespace scanloom

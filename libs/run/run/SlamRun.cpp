@@ -300,7 +300,7 @@ class SlamRun
       see_(estimate);
     }
     std::optional<MapEntry> entry;
-    times_.measure("place_search", [&] { entry = map_.add(estimates); });
+    times_.measure("place_search", [&] { entry = map_.add(estimates, motion_ ? LevelBy::Assumption : LevelBy::Imu); });
     if (!entry) return;
     slam_.enterMap(*entry);
     if (motion_) motion_->enterMap(entry->map_T_drive);

@@ -48,10 +48,11 @@ TEST(MapInUse, entersTheMapASecondAfterTheKeyframeAndAgainWhereItWasLeft)
   Drive drive;
   const GivenMap given = drive.map();
   MapInUse map(given, {}, kLidars);
-  EXPECT_FALSE(map.add({drive.estimateAt(2, Timestamp{0s}, false)}));
-  EXPECT_FALSE(map.add({drive.estimateAt(4, Timestamp{2s}, false)})) << "one keyframe is no proof";
-  EXPECT_FALSE(map.add({drive.estimateAt(4, Timestamp{3s}, false)})) << "less than a second after the second keyframe";
-  const auto entry = map.add({drive.estimateAt(6, Timestamp{4s}, false)});
+  EXPECT_FALSE(map.add({drive.estimateAt(2, Timestamp{0s}, false)}, LevelBy::Imu));
+  EXPECT_FALSE(map.add({drive.estimateAt(4, Timestamp{2s}, false)}, LevelBy::Imu)) << "one keyframe is no proof";
+  EXPECT_FALSE(map.add({drive.estimateAt(4, Timestamp{3s}, false)}, LevelBy::Imu))
+      << "less than a second after the second keyframe";
+  const auto entry = map.add({drive.estimateAt(6, Timestamp{4s}, false)}, LevelBy::Imu);
   ASSERT_TRUE(entry);
   EXPECT_LT(boxMinus(entry->map_T_drive * drive.frame_T_world, Rigid::identity()).norm(), 0.05);
   EXPECT_EQ(map.foundAfter(), 4s);
@@ -59,11 +60,11 @@ TEST(MapInUse, entersTheMapASecondAfterTheKeyframeAndAgainWhereItWasLeft)
 
   // Lost for long: the frame has moved by metres when the scans begin a new map.
   drive.frame_T_world = at(3, 1, 0.2);
-  EXPECT_FALSE(map.add({drive.estimateAt(6, Timestamp{5s}, true)}));
-  EXPECT_FALSE(map.add({drive.estimateAt(3, Timestamp{60s}, false)}));
+  EXPECT_FALSE(map.add({drive.estimateAt(6, Timestamp{5s}, true)}, LevelBy::Imu));
+  EXPECT_FALSE(map.add({drive.estimateAt(3, Timestamp{60s}, false)}, LevelBy::Imu));
   EXPECT_TRUE(map.isSearched());
-  EXPECT_FALSE(map.add({drive.estimateAt(6, Timestamp{62s}, false)}));
-  const auto again = map.add({drive.estimateAt(6, Timestamp{64s}, false)});
+  EXPECT_FALSE(map.add({drive.estimateAt(6, Timestamp{62s}, false)}, LevelBy::Imu));
+  const auto again = map.add({drive.estimateAt(6, Timestamp{64s}, false)}, LevelBy::Imu);
   ASSERT_TRUE(again);
   EXPECT_LT(boxMinus(again->map_T_drive * drive.frame_T_world, Rigid::identity()).norm(), 0.05);
   EXPECT_EQ(map.foundAfter(), 4s) << "for the first time";
@@ -73,7 +74,7 @@ TEST(MapInUse, withoutAMapIsNeverSearched)
 {
   const Drive drive;
   MapInUse map({}, {}, kLidars);
-  EXPECT_FALSE(map.add({drive.estimateAt(2, Timestamp{0s}, false)}));
+  EXPECT_FALSE(map.add({drive.estimateAt(2, Timestamp{0s}, false)}, LevelBy::Imu));
   EXPECT_FALSE(map.isSearched());
 }
 }  // namespace scanloom::map_in_use_unittest

@@ -11,29 +11,28 @@ Duration timeToSearch(const PriorMap& map) { return 1s + 20ms * map.keyframes().
 }  // namespace
 
 MapInUse::MapInUse(const GivenMap& given, const SlamSettings& settings, const std::vector<MountedLidar>& lidars)
-  : map_(given.map), settings_(settings), lidars_(lidars)
+  : map_(given.map), about_(given.map_T_body), settings_(settings), lidars_(lidars)
 {
-  if (map_) search_.emplace(map_, settings, lidars, given.map_T_body);
 }
 
-std::optional<MapEntry> MapInUse::add(const std::vector<StateEstimate>& estimates)
+std::optional<MapEntry> MapInUse::add(const std::vector<StateEstimate>& estimates, LevelBy level)
 {
   if (!map_ || estimates.empty()) return std::nullopt;
   if (!first_) first_ = estimates.front().stamp;
   const StateEstimate& newest = estimates.back();
-  if (in_map_ && !newest.in_map) search_.emplace(map_, settings_, lidars_);  // LOST for so long that the map was left
-  in_map_ = newest.in_map;
+  in_map_ = newest.in_map;  // LOST for long, a drive leaves the map
   std::optional<MapEntry> entry;
   if (running_.valid() && newest.stamp >= taken_at_) entry = taken(newest);
   for (const StateEstimate& estimate : estimates)
-    if (!in_map_ && estimate.keyframe) look(estimate);
+    if (!in_map_ && estimate.keyframe) look(estimate, level);
   return entry;
 }
 
 /** One search at a time: of a keyframe that comes while another one is searched, the scans are not needed. */
-void MapInUse::look(const StateEstimate& estimate)
+void MapInUse::look(const StateEstimate& estimate, LevelBy level)
 {
   if (running_.valid()) return;
+  if (!search_) search_ = PlaceSearch(map_, settings_, lidars_, found_after_ ? std::nullopt : about_, level);
   drive_T_body_searched_ = estimate.map_T_body;
   taken_at_ = estimate.stamp + timeToSearch(*map_);
   running_ = std::async(

@@ -23,7 +23,7 @@ class MapInUse
    * the entry, so that the next ones are in the map's frame. The time from keyframe to entry is that of the scans and
    * does not depend on threads.
    */
-  std::optional<MapEntry> add(const std::vector<StateEstimate>&);
+  std::optional<MapEntry> add(const std::vector<StateEstimate>&, LevelBy);
 
   /** There is a map, and the drive is searched in it. */
   bool isSearched() const { return map_ && !in_map_; }
@@ -40,13 +40,14 @@ class MapInUse
  private:
   using Searched = std::pair<PlaceSearch, SearchedPlace>;
 
-  void look(const StateEstimate&);
+  void look(const StateEstimate&, LevelBy);
   std::optional<MapEntry> taken(const StateEstimate& newest);
 
   std::shared_ptr<const PriorMap> map_;  // null: none is given
+  std::optional<Rigid> about_;           // where the drive starts
   SlamSettings settings_;
   std::vector<MountedLidar> lidars_;
-  std::optional<PlaceSearch> search_;  // while it rests
+  std::optional<PlaceSearch> search_;  // begun, while it rests
   std::future<Searched> running_;
   Rigid drive_T_body_searched_;  // at the keyframe for which it runs
   Timestamp taken_at_;           // when what it finds is taken
