@@ -39,6 +39,7 @@ struct SlamArguments
   std::vector<std::string> lidars;
   std::filesystem::path map;  // empty: none
   std::string at;             // empty: anywhere in the map
+  bool grow = false;
   int every_nth = 0;
   double seconds = 0;  // live lidars; 0: until it is interrupted
 };
@@ -57,6 +58,7 @@ std::string commandOf(const SlamArguments& arguments)
   if (!arguments.lidars.empty()) command += fmt::format(" --lidars {}", fmt::join(arguments.lidars, ","));
   if (!arguments.map.empty()) command += fmt::format(" --map {}", arguments.map.string());
   if (!arguments.at.empty()) command += fmt::format(" --at '{}'", arguments.at);
+  if (arguments.grow) command += " --grow";
   if (arguments.seconds > 0) command += fmt::format(" --seconds {}", arguments.seconds);
   if (arguments.ros2.given()) command += fmt::format(" --ros2={}", arguments.ros2.name_space);
   return command + fmt::format(" --out-dir {}", arguments.output.folder.string());
@@ -73,6 +75,8 @@ void refuseMapAsOutput(const SlamArguments& arguments)
 {
   if (!arguments.at.empty() && arguments.map.empty())
     throw UsageError("--at is a pose in the map of an earlier run: name its folder with --map");
+  if (arguments.grow && arguments.map.empty())
+    throw UsageError("--grow adds to the map of an earlier run: name its folder with --map");
   std::error_code none;
   if (!arguments.map.empty() && std::filesystem::equivalent(arguments.map, arguments.output.folder, none))
     throw UsageError(fmt::format("{} is the map: choose another --out-dir", arguments.map.string()));
@@ -182,6 +186,8 @@ int process(const SlamInput& input, const SlamArguments& arguments, const Loaded
   OutputFolder folder(arguments.output.folder);
   writeAtomically(folder.running() / kConfigurationFile, [&](std::ostream& file) { file << toIni(loaded); });
   SlamFiles files(folder.running(), input.sensors->setup().header.lidars, settings.output, settings.octomap);
+  if (arguments.grow && !settings.output.maps) throw UsageError("--grow writes a map: set output.maps = true");
+  if (arguments.grow) files.grow(keyframesOf(arguments.map));
   SlamRunResult result =
       withSensorsNotUsed(runShowingProgress(input, settings, files, arguments, ros2), loaded.sensors.not_used);
   result.summary.command = commandOf(arguments);
@@ -269,6 +275,8 @@ std::function<int()> addSlamOptions(CLI::App& app)
             "where in the map the body starts, within 6 m and 30 deg: \"x y z yaw pitch roll\" (m, deg), or the last "
             "pose of a .tum file")
       .typeName("POSE");
+  addFlag(app, "--grow", arguments->grow,
+          "write the map with what is new in it: the keyframes of --map and the drive's own");
   addSeconds(app, arguments->seconds);
   addWeb(app, arguments->web);
   addRos2(app, arguments->ros2);

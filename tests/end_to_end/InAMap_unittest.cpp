@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/formats/Trajectory.h"
+#include "mrpt/maps/SimpleMapReader.h"
 #include "support/TemporaryFolder.h"
 #include "support/runProgram.h"
 
@@ -62,6 +63,30 @@ TEST_F(InAMap, aSecondDriveHasItsPosesInTheFrameOfTheFirst)
   ASSERT_GT(poses.size(), 30U);
   for (const StampedPose& pose : poses)
     EXPECT_LT(boxMinus(world_T_map * pose.map_T_body, poseAt(truth, pose.stamp).value()).head<3>().norm(), 0.15);
+}
+
+TEST_F(InAMap, aMapGrowsByTheKeyframesOfADriveThatGoesFarther)
+{
+  simulate("first", "--seed 1 --set simulated_drive.duration=16 --set simulated_drive.speed=1.2");
+  simulate("second", "--seed 2 --set simulated_drive.duration=24 --set simulated_drive.speed=1.2");
+  ASSERT_EQ(slam("first", "").status, 0);
+  const Ended ended = slam("second", "--grow --map " + in("first_slam"));
+  ASSERT_EQ(ended.status, 0) << ended.output;
+  const auto keyframesOf = [&](const char* run)
+  {
+    const SimpleMapReader reader(folder / run / "keyframes.simplemap");
+    std::vector<Keyframe> keyframes;
+    for (std::size_t i = 0; i < reader.size(); ++i) keyframes.push_back(reader.keyframe(i));
+    return keyframes;
+  };
+  const std::vector<Keyframe> before = keyframesOf("first_slam"), grown = keyframesOf("second_slam");
+  ASSERT_GT(grown.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i)
+  {
+    const Keyframe& kept = grown[grown.size() - before.size() + i];
+    EXPECT_LT(boxMinus(kept.map_T_body, before[i].map_T_body).norm(), 1e-9);
+    EXPECT_EQ(kept.points.sensor_id, before[i].points.sensor_id);
+  }
 }
 
 TEST_F(InAMap, aFolderWithoutAMapSaysWhatToDo)

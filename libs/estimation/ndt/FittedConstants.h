@@ -64,7 +64,7 @@ constexpr double kStartsApart         = 3;       // m      alignment finds a pos
 constexpr double kWorkingImuDeg       = 3;       // deg    tilt of an IMU that works                         #made-to-get-lost
 
 // A drive in the map of an earlier one (PlaceSearch)
-constexpr double kAgreementOfPlace    = 0.68;    // 1      of the score with itself; other stands, rows      #in-a-map
+constexpr double kAgreementOfPlace    = 0.7;     // 1      of the score with itself; other stands, rows      #in-a-map
 constexpr double kSamePlace           = 0.25;    // m      between two keyframes' places; the same           #in-a-map
 constexpr double kSamePlaceDeg        = 1;       // deg    the same                                          #in-a-map
 

@@ -16,13 +16,7 @@ namespace
 {
 std::shared_ptr<const PriorMap> readKeyframes(const std::filesystem::path& folder, const SlamSettings& settings)
 {
-  const std::filesystem::path file = folder / "keyframes.simplemap";
-  if (!std::filesystem::exists(file))
-    throw UsageError(
-        fmt::format("{} has no keyframes.simplemap: --map takes a result folder of `scanloom slam`, run with maps "
-                    "(output.maps = true)",
-                    folder.string()));
-  const SimpleMapReader reader(file);
+  const SimpleMapReader reader(keyframesOf(folder));
   std::vector<Keyframe> keyframes;
   for (std::size_t i = 0; i < reader.size(); ++i) keyframes.push_back(reader.keyframe(i));
   return std::make_shared<const PriorMap>(keyframes, reader.lidars(), settings);
@@ -46,6 +40,17 @@ Rigid poseFrom(const std::string& text)
   return Rigid::fromXyzYawPitchRoll(v[0], v[1], v[2], v[3] * kDegree, v[4] * kDegree, v[5] * kDegree);
 }
 }  // namespace
+
+std::filesystem::path keyframesOf(const std::filesystem::path& folder)
+{
+  std::filesystem::path file = folder / "keyframes.simplemap";
+  if (!std::filesystem::exists(file))
+    throw UsageError(
+        fmt::format("{} has no keyframes.simplemap: --map takes a result folder of `scanloom slam`, run with maps "
+                    "(output.maps = true)",
+                    folder.string()));
+  return file;
+}
 
 GivenMap readGivenMap(const std::filesystem::path& folder, const std::string& at, const SlamSettings& settings)
 {

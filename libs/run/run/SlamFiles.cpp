@@ -1,6 +1,8 @@
 #include "run/run/SlamFiles.h"
 
+#include "base/core/ConfigError.h"
 #include "base/core/Text.h"
+#include "mrpt/maps/SimpleMapReader.h"
 
 #include <fmt/ostream.h>
 #include <fmt/ranges.h>
@@ -36,6 +38,22 @@ std::optional<RecordedImu> imuOf(const StateEstimate& e)
 {
   return e.imu ? std::optional(RecordedImu{*e.imu, e.body_T_imu, kImuLabel}) : std::nullopt;
 }
+
+/** A map's lidars must be the drive's: a point's ray begins at its lidar. */
+std::uint8_t sameLidar(const MountedLidar& lidar, const std::vector<RecordedLidar>& lidars,
+                       const std::filesystem::path& map)
+{
+  constexpr double kMetres = 0.01, kRadians = 0.002;
+  for (std::size_t i = 0; i < lidars.size(); ++i)
+  {
+    const Vector6d apart = boxMinus(lidars[i].body_T_sensor, lidar.body_T_sensor);
+    if (lidars[i].name == lidar.name && apart.head<3>().norm() < kMetres && apart.tail<3>().norm() < kRadians)
+      return static_cast<std::uint8_t>(i);
+  }
+  throw UsageError(
+      fmt::format("--grow: {} has a lidar '{}' that this recording has not, or has elsewhere on the machine",
+                  map.string(), lidar.name));
+}
 }  // namespace
 
 std::vector<std::string> SlamFiles::names(const OutputOptions& output)
@@ -67,6 +85,26 @@ void SlamFiles::begin()
   if (output_.maps)
     maps_.emplace(folder_, lidars_, octomap_, cloudClassFromName(output_.keyframe_class, "keyframe_class"));
   if (!output_.dense_map.empty()) dense_map_.emplace(folder_, output_);
+}
+
+void SlamFiles::grow(const std::filesystem::path& keyframes)
+{
+  EarlierKeyframes earlier{keyframes, {}};
+  const SimpleMapReader reader(keyframes);
+  for (const MountedLidar& lidar : reader.lidars()) earlier.sensor_ids.push_back(sameLidar(lidar, lidars_, keyframes));
+  earlier_ = earlier;
+}
+
+/** At the end: an occupancy map takes seconds for a keyframe, which live lidars do not wait for. */
+void SlamFiles::addEarlierKeyframes()
+{
+  const SimpleMapReader reader(earlier_->file);
+  for (std::size_t i = 0; i < reader.size(); ++i)
+  {
+    Keyframe keyframe = reader.keyframe(i);
+    for (std::uint8_t& id : keyframe.points.sensor_id) id = earlier_->sensor_ids[id];
+    maps_->add({std::move(keyframe)});
+  }
 }
 
 void SlamFiles::add(const StateEstimate& e)
@@ -131,6 +169,7 @@ RunSummary SlamFiles::close(RunSummary summary)
     closePoses();
   else
     closePosesAfterFailure();
+  if (maps_ && earlier_ && in_map_) addEarlierKeyframes();
   if (maps_) maps_->close(path_, summary);
   if (dense_map_) dense_map_->close(summary);
   summary.path_length = path_length_;

@@ -16,6 +16,13 @@
 
 namespace scanloom
 {
+/** Of the run in whose map a drive is localised. */
+struct EarlierKeyframes
+{
+  std::filesystem::path file;
+  std::vector<std::uint8_t> sensor_ids;  // in the drive, by those in the file
+};
+
 /**
  * trajectory.tum (a pose per processed scan), trajectory_imu.tum (poses at the IMU's rate), trajectory.csv (health and
  * registration per pose), summary.json and the maps, all in the map frame. Where the drive is found in the map of an
@@ -31,6 +38,12 @@ class SlamFiles
   /** Creates the folder. Throws std::runtime_error on failure, and as DenseMap does. */
   SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OutputOptions&,
             const OctoMapOptions&);
+
+  /**
+   * The maps hold the keyframes of an earlier run, too, if the drive is found in its map. Throws UsageError where that
+   * run's lidars are not among these, and as SimpleMapReader does.
+   */
+  void grow(const std::filesystem::path& keyframes);
 
   /** Writes the poses at once. Throws std::runtime_error if the disk does not take them. */
   void add(const StateEstimate&);
@@ -48,6 +61,7 @@ class SlamFiles
   void begin();
   std::string marksUntil(Timestamp);
   void extendPath(const StampedPose&);
+  void addEarlierKeyframes();
   void closePoses();
   void closePosesAfterFailure();
 
@@ -58,6 +72,7 @@ class SlamFiles
   std::optional<TumWriter> trajectory_, trajectory_imu_;  // there always is one
   OutputFile csv_;
   bool in_map_ = false;  // the frame of the files is that of an earlier run's map
+  std::optional<EarlierKeyframes> earlier_;
   Trajectory path_;  // the newest pose and earlier ones at least 0.05 m apart, so that a rest does not fill the memory
   double path_length_ = 0;
   std::deque<EventMark> marks_;  // not yet written
