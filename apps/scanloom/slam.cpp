@@ -70,13 +70,14 @@ GivenMap givenMap(const SlamArguments& arguments, const SlamSettings& settings)
   return readGivenMap(arguments.map, arguments.at, settings);
 }
 
-/** The map is not changed by those who are localised in it. */
-void refuseMapAsOutput(const SlamArguments& arguments)
+/** What does not go together with --map, which is not changed by those who are localised in it. */
+void refuseWrongMap(const SlamArguments& arguments, const OutputOptions& output)
 {
   if (!arguments.at.empty() && arguments.map.empty())
     throw UsageError("--at is a pose in the map of an earlier run: name its folder with --map");
   if (arguments.grow && arguments.map.empty())
     throw UsageError("--grow adds to the map of an earlier run: name its folder with --map");
+  if (arguments.grow && !output.maps) throw UsageError("--grow writes a map: set output.maps = true");
   std::error_code none;
   if (!arguments.map.empty() && std::filesystem::equivalent(arguments.map, arguments.output.folder, none))
     throw UsageError(fmt::format("{} is the map: choose another --out-dir", arguments.map.string()));
@@ -110,25 +111,10 @@ void report(const SlamRunResult& result, const std::filesystem::path& folder)
   fmt::print("{}\n", (folder / "trajectory.tum").string());
 }
 
-/** Once, when it is so. */
-class FoundInMap
-{
- public:
-  void tell(const RunProgress& progress, InputDisplay& display)
-  {
-    if (!progress.found_after || std::exchange(told_, true)) return;
-    display.say(fmt::format("found in the map after {:.1f} s", seconds(*progress.found_after)));
-  }
-
- private:
-  bool told_ = false;
-};
-
 SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings& settings, SlamFiles& files,
-                                 const SlamArguments& arguments, const Ros2* ros2)
+                                 const SlamArguments& arguments, const GivenMap& map, const Ros2* ros2)
 {
-  const GivenMap map = givenMap(arguments, settings);
-  FoundInMap found;
+  bool told_of_map = false;
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const std::unique_ptr<Web> web =
@@ -149,7 +135,8 @@ SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings&
       [&](const RunProgress& progress)
       {
         display.update(progress.share, progress.scans, {progress.recorded, progress.busy});
-        found.tell(progress, display);
+        if (progress.found_after && !std::exchange(told_of_map, true))
+          display.say(fmt::format("found in the map after {:.1f} s", seconds(*progress.found_after)));
         if (web) web->update({progress.recorded, progress.busy});
         const bool over = arguments.seconds > 0 && Clock::now() - start >= fromSeconds(arguments.seconds);
         if (input.live && (over || interrupted())) input.sensors->stop();
@@ -186,10 +173,10 @@ int process(const SlamInput& input, const SlamArguments& arguments, const Loaded
   OutputFolder folder(arguments.output.folder);
   writeAtomically(folder.running() / kConfigurationFile, [&](std::ostream& file) { file << toIni(loaded); });
   SlamFiles files(folder.running(), input.sensors->setup().header.lidars, settings.output, settings.octomap);
-  if (arguments.grow && !settings.output.maps) throw UsageError("--grow writes a map: set output.maps = true");
-  if (arguments.grow) files.grow(keyframesOf(arguments.map));
+  const GivenMap map = givenMap(arguments, settings);
+  if (arguments.grow) files.grow(keyframesOf(arguments.map), map.map->lidars());
   SlamRunResult result =
-      withSensorsNotUsed(runShowingProgress(input, settings, files, arguments, ros2), loaded.sensors.not_used);
+      withSensorsNotUsed(runShowingProgress(input, settings, files, arguments, map, ros2), loaded.sensors.not_used);
   result.summary.command = commandOf(arguments);
   if (input.live) result.summary.waited = 1e-3 * result.summary.stages.at("input").total_ms;
   result.summary.versions = {{"scanloom", programVersion()}};
@@ -244,7 +231,7 @@ int run(SlamArguments arguments)
   std::vector<std::string> names{kConfigurationFile};
   for (std::string& name : SlamFiles::names(loaded.settings.output)) names.push_back(std::move(name));
   refuseExisting(arguments.output, names);
-  refuseMapAsOutput(arguments);
+  refuseWrongMap(arguments, loaded.settings.output);
   const SlamInput input = inputOf(recording, arguments, loaded, ros2.get());
   if (!input.live) refuseSeconds(arguments.seconds);
   if (arguments.configuration.dry_run)

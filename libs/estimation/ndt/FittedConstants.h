@@ -83,6 +83,10 @@ constexpr double kFarApart            = 0.25;    // m      good drives with one 
 constexpr double kFarApartRadians     = 0.05;    // rad    good drives with one lidar                        #on-two-generators
 constexpr double kFarApartDeviations  = 15;      // 1      good drives with one lidar                        #on-two-generators
 
+// Whether the lidar's track goes on (LidarTrack): 3 m/s too much smear a scan by 0.3 m
+constexpr double kSameStep            = 0.5;     // m      pushes of 5 to 30 m/s2 for 0.2 s                  #imu-faults
+constexpr double kSameStepRadians     = 0.1;     // rad    the same                                          #imu-faults
+
 // A map that is levelled anew (StateEstimate::mapJumped)
 constexpr double kMapJump             = 0.25;    // m      sound drives 0.08, cars without an IMU from 1 on  #real-sequences
 

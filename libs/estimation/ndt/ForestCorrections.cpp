@@ -6,4 +6,6 @@
 namespace scanloom
 {
 CellCorrections forestCorrections() { return {&correctNearSideBias, &rangeDensityShift}; }
+
+CellCorrections cellCorrections(bool in_forest) { return in_forest ? forestCorrections() : CellCorrections{}; }
 }  // namespace scanloom

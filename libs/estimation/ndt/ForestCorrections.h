@@ -8,4 +8,7 @@ namespace scanloom
  * foliage to where they were if points did not get fewer with the range (rangeDensityShift).
  */
 CellCorrections forestCorrections();
+
+/** Those of stands, or none. */
+CellCorrections cellCorrections(bool in_forest);
 }  // namespace scanloom

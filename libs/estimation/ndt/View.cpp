@@ -99,4 +99,11 @@ View movedBy(const Rigid& target_T_view, const View& view)
   if (view.rings) moved.rings = Rings{rotation * view.rings->axis, view.rings->spacing};
   return moved;
 }
+
+std::vector<View> movedBy(const Rigid& target_T_views, const std::vector<View>& views)
+{
+  std::vector<View> moved;
+  for (const View& view : views) moved.push_back(movedBy(target_T_views, view));
+  return moved;
+}
 }  // namespace scanloom

@@ -32,4 +32,5 @@ std::vector<View> viewsOf(const PointCloud&, const std::vector<Rigid>& cloud_T_l
 
 /** The view in the target's frame. */
 View movedBy(const Rigid& target_T_view, const View&);
+std::vector<View> movedBy(const Rigid& target_T_views, const std::vector<View>&);
 }  // namespace scanloom

@@ -20,6 +20,7 @@ constexpr double kReach = 6;            // m: so far from the map's keyframes, o
 constexpr std::size_t kCandidates = 6;  // places that are aligned
 constexpr int kHeadings = 24;           // all around
 constexpr int kHeadingsAside = 2;       // to each side of a known one, as far apart
+constexpr double kLeanOfStart = 12 * kDegree;  // rad, of a machine on the ground that it drives on
 
 /** Starts on a grid, compared in the cells of one level. */
 struct Screening
@@ -31,16 +32,12 @@ struct Screening
 /** Cells of 4 m find most places in a fifth of the time; rows of stems alike take cells of 2 m. */
 constexpr std::array kScreenings{Screening{3, 1}, Screening{2, 2}};
 
-Rigid levelled(const Rigid& pose)
-{
-  const Eigen::Vector3d& at = pose.translation;
-  return Rigid::fromXyzYawPitchRoll(at.x(), at.y(), at.z(), pose.yawPitchRoll().x(), 0, 0);
-}
-
 Rigid turned(const Eigen::Vector3d& at, double heading)
 {
   return Rigid::fromXyzYawPitchRoll(at.x(), at.y(), at.z(), heading, 0, 0);
 }
+
+Rigid levelled(const Rigid& pose) { return turned(pose.translation, pose.yawPitchRoll().x()); }
 
 /** Places on a grid around the map's keyframes, each at the height of the nearest of them. */
 std::vector<Eigen::Vector3d> placesIn(const PriorMap& map, double grid)
@@ -86,8 +83,6 @@ std::vector<Rigid> startsAbout(const Rigid& map_T_level, double grid)
                                 heading + 2 * M_PI * i / kHeadings));
   return starts;
 }
-
-constexpr double kLeanOfStart = 12 * kDegree;  // rad, of a machine on the ground that it drives on
 
 double leanOf(const Rigid& pose) { return std::acos(std::min(1.0, (pose.rotation * Eigen::Vector3d::UnitZ()).z())); }
 
@@ -142,7 +137,7 @@ PlaceSearch::PlaceSearch(std::shared_ptr<const PriorMap> map, const SlamSettings
     alignment_(settings.registration.fine),
     levels_(map_->whole()),
     body_T_lidar_(posesOf(lidars)),
-    corrections_(settings.slam.forest ? forestCorrections() : CellCorrections{}),
+    corrections_(cellCorrections(settings.slam.forest)),
     lean_(level == LevelBy::Imu ? fitted::kWorkingImuDeg * kDegree : kLeanOfStart),
     about_(about)
 {
@@ -178,7 +173,8 @@ std::vector<View> PlaceSearch::seenFrom(const Rigid& drive_T_level) const
 {
   std::vector<View> together;
   for (const Seen& seen : seen_)
-    for (const View& view : seen.views) together.push_back(movedBy(drive_T_level.inverse() * seen.drive_T_body, view));
+    for (View& view : movedBy(drive_T_level.inverse() * seen.drive_T_body, seen.views))
+      together.push_back(std::move(view));
   return together;
 }
 

@@ -14,15 +14,13 @@ PriorMap::PriorMap(const std::vector<scanloom::Keyframe>& keyframes, const std::
   : cells_(settings.map_cells), lidars_(lidars), keyframes_(keyframes.size())
 {
   if (keyframes.empty()) throw std::invalid_argument("a map without a keyframe");
-  const CellCorrections corrections = settings.slam.forest ? forestCorrections() : CellCorrections{};
+  const CellCorrections corrections = cellCorrections(settings.slam.forest);
   tbb::parallel_for(std::size_t{0}, keyframes.size(),
                     [&](std::size_t i)
                     {
                       const Rigid& map_T_body = keyframes[i].map_T_body;
-                      std::vector<View> in_map;
-                      for (const View& view : viewsOf(keyframes[i].points, posesOf(lidars), corrections))
-                        in_map.push_back(movedBy(map_T_body, view));
-                      keyframes_[i] = {map_T_body, binned(in_map, cells_)};
+                      const std::vector<View> views = viewsOf(keyframes[i].points, posesOf(lidars), corrections);
+                      keyframes_[i] = {map_T_body, binned(movedBy(map_T_body, views), cells_)};
                     });
 }
 

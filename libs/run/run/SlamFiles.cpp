@@ -87,11 +87,10 @@ void SlamFiles::begin()
   if (!output_.dense_map.empty()) dense_map_.emplace(folder_, output_);
 }
 
-void SlamFiles::grow(const std::filesystem::path& keyframes)
+void SlamFiles::grow(const std::filesystem::path& keyframes, const std::vector<MountedLidar>& lidars)
 {
   EarlierKeyframes earlier{keyframes, {}};
-  const SimpleMapReader reader(keyframes);
-  for (const MountedLidar& lidar : reader.lidars()) earlier.sensor_ids.push_back(sameLidar(lidar, lidars_, keyframes));
+  for (const MountedLidar& lidar : lidars) earlier.sensor_ids.push_back(sameLidar(lidar, lidars_, keyframes));
   earlier_ = earlier;
 }
 

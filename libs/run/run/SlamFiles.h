@@ -16,13 +16,6 @@
 
 namespace scanloom
 {
-/** Of the run in whose map a drive is localised. */
-struct EarlierKeyframes
-{
-  std::filesystem::path file;
-  std::vector<std::uint8_t> sensor_ids;  // in the drive, by those in the file
-};
-
 /**
  * trajectory.tum (a pose per processed scan), trajectory_imu.tum (poses at the IMU's rate), trajectory.csv (health and
  * registration per pose), summary.json and the maps, all in the map frame. Where the drive is found in the map of an
@@ -40,10 +33,10 @@ class SlamFiles
             const OctoMapOptions&);
 
   /**
-   * The maps hold the keyframes of an earlier run, too, if the drive is found in its map. Throws UsageError where that
-   * run's lidars are not among these, and as SimpleMapReader does.
+   * The maps hold the keyframes of an earlier run, too, if the drive is found in its map. `lidars`: that run's, by the
+   * keyframes' sensor ids. Throws UsageError where they are not among these.
    */
-  void grow(const std::filesystem::path& keyframes);
+  void grow(const std::filesystem::path& keyframes, const std::vector<MountedLidar>& lidars);
 
   /** Writes the poses at once. Throws std::runtime_error if the disk does not take them. */
   void add(const StateEstimate&);
@@ -58,6 +51,13 @@ class SlamFiles
   RunSummary close(RunSummary);
 
  private:
+  /** Of the run in whose map the drive is localised. */
+  struct EarlierKeyframes
+  {
+    std::filesystem::path file;
+    std::vector<std::uint8_t> sensor_ids;  // in the drive, by those in the file
+  };
+
   void begin();
   std::string marksUntil(Timestamp);
   void extendPath(const StampedPose&);

@@ -1,5 +1,7 @@
 #include "estimation/slam/internal/LidarTrack.h"
 
+#include "estimation/ndt/FittedConstants.h"
+
 namespace scanloom
 {
 void LidarTrack::add(const Rigid& local_T_body)
@@ -12,9 +14,8 @@ void LidarTrack::clear() { *this = {}; }
 
 bool LidarTrack::goesOnTo(const Rigid& local_T_body) const
 {
-  constexpr double kMetres = 0.5, kRadians = 0.1;  // a scan that is deskewed by 3 m/s too much is smeared by 0.3 m
   if (!last_step_) return false;
   const Vector6d off = boxMinus(local_T_body, *last_ * *last_step_);
-  return off.head<3>().norm() < kMetres && off.tail<3>().norm() < kRadians;
+  return off.head<3>().norm() < fitted::kSameStep && off.tail<3>().norm() < fitted::kSameStepRadians;
 }
 }  // namespace scanloom

@@ -92,9 +92,7 @@ ErrorShares LocalMap::errorOfMap() const
 
 Matrix6d LocalMap::add(const std::vector<View>& seen_from_body, const Rigid& map_T_body, const Matrix6d& alignment)
 {
-  std::vector<View> in_map;
-  for (const View& view : seen_from_body) in_map.push_back(movedBy(map_T_body, view));
-  keyframes_.push_back({map_T_body, binned(in_map, ndt_.options()), {}});
+  keyframes_.push_back({map_T_body, binned(movedBy(map_T_body, seen_from_body), ndt_.options()), {}});
   if (keyframes_.size() > 1 || !of_prior_.empty())
     keyframes_.back().error = errors_.add(errorOfMap(), map_T_body, alignment);
   for (std::size_t i = 0; i < keyframes_.size(); ++i)

@@ -111,7 +111,7 @@ Tracker::Tracker(const SlamSettings& settings, const std::vector<MountedLidar>& 
   : settings_(settings),
     health_monitor_(settings),
     body_T_lidar_(posesOf(lidars)),
-    corrections_(settings.slam.forest ? forestCorrections() : CellCorrections{})
+    corrections_(cellCorrections(settings.slam.forest))
 {
 }
 
