@@ -24,6 +24,15 @@ Drive workDay()
           with(&BodyMotionOptions::sway_deg, 3, with(&BodyMotionOptions::sway_rate, 1.5)), Ground(GroundOptions{})};
 }
 
+/** Turns round from 27.5 to 37.5 s. */
+Drive driveAndReturn()
+{
+  DriveOptions options;
+  options.route = "return";
+  options.duration = 65;
+  return {Route(options, {}, 1), options, with(&BodyMotionOptions::sway_deg, 3), Ground(GroundOptions{})};
+}
+
 /** With low frequencies: differences of the step below are exact enough. */
 Drive engineDrive()
 {
@@ -81,8 +90,19 @@ TEST_P(EveryDrive, hasTheTurnRatesOfItsRotations)
 INSTANTIATE_TEST_SUITE_P(, EveryDrive,
                          testing::Values(DriveCase{"winding", windingDrive(), 2, 21},
                                          DriveCase{"work", workDay(), 2, 60},
+                                         DriveCase{"there and back", driveAndReturn(), 2, 63},
                                          DriveCase{"on slopes with an engine", engineDrive(), 2, 21},
                                          DriveCase{"the end of an hour's work", workDay(), 3540, 3600}));
+
+TEST(Drive, comesBackToWhereItStartedWithTheOppositeHeading)
+{
+  const Drive drive = driveAndReturn();
+
+  const Rigid start = drive.at(0).world_T_body, end = drive.at(65).world_T_body;
+  EXPECT_LT((end.translation - start.translation).head<2>().norm(), 1e-9);
+  EXPECT_NEAR(std::abs(end.yawPitchRoll().x()), M_PI, 1e-9);
+  EXPECT_GT(drive.at(32.5).world_T_body.translation.x(), 15);
+}
 
 TEST(Drive, restsBeforeItStartsAndAfterItStopped)
 {

@@ -75,7 +75,7 @@ Taylor Drive::lateral(const Taylor& x) const { return curve_ * (1 - cos(curve_ra
 Motion Drive::at(double t) const
 {
   Taylor x = route_.progress(t), y = left_ + lateral(x);
-  const Taylor yaw = atan(curve_ * curve_rate_ * sin(curve_rate_ * x));
+  const Taylor yaw = atan(curve_ * curve_rate_ * sin(curve_rate_ * x)) + route_.turned(t);
   Stance stance = stand(ground_, x, y, yaw);
   if (body_.upright) stance.pitch = stance.roll = 0.0;
 

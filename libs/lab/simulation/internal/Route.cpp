@@ -21,6 +21,7 @@ constexpr double kSpeedMax = 0.8;     // m/s: fastest of these drives
 constexpr double kReturnSpeed = 1.0;  // m/s: speed of the way back
 
 constexpr double kWorkFade = 1.0;  // s
+constexpr double kTurnTime = 10;   // s: to turn round on the spot (assumed)
 
 /** 0 before `begin`, 1 after it by `fade` and until `end`, 0 again after `end` by `fade`. */
 Taylor pulse(double t, double begin, double end, double fade)
@@ -40,10 +41,13 @@ Route::Route(const DriveOptions& drive, const WorkCycleOptions& work, std::uint6
 {
   if (drive.route == "winding")
     addWinding(drive);
+  else if (drive.route == "return")
+    addReturn(drive);
   else if (drive.route == "work")
     addWorkCycles(drive, work, seed);
   else
-    throw std::invalid_argument(fmt::format("[simulated_drive] route = '{}': must be winding or work", drive.route));
+    throw std::invalid_argument(
+        fmt::format("[simulated_drive] route = '{}': must be winding, return or work", drive.route));
 }
 
 void Route::addWinding(const DriveOptions& drive)
@@ -54,6 +58,19 @@ void Route::addWinding(const DriveOptions& drive)
                       drive.duration, 2 * (drive.standstill + drive.speed_up)));
   legs_.push_back({drive.standstill, moving, 0, drive.speed, false});
   farthest_ = drive.speed * moving;
+}
+
+void Route::addReturn(const DriveOptions& drive)
+{
+  const double rests = 4 * drive.standstill + kTurnTime;
+  const double moving = (drive.duration - rests) / 2 - drive.speed_up;
+  require(moving >= drive.speed_up,
+          fmt::format("[simulated_drive] duration = {} s: there and back takes at least {} s", drive.duration,
+                      rests + 4 * drive.speed_up));
+  farthest_ = drive.speed * moving;
+  legs_.push_back({drive.standstill, moving, 0, drive.speed, false});
+  turns_at_ = endOf(legs_.back()) + drive.standstill;
+  legs_.push_back({*turns_at_ + kTurnTime + drive.standstill, moving, farthest_, -drive.speed, false});
 }
 
 void Route::addWorkCycles(const DriveOptions& drive, const WorkCycleOptions& work, std::uint64_t seed)
@@ -106,6 +123,13 @@ Taylor Route::driving(double t) const
 {
   const Leg* leg = legAt(t);
   return leg ? pulse(t, leg->begin, leg->begin + leg->moving, speed_up_) : 0.0;
+}
+
+Taylor Route::turned(double t) const
+{
+  if (!turns_at_) return 0.0;
+  const SmoothStep turn = smoothStep((t - *turns_at_) / kTurnTime);
+  return {M_PI * turn.value, M_PI * turn.first / kTurnTime, M_PI * turn.second / (kTurnTime * kTurnTime)};
 }
 
 Taylor Route::working(double t) const

@@ -1,4 +1,4 @@
-/** The machine's progress along its path: one winding drive, or a work cycle of short drives and stops. */
+/** The machine's progress along its path: one drive, there and back, or a work cycle of short drives and stops. */
 #pragma once
 #include "base/core/Field.h"
 #include "lab/simulation/internal/Taylor.h"
@@ -27,10 +27,11 @@ struct DriveOptions
   {
     visit(o.duration, Field{"duration", "s", "length of the recording", above(0)});
     visit(o.route, Field{"route", "",
-                         "winding: rests, drives at 'speed', rests again; work: repeats the cycle of [simulated_work] "
-                         "until the recording ends"});
-    visit(o.standstill, Field{"standstill", "s", "time at rest before the drive, and after a winding one", atLeast(0)});
-    visit(o.speed, Field{"speed", "m/s", "cruising speed of a winding drive along its axis", between(0, 40)});
+                         "winding: rests, drives at 'speed', rests again; return: drives half of the time, turns round "
+                         "on the spot and drives back; work: repeats the cycle of [simulated_work] until the recording "
+                         "ends"});
+    visit(o.standstill, Field{"standstill", "s", "time at rest before and after a drive, and before and after turning round", atLeast(0)});
+    visit(o.speed, Field{"speed", "m/s", "cruising speed along the axis of the path; route = work has speeds of its own", between(0, 40)});
     visit(o.speed_up, Field{"speed_up", "s", "time to reach the cruising speed, and to stop", above(0)});
     visit(o.curve, Field{"curve", "m", "amplitude of the winding path", between(0, 20)});
     visit(o.curve_length, Field{"curve_length", "m", "length of one period of the winding path", above(1)});
@@ -81,6 +82,9 @@ class Route
   /** Speed as a share of the cruising speed: 0 at rest, 1 while cruising. */
   Taylor driving(double t) const;
 
+  /** rad, left of the path's direction: pi once the machine has turned round for the way back. */
+  Taylor turned(double t) const;
+
   /** 1 while the machine works, 0 otherwise, with transitions of a second. */
   Taylor working(double t) const;
 
@@ -105,11 +109,13 @@ class Route
     bool works;     // at its end
   };
   void addWinding(const DriveOptions&);
+  void addReturn(const DriveOptions&);
   void addWorkCycles(const DriveOptions&, const WorkCycleOptions&, std::uint64_t seed);
   const Leg* legAt(double t) const;  // the one that began last
   double endOf(const Leg& leg) const { return leg.begin + leg.moving + speed_up_; }
 
   double duration_, speed_up_, start_, farthest_ = 0;
   std::vector<Leg> legs_;
+  std::optional<double> turns_at_;  // s: when it begins to turn round
 };
 }  // namespace scanloom
