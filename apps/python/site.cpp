@@ -23,29 +23,6 @@ namespace scanloom
 {
 namespace
 {
-/** Where a cloud was found in the map. */
-struct LocatedCloud
-{
-  PlaceOutcome outcome;
-  std::optional<FoundPlace> found;
-};
-
-std::string toString(PlaceOutcome outcome)
-{
-  switch (outcome)
-  {
-    case PlaceOutcome::Found:
-      return "found";
-    case PlaceOutcome::Unconfirmed:
-      return "unconfirmed";
-    case PlaceOutcome::LookAlike:
-      return "look alike";
-    case PlaceOutcome::NotInMap:
-      break;
-  }
-  return "not in map";
-}
-
 std::string doubtOf(PlaceOutcome outcome)
 {
   if (outcome == PlaceOutcome::LookAlike) return "two places in this map look alike";
@@ -62,15 +39,16 @@ class Site
   {
   }
 
-  LocatedCloud locate(PointCloud points, const Rigid& level_T_body, const std::optional<Rigid>& about) const
+  SearchedPlace locate(PointCloud points, const Rigid& level_T_body, const std::optional<Rigid>& about) const
   {
     if (points.empty()) throw UsageError("the cloud has no points");
     for (const std::uint8_t lidar : points.sensor_id)
       if (lidar >= lidars().size())
         throw UsageError(fmt::format("a point of lidar {}: the drive of the map had {}", lidar, lidars().size()));
-    PlaceSearch search(map_, settings_, lidars(), about);
-    const SearchedPlace searched = search.add({Timestamp{}, level_T_body, std::move(points)});
-    return {searched.outcome, searched.place};
+    std::optional<PlaceGuess> guess;
+    if (about) guess = PlaceGuess{*about};
+    PlaceSearch search(map_, settings_, lidars(), guess);
+    return search.add({Timestamp{}, level_T_body, std::move(points)});
   }
 
   const std::vector<MountedLidar>& lidars() const { return map_->lidars(); }
@@ -88,13 +66,13 @@ PointCloud cloudIn(const py::object& given)
   throw UsageError("cloud: must be the cloud of a pose (slam(clouds=True)) or a scan of scans()");
 }
 
-LocatedCloud locate(const Site& site, const py::object& cloud, const py::object& level_T_body, const py::object& about)
+SearchedPlace locate(const Site& site, const py::object& cloud, const py::object& level_T_body, const py::object& about)
 {
   PointCloud points = cloudIn(cloud);
   const Rigid attitude = level_T_body.is_none() ? Rigid::identity() : poseIn(level_T_body, "level_T_body");
   std::optional<Rigid> known;
   if (!about.is_none()) known = poseIn(about, "about");
-  LocatedCloud place;
+  SearchedPlace place;
   {
     const py::gil_scoped_release others_may_run;
     place = site.locate(std::move(points), attitude, known);
@@ -106,29 +84,29 @@ LocatedCloud locate(const Site& site, const py::object& cloud, const py::object&
 
 void bindSite(py::module_& m)
 {
-  py::class_<LocatedCloud>(m, "Place", "Where a cloud was found in a map.")
+  py::class_<SearchedPlace>(m, "Place", "Where a cloud was found in a map.")
       .def_property_readonly(
-          "outcome", [](const LocatedCloud& place) { return toString(place.outcome); },
+          "outcome", [](const SearchedPlace& place) { return toString(place.outcome); },
           "str: found, unconfirmed, look alike or not in map.")
       .def_property_readonly(
           "map_T_body",
-          [](const LocatedCloud& place) -> std::optional<Eigen::Matrix4d>
+          [](const SearchedPlace& place) -> std::optional<Eigen::Matrix4d>
           {
-            if (!place.found) return std::nullopt;
-            return place.found->map_T_body.matrix();
+            if (!place.place) return std::nullopt;
+            return place.place->map_T_body.matrix();
           },
           "(4, 4) float64, or None where there is no place.")
       .def_property_readonly(
           "covariance",
-          [](const LocatedCloud& place) -> std::optional<Matrix6d>
+          [](const SearchedPlace& place) -> std::optional<Matrix6d>
           {
-            if (!place.found) return std::nullopt;
-            return place.found->covariance;
+            if (!place.place) return std::nullopt;
+            return place.place->covariance;
           },
           "(6, 6) float64: (translation m, rotation rad) along the body's axes, or None.")
       .def_property_readonly(
-          "agreement", [](const LocatedCloud& place) { return place.found ? place.found->agreement : 0.0; },
-          "float: score over that of the cloud with itself; 1 if the map were made of it, 0 without a place.");
+          "agreement", [](const SearchedPlace& place) { return place.agreement; },
+          "float: score of the best place over that of the cloud with itself; 1 if the map were made of it.");
   py::class_<Site>(m, "Site")
       .def(py::init(
                [](const std::filesystem::path& folder, const InputArguments& settings) {

@@ -2,8 +2,9 @@
 
 #include "base/core/ConfigError.h"
 #include "base/formats/TrajectoryReader.h"
+#include "base/positions/TotalStation.h"
 #include "input/bags/BagContents.h"
-#include "lab/evaluation/TotalStation.h"
+#include "input/rig/Extrinsics.h"
 
 #include <fmt/format.h>
 
@@ -23,6 +24,16 @@ std::variant<PositionTrack, Trajectory> readReference(const std::filesystem::pat
   if (!topic.empty()) throw UsageError("--reference-topic is for a reference in a bag");
   if (isTotalStation(file)) return readTotalStation(file);
   return readTrajectory(file, warn);
+}
+
+Eigen::Vector3d leverArmOf(const std::string& text)
+try
+{
+  return parsePose(text + " 0 0 0").translation;
+}
+catch (const std::invalid_argument&)
+{
+  throw UsageError(fmt::format("--lever-arm '{}': must be \"x y z\" in m", text));
 }
 
 std::string missingLeverArm(const EvaluationInput& input, const EvaluationOptions& options)

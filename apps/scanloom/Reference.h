@@ -17,6 +17,9 @@ namespace scanloom
 std::variant<PositionTrack, Trajectory> readReference(const std::filesystem::path&, const std::string& topic,
                                                       const std::function<void(const std::string&)>& warn);
 
+/** "x y z" in m. Throws UsageError for another text. */
+Eigen::Vector3d leverArmOf(const std::string&);
+
 /** Positions of a point of the machine are compared with the body's origin; empty if that is not so. */
 std::string missingLeverArm(const EvaluationInput&, const EvaluationOptions&);
 

@@ -15,14 +15,16 @@ Verb recordVerb();
 Verb registerVerb();
 Verb reportVerb();
 Verb simulateVerb();
+Verb siteVerb();
 Verb slamVerb();
 Verb viewVerb();
 
 const std::vector<Verb>& verbs()
 {
   static const std::vector<Verb> table{
-      recordVerb(),   infoVerb(),     editVerb(), doctorVerb(), calibrateVerb(), configVerb(),     slamVerb(),
-      evaluateVerb(), registerVerb(), mapVerb(),  viewVerb(),   simulateVerb(),  experimentVerb(), reportVerb(),
+      recordVerb(), infoVerb(), editVerb(),     doctorVerb(),     calibrateVerb(),
+      configVerb(), slamVerb(), siteVerb(),     evaluateVerb(),   registerVerb(),
+      mapVerb(),    viewVerb(), simulateVerb(), experimentVerb(), reportVerb(),
   };
   return table;
 }

@@ -50,16 +50,6 @@ std::optional<Trajectory> readIfGiven(const std::filesystem::path& path)
   return readTrajectory(path, &warn);
 }
 
-Eigen::Vector3d leverArmOf(const std::string& text)
-try
-{
-  return parsePose(text + " 0 0 0").translation;
-}
-catch (const std::invalid_argument&)
-{
-  throw UsageError(fmt::format("--lever-arm '{}': must be \"x y z\" in m", text));
-}
-
 template <typename Result>
 void print(const Result& result, bool json)
 {

@@ -50,7 +50,8 @@ class Site(unittest.TestCase):
         cloud = list(scanloom.slam(DRIVE, clouds=True))[10].cloud
         cloud.xyz[:] = np.random.default_rng(1).uniform(-20, 20, cloud.xyz.shape)
         place, said = self.place_of(cloud)
-        self.assertEqual((place.outcome, place.map_T_body, place.covariance, place.agreement),
+        self.assertLess(place.agreement, 0.7)
+        self.assertEqual((place.outcome, place.map_T_body, place.covariance),
                          ("not in map", None, None, 0))
         self.assertIn("not in this map", said[0])
 

@@ -53,11 +53,12 @@ Path OutputFolder::commit(const std::vector<std::string>& names, Completeness co
 void OutputFolder::move(const std::vector<std::string>& names)
 {
   for (auto name = names.rbegin(); name != names.rend(); ++name)
-    if (*name == names.back() || !isTaken(running_ / *name)) std::filesystem::remove(folder_ / *name);
+    if (*name == names.back() || !isTaken(running_ / *name)) std::filesystem::remove_all(folder_ / *name);
   for (const std::string& name : names)
     if (isTaken(running_ / name))
     {
       std::filesystem::create_directories((folder_ / name).parent_path());
+      if (std::filesystem::is_directory(folder_ / name)) std::filesystem::remove_all(folder_ / name);
       std::filesystem::rename(running_ / name, folder_ / name);
     }
   std::filesystem::remove_all(running_);  // nothing but folders is left

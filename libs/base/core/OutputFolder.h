@@ -25,8 +25,8 @@ class OutputFolder
   const std::filesystem::path& running() const { return running_; }
 
   /**
-   * `names`: all files that runs of this kind leave, as paths within the folder. The last one is the first to be
-   * removed and the last to appear: where it is, all others are of the same run.
+   * `names`: all files and folders that runs of this kind leave, as paths within the folder. The last one is the first
+   * to be removed and the last to appear: where it is, all others are of the same run.
    *
    * Whole: the run's files replace those of an earlier run, whose other files are removed. Partial: the same if there
    * are none of an earlier run, else the run's files stay in a folder beside them, `partial`. All files must be closed.

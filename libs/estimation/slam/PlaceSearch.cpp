@@ -15,11 +15,11 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kTogether = 3;    // keyframes: what a machine sees on about 10 m
-constexpr double kReach = 6;            // m: so far from the map's keyframes, or from a known place, it is searched
-constexpr std::size_t kCandidates = 6;  // places that are aligned
-constexpr int kHeadings = 24;           // all around
-constexpr int kHeadingsAside = 2;       // to each side of a known one, as far apart
+constexpr std::size_t kTogether = 3;           // keyframes: what a machine sees on about 10 m
+constexpr double kReach = 6;                   // m: so far from the map's keyframes it is searched
+constexpr std::size_t kCandidates = 6;         // places that are aligned
+constexpr int kHeadings = 24;                  // all around
+constexpr int kHeadingsAside = 2;              // to each side of a known one, as far apart
 constexpr double kLeanOfStart = 12 * kDegree;  // rad, of a machine on the ground that it drives on
 
 /** Starts on a grid, compared in the cells of one level. */
@@ -71,10 +71,11 @@ std::vector<Rigid> startsIn(const PriorMap& map, double grid)
   return starts;
 }
 
-std::vector<Rigid> startsAbout(const Rigid& map_T_level, double grid)
+std::vector<Rigid> startsAbout(const Rigid& map_T_level, double reach_of_guess, double grid)
 {
+  if (reach_of_guess < grid / 2) return {map_T_level};
   const double heading = map_T_level.yawPitchRoll().x();
-  const int reach = static_cast<int>(std::lround(kReach / grid));
+  const int reach = static_cast<int>(std::ceil(reach_of_guess / grid));
   std::vector<Rigid> starts;
   for (int x = -reach; x <= reach; ++x)
     for (int y = -reach; y <= reach; ++y)
@@ -107,6 +108,7 @@ struct Judged
 {
   PlaceOutcome outcome = PlaceOutcome::NotInMap;
   std::optional<RegistrationResult> place;
+  double best_score = 0;  // negative, as all are
 };
 
 /** A drive's frame that leans in the map by more than `lean` is a wrong place: gravity has levelled both. */
@@ -119,18 +121,35 @@ Judged judged(const std::vector<RegistrationResult>& candidates, const Rigid& dr
            leanOf(found.target_T_source * drive_T_level.inverse()) < lean;
   };
   const auto best = std::find_if(candidates.begin(), candidates.end(), isRight);
-  if (best == candidates.end()) return {};
+  const double score = candidates.empty() ? 0 : candidates.front().score;
+  if (best == candidates.end()) return {PlaceOutcome::NotInMap, std::nullopt, score};
   const auto isRival = [&](const RegistrationResult& other)
   {
     return other.score < fitted::kScoreOfRival * best->score && isFarFrom(other.target_T_source, best->target_T_source);
   };
-  if (std::any_of(candidates.begin(), candidates.end(), isRival)) return {PlaceOutcome::LookAlike, std::nullopt};
-  return {PlaceOutcome::Unconfirmed, *best};
+  if (std::any_of(candidates.begin(), candidates.end(), isRival)) return {PlaceOutcome::LookAlike, std::nullopt, score};
+  return {PlaceOutcome::Unconfirmed, *best, best->score};
 }
 }  // namespace
 
+std::string toString(PlaceOutcome outcome)
+{
+  switch (outcome)
+  {
+    case PlaceOutcome::Found:
+      return "found";
+    case PlaceOutcome::Unconfirmed:
+      return "unconfirmed";
+    case PlaceOutcome::LookAlike:
+      return "look alike";
+    case PlaceOutcome::NotInMap:
+      break;
+  }
+  return "not in map";
+}
+
 PlaceSearch::PlaceSearch(std::shared_ptr<const PriorMap> map, const SlamSettings& settings,
-                         const std::vector<MountedLidar>& lidars, const std::optional<Rigid>& about, LevelBy level)
+                         const std::vector<MountedLidar>& lidars, const std::optional<PlaceGuess>& about, LevelBy level)
   : map_(std::move(map)),
     map_cells_(settings.map_cells),
     cells_(settings.registration.fine_cells),
@@ -143,13 +162,19 @@ PlaceSearch::PlaceSearch(std::shared_ptr<const PriorMap> map, const SlamSettings
 {
 }
 
+void PlaceSearch::see(const Keyframe& keyframe)
+{
+  seen_.push_back({keyframe.map_T_body, viewsOf(keyframe.points, body_T_lidar_, corrections_)});
+  if (seen_.size() > kTogether) seen_.pop_front();
+  if (about_ && !map_T_drive_about_)
+    map_T_drive_about_ = levelled(about_->map_T_body) * levelled(keyframe.map_T_body).inverse();
+}
+
 SearchedPlace PlaceSearch::add(const Keyframe& keyframe)
 {
+  see(keyframe);
   const Rigid& drive_T_body = keyframe.map_T_body;
-  seen_.push_back({drive_T_body, viewsOf(keyframe.points, body_T_lidar_, corrections_)});
-  if (seen_.size() > kTogether) seen_.pop_front();
   const Rigid drive_T_level = levelled(drive_T_body);
-  if (about_ && !map_T_drive_about_) map_T_drive_about_ = levelled(*about_) * drive_T_level.inverse();
 
   const std::vector<View> together = seenFrom(drive_T_level);
   const double own_score = scoreWithItself(together, map_cells_, cells_, alignment_);
@@ -161,12 +186,12 @@ SearchedPlace PlaceSearch::add(const Keyframe& keyframe)
                                        kCandidates, cells_, alignment_);
     found = judged(candidates, drive_T_level, own_score, lean_);
   }
-  if (!found.place) return {found.outcome, std::nullopt};
+  const double agreement = found.best_score / own_score;
+  if (!found.place) return {found.outcome, std::nullopt, agreement};
   const Rigid map_T_drive = found.place->target_T_source * drive_T_level.inverse();
-  return confirmed({map_T_drive, map_T_drive * drive_T_body,
-                    withSharedErrors(movedTo(drive_T_level.inverse() * drive_T_body, found.place->covariance)),
-                    found.place->score / own_score},
-                   drive_T_body);
+  const Matrix6d covariance = movedTo(drive_T_level.inverse() * drive_T_body, found.place->covariance);
+  const FoundPlace place{map_T_drive, map_T_drive * drive_T_body, withSharedErrors(covariance), covariance};
+  return {confirmed(place, drive_T_body), place, agreement};
 }
 
 std::vector<View> PlaceSearch::seenFrom(const Rigid& drive_T_level) const
@@ -180,13 +205,14 @@ std::vector<View> PlaceSearch::seenFrom(const Rigid& drive_T_level) const
 
 std::vector<Rigid> PlaceSearch::starts(double grid, const Rigid& drive_T_level) const
 {
-  return map_T_drive_about_ ? startsAbout(*map_T_drive_about_ * drive_T_level, grid) : startsIn(*map_, grid);
+  return map_T_drive_about_ ? startsAbout(*map_T_drive_about_ * drive_T_level, about_->reach, grid)
+                            : startsIn(*map_, grid);
 }
 
-SearchedPlace PlaceSearch::confirmed(const FoundPlace& place, const Rigid& drive_T_body)
+PlaceOutcome PlaceSearch::confirmed(const FoundPlace& place, const Rigid& drive_T_body)
 {
   const std::optional<Rigid> before = std::exchange(map_T_drive_, place.map_T_drive);
   const bool is_confirmed = about_ || (before && areSame(*before * drive_T_body, place.map_T_body));
-  return {is_confirmed ? PlaceOutcome::Found : PlaceOutcome::Unconfirmed, place};
+  return is_confirmed ? PlaceOutcome::Found : PlaceOutcome::Unconfirmed;
 }
 }  // namespace scanloom

@@ -1,10 +1,11 @@
-/** Finds a drive in a map that an earlier one has made, without knowing where in it the drive started. */
+/** Finds a drive in a map that another one has made, without knowing where in it the drive started. */
 #pragma once
 #include "estimation/slam/PriorMap.h"
 
 #include <deque>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace scanloom
@@ -13,9 +14,9 @@ namespace scanloom
 struct FoundPlace
 {
   Rigid map_T_drive;
-  Rigid map_T_body;      // at the newest keyframe
-  Matrix6d covariance;   // of map_T_body, tangent of boxPlus
-  double agreement = 0;  // score over that of the keyframes with themselves: 1 if the map were made of them
+  Rigid map_T_body;          // at the newest keyframe
+  Matrix6d covariance;       // of map_T_body, tangent of boxPlus; with what keyframes of one drive err alike
+  Matrix6d of_registration;  // the same without
 };
 
 enum class PlaceOutcome
@@ -26,10 +27,22 @@ enum class PlaceOutcome
   NotInMap,
 };
 
+/** "found", "unconfirmed", "look alike" or "not in map". */
+std::string toString(PlaceOutcome);
+
 struct SearchedPlace
 {
   PlaceOutcome outcome = PlaceOutcome::NotInMap;
   std::optional<FoundPlace> place;  // Found or Unconfirmed
+  /** Score of the best place over that of the keyframes with themselves: 1 if the map were made of them. */
+  double agreement = 0;
+};
+
+/** About where the body is: within `reach` (m) to each side and, from 3 m on, 30 deg of heading. */
+struct PlaceGuess
+{
+  Rigid map_T_body;
+  double reach = 6;
 };
 
 /** By what z is up in a drive's frame. */
@@ -42,16 +55,16 @@ enum class LevelBy
 class PlaceSearch
 {
  public:
-  /**
-   * `about`: where the body is at the drive's first keyframe, within 6 m and 30 deg of heading; none: anywhere in the
-   * map.
-   */
+  /** `about`: where the body is at the drive's first keyframe; none: anywhere in the map. */
   PlaceSearch(std::shared_ptr<const PriorMap>, const SlamSettings&, const std::vector<MountedLidar>&,
-              const std::optional<Rigid>& about = std::nullopt, LevelBy = LevelBy::Imu);
+              const std::optional<PlaceGuess>& about = std::nullopt, LevelBy = LevelBy::Imu);
+
+  /** A keyframe that is searched together with the ones after it. */
+  void see(const Keyframe& in_drive);
 
   /**
-   * Searches what the drive's last keyframes, this one included, have seen together. A place is found if two keyframes
-   * have it independently, or one where the place is known about. Both frames are level.
+   * Sees the keyframe and searches what the drive's last ones, this one included, have seen together. A place is found
+   * if two keyframes have it independently, or one where the place is known about. Both frames are level.
    */
   SearchedPlace add(const Keyframe& in_drive);
 
@@ -64,7 +77,7 @@ class PlaceSearch
 
   std::vector<View> seenFrom(const Rigid& drive_T_level) const;
   std::vector<Rigid> starts(double grid, const Rigid& drive_T_level) const;
-  SearchedPlace confirmed(const FoundPlace&, const Rigid& drive_T_body);
+  PlaceOutcome confirmed(const FoundPlace&, const Rigid& drive_T_body);
 
   std::shared_ptr<const PriorMap> map_;
   NdtOptions map_cells_, cells_;
@@ -73,7 +86,7 @@ class PlaceSearch
   std::vector<Rigid> body_T_lidar_;
   CellCorrections corrections_;
   double lean_;  // rad, of the drive's frame in the map's, at most
-  std::optional<Rigid> about_;
+  std::optional<PlaceGuess> about_;
   std::optional<Rigid> map_T_drive_about_;  // from the first keyframe on
   std::optional<Rigid> map_T_drive_;        // by the last keyframe that had a place
   std::deque<Seen> seen_;

@@ -49,6 +49,7 @@ struct StateEstimate
   bool map_restarted = false;  // a new local map begins here
   bool in_map = false;         // the map frame is that of an earlier drive's map
   std::optional<Keyframe> keyframe;
+  Matrix6d keyframe_covariance = Matrix6d::Zero();  // of its pose in the local map that it joins, tangent of boxPlus
   Trajectory since_last;  // body poses at the IMU's stamps, after the previous estimate up to this one
 
   /** The map shifted farther than gravity shifts it in sound drives: accelerations were taken for a tilt, and the poses

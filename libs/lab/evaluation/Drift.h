@@ -1,6 +1,6 @@
 /** Drift: the distance from a reference, after an alignment on the start of the path. */
 #pragma once
-#include "lab/evaluation/internal/Alignment.h"
+#include "base/positions/Alignment.h"
 
 #include <cstddef>
 #include <optional>

@@ -1,7 +1,7 @@
 #include "lab/evaluation/Evaluation.h"
 
 #include "base/formats/Trajectory.h"
-#include "lab/evaluation/internal/ClockOffset.h"
+#include "base/positions/ClockOffset.h"
 
 namespace scanloom
 {

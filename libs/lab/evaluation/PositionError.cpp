@@ -1,7 +1,7 @@
 #include "lab/evaluation/PositionError.h"
 
 #include "base/formats/Trajectory.h"
-#include "lab/evaluation/PositionTrack.h"
+#include "base/positions/PositionTrack.h"
 
 #include <cmath>
 #include <optional>

@@ -1,9 +1,9 @@
 #include "lab/study/RunReference.h"
 
+#include "base/positions/TotalStation.h"
 #include "base/formats/TrajectoryReader.h"
 #include "input/rig/Extrinsics.h"
 #include "input/rig/FileKind.h"
-#include "lab/evaluation/TotalStation.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 /** What the trajectory of a run is compared with: a total station, poses, or nothing. */
 #pragma once
-#include "lab/evaluation/PositionTrack.h"
+#include "base/positions/PositionTrack.h"
 
 #include <Eigen/Core>
 

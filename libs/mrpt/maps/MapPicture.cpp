@@ -22,6 +22,7 @@ constexpr int kTitleHeight = 40, kLegendHeight = 64, kBorder = 50, kLeastWidth =
 
 const Color kPaper{0.98F, 0.98F, 0.97F}, kInk{0.15F, 0.16F, 0.18F}, kGrid{0.72F, 0.72F, 0.72F};
 const Color kVegetation{0.55F, 0.74F, 0.45F}, kStem{0.30F, 0.16F, 0.07F}, kPath{0.87F, 0.18F, 0.12F};
+const Color kGoodLink{0.13F, 0.35F, 0.78F}, kBadLink{0.95F, 0.60F, 0.05F};
 const Color kLowGround{0.79F, 0.85F, 0.90F}, kHighGround{0.93F, 0.86F, 0.72F};
 
 using Voxel = Eigen::Array3i;
@@ -97,10 +98,12 @@ struct View
   }
 };
 
-View viewAround(const Trajectory& trajectory, const MapPictureOptions& options)
+View viewAround(const std::vector<Trajectory>& paths, const MapPictureOptions& options)
 {
   Eigen::AlignedBox2d box;
-  for (const StampedPose& pose : trajectory) box.extend(pose.map_T_body.translation.head<2>().eval());
+  for (const Trajectory& path : paths)
+    for (const StampedPose& pose : path) box.extend(pose.map_T_body.translation.head<2>().eval());
+  if (box.isEmpty()) throw std::invalid_argument("the picture of the map needs a pose");
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(options.margin);
   const Eigen::Vector2d extent = box.sizes() + 2 * margin;
   const double scale = (options.longest_side - 2 * kBorder) / extent.maxCoeff();
@@ -182,8 +185,17 @@ void paintGrid(Canvas& canvas, const View& view)
   }
 }
 
-void paintTrajectory(Canvas& canvas, const View& view, const Trajectory& trajectory)
+void paintLink(Canvas& canvas, const View& view, const MapLink& link)
 {
+  const Color& color = link.is_good ? kGoodLink : kBadLink;
+  const Eigen::Vector2d to = view.pixel(link.to.x(), link.to.y());
+  canvas.line(view.pixel(link.from.x(), link.from.y()), to, 2, color);
+  canvas.disc(to, 4, color);  // the line is short where both paths are beside each other
+}
+
+void paintPath(Canvas& canvas, const View& view, const Trajectory& trajectory)
+{
+  if (trajectory.empty()) return;
   const auto pixel = [&](const StampedPose& pose)
   { return view.pixel(pose.map_T_body.translation.x(), pose.map_T_body.translation.y()); };
   for (std::size_t i = 1; i < trajectory.size(); ++i)
@@ -193,7 +205,7 @@ void paintTrajectory(Canvas& canvas, const View& view, const Trajectory& traject
   canvas.disc(pixel(trajectory.back()), 7, kPath);
 }
 
-void paintLegend(Canvas& canvas, const View& view)
+void paintLegend(Canvas& canvas, const View& view, bool has_links)
 {
   const int y = canvas.height() - 26;
   const double bar = roundLength(view.width / view.scale / 5);
@@ -202,7 +214,7 @@ void paintLegend(Canvas& canvas, const View& view)
   for (const int end : {kBorder, bar_end}) canvas.fillRectangle(end - 1, y - 5, 2, 13, kInk);
   canvas.text(kBorder + 6, y - 16, fmt::format("{:g} m", bar), Canvas::Font::Small, kInk);
 
-  const int columns = std::max(bar_end + 40, canvas.width() - kBorder - 480);
+  const int columns = std::max(bar_end + 40, canvas.width() - kBorder - (has_links ? 640 : 480));
   const auto entry = [&](int x, const Color& color, const std::string& meaning)
   {
     canvas.fillRectangle(columns + x, y - 4, 12, 12, color);
@@ -213,6 +225,9 @@ void paintLegend(Canvas& canvas, const View& view)
   entry(250, kHighGround, "ground: high");
   entry(362, kLowGround, "low");
   entry(414, kPath, "path");
+  if (!has_links) return;
+  entry(474, kGoodLink, "loop");
+  entry(534, kBadLink, "refused");
 }
 }  // namespace
 
@@ -225,22 +240,22 @@ void MapPicture::add(const Keyframe& keyframe)
   }
 }
 
-void MapPicture::write(const std::filesystem::path& path, const Trajectory& trajectory, const std::string& title) const
+void MapPicture::write(const std::filesystem::path& file, const std::vector<Trajectory>& paths,
+                       const std::string& title, const std::vector<MapLink>& links) const
 {
-  if (trajectory.empty()) throw std::invalid_argument("the picture of the map needs a trajectory with a pose");
-
   std::vector<std::uint64_t> keys(voxels_.begin(), voxels_.end());
   std::sort(keys.begin(), keys.end());  // so that the picture does not depend on the order of the hash set
   std::vector<Voxel> voxels;
   std::transform(keys.begin(), keys.end(), std::back_inserter(voxels), voxelOf);
 
-  const View view = viewAround(trajectory, options_);
+  const View view = viewAround(paths, options_);
   Canvas canvas(2 * view.left + view.width, kTitleHeight + view.height + kLegendHeight, kPaper);
   canvas.text(kBorder, 12, title, Canvas::Font::Large, kInk);
   paintMap(canvas, view, voxels);
   paintGrid(canvas, view);
-  paintTrajectory(canvas, view, trajectory);
-  paintLegend(canvas, view);
-  canvas.savePng(path);
+  for (const Trajectory& path : paths) paintPath(canvas, view, path);
+  for (const MapLink& link : links) paintLink(canvas, view, link);
+  paintLegend(canvas, view, !links.empty());
+  canvas.savePng(file);
 }
 }  // namespace scanloom

@@ -1,4 +1,4 @@
-/** A picture of the map from above: what stands at breast height, and the trajectory. */
+/** A picture of the map from above: what stands at breast height, and the paths through it. */
 #pragma once
 #include "base/core/Field.h"
 #include "base/core/Keyframe.h"
@@ -25,10 +25,17 @@ struct MapPictureOptions
   }
 };
 
+/** A line between two places of the map. */
+struct MapLink
+{
+  Eigen::Vector3d from, to;  // m
+  bool is_good = true;
+};
+
 /**
  * Collects the points of the keyframes as voxels of 0.1 m (memory grows with the map, not with time) and draws a PNG
  * with the map's y axis up: ground coloured by elevation, vegetation pale, points 1.0 to 1.6 m above the ground dark,
- * the trajectory on top, a scale bar and a legend.
+ * paths and links on top, a scale bar and a legend.
  */
 class MapPicture
 {
@@ -37,8 +44,9 @@ class MapPicture
 
   void add(const Keyframe&);
 
-  /** Throws std::invalid_argument for an empty trajectory, std::runtime_error if the file cannot be written. */
-  void write(const std::filesystem::path&, const Trajectory&, const std::string& title) const;
+  /** Throws std::invalid_argument without a pose, std::runtime_error if the file cannot be written. */
+  void write(const std::filesystem::path&, const std::vector<Trajectory>& paths, const std::string& title,
+             const std::vector<MapLink>& links = {}) const;
 
  private:
   MapPictureOptions options_;

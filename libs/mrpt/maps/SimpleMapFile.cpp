@@ -1,6 +1,7 @@
 #include "mrpt/maps/SimpleMapFile.h"
 
 #include "input/rawlogs/Conversions.h"
+#include "mrpt/maps/internal/PoseCovariance.h"
 #include "mrpt/observations/GzipArchive.h"
 #include "mrpt/observations/readByAll.h"
 
@@ -8,7 +9,6 @@
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 
 namespace scanloom
@@ -38,24 +38,6 @@ Scan scanOf(const Keyframe& keyframe, std::size_t lidar, const Rigid& sensor_T_b
   }
   return scan;
 }
-
-/**
- * MRPT's covariance is of x, y, z, yaw, pitch, roll. A rotation w about the body's axes changes the angles by the
- * inverse of the kinematics of R = Rz(yaw) Ry(pitch) Rx(roll).
- */
-mrpt::math::CMatrixDouble66 mrptCovariance(const Rigid& map_T_body, const Matrix6d& along_body)
-{
-  const Eigen::Vector3d angles = map_T_body.yawPitchRoll();
-  const double cos_pitch = std::cos(angles[1]), sin_roll = std::sin(angles[2]), cos_roll = std::cos(angles[2]);
-  const double tan_pitch = std::tan(angles[1]);
-  Matrix6d change = Matrix6d::Zero();
-  change.topLeftCorner<3, 3>() = map_T_body.rotation.toRotationMatrix();
-  change.bottomRightCorner<3, 3>() << 0, sin_roll / cos_pitch, cos_roll / cos_pitch,  //
-      0, cos_roll, -sin_roll,                                                         //
-      1, sin_roll * tan_pitch, cos_roll * tan_pitch;
-  const Matrix6d of_angles = change * along_body * change.transpose();
-  return mrpt::math::CMatrixDouble66(of_angles);
-}
 }  // namespace
 
 SimpleMapBuilder::SimpleMapBuilder(std::vector<MountedLidar> lidars, CloudClass cloud_class)
@@ -84,9 +66,10 @@ void SimpleMapBuilder::add(const MeasuredKeyframe& measured)
     observation->sensorPose = toMrpt(lidars_[lidar].body_T_sensor);
     frame->insert(observation);
   }
-  map_->insert(mrpt::poses::CPose3DPDFGaussian::Create(toMrpt(keyframe.map_T_body),
-                                                       mrptCovariance(keyframe.map_T_body, measured.covariance)),
-               frame);
+  map_->insert(
+      mrpt::poses::CPose3DPDFGaussian::Create(
+          toMrpt(keyframe.map_T_body), mrpt::math::CMatrixDouble66(ofAngles(keyframe.map_T_body, measured.covariance))),
+      frame);
 }
 
 void SimpleMapBuilder::write(const std::filesystem::path& path) const { writeGzip(path, *map_); }

@@ -3,6 +3,7 @@
 #include "base/config/MrptMessage.h"
 #include "input/rawlogs/Conversions.h"
 #include "input/rawlogs/CountedArchive.h"
+#include "mrpt/maps/internal/PoseCovariance.h"
 #include "mrpt/observations/Observations.h"
 #include "mrpt/observations/registerClasses.h"
 
@@ -75,6 +76,11 @@ std::unique_ptr<mrpt::maps::CSimpleMap> load(const std::filesystem::path& path)
   return map;
 }
 
+const auto& keyframeAt(const mrpt::maps::CSimpleMap& map, std::size_t index)
+{
+  return *std::next(map.begin(), static_cast<std::ptrdiff_t>(index));
+}
+
 Rigid soundPose(const mrpt::poses::CPose3D& pose)
 {
   const Eigen::Vector3d t(pose.x(), pose.y(), pose.z());
@@ -140,9 +146,14 @@ void SimpleMapReader::addLidarOf(const CObservationPointCloud& cloud)
 
 std::size_t SimpleMapReader::size() const { return map_->size(); }
 
+Matrix6d SimpleMapReader::covariance(std::size_t index) const
+{
+  return alongBody(map_T_body_.at(index), keyframeAt(*map_, index).pose->getCovariance().asEigen());
+}
+
 Keyframe SimpleMapReader::keyframe(std::size_t index) const
 {
-  const auto& pair = *std::next(map_->begin(), static_cast<std::ptrdiff_t>(index));
+  const auto& pair = keyframeAt(*map_, index);
   Keyframe keyframe;
   keyframe.map_T_body = map_T_body_.at(index);
   forEachCloud(*pair.sf,

@@ -35,6 +35,11 @@ class SimpleMapReader
   /** Points in the body frame with intensity and sensor_id; other fields are 0. Points with NaN are left out. */
   Keyframe keyframe(std::size_t index) const;
 
+  const Rigid& pose(std::size_t index) const { return map_T_body_.at(index); }
+
+  /** Of boxMinus(truth, map_T_body), as in MeasuredKeyframe; 0 where it is not known. */
+  Matrix6d covariance(std::size_t index) const;
+
  private:
   void addLidarOf(const mrpt::obs::CObservationPointCloud&);
 

@@ -102,7 +102,7 @@ void SlamFiles::addEarlierKeyframes()
   {
     Keyframe keyframe = reader.keyframe(i);
     for (std::uint8_t& id : keyframe.points.sensor_id) id = earlier_->sensor_ids[id];
-    maps_->add({std::move(keyframe)});
+    maps_->addEarlier({std::move(keyframe), reader.covariance(i)});
   }
 }
 
@@ -124,7 +124,8 @@ void SlamFiles::add(const StateEstimate& e)
              e.correction.head<3>().norm(), 180 / M_PI * e.correction.tail<3>().norm(), e.in_map, marksUntil(e.stamp));
   for (TumWriter* writer : {&*trajectory_, &*trajectory_imu_}) writer->flush();
   csv_.flush();
-  if (maps_ && e.keyframe) maps_->add({*e.keyframe, e.since_start, imuOf(e)});
+  if (maps_ && e.keyframe)
+    maps_->add({*e.keyframe, e.since_start, imuOf(e)}, {e.stamp, e.map_restarted, e.keyframe_covariance});
   if (dense_map_) dense_map_->add(e);
 }
 

@@ -47,7 +47,7 @@ TEST(PlaceSearch, findsADriveByOneKeyframeWhereItIsKnownAbout)
 {
   const StandOfStems stand;
   const Rigid place = at(2, 1, 2.3), about = at(4, 0, 2.6);
-  PlaceSearch search(mapOf(stand), {}, kLidars, about);
+  PlaceSearch search(mapOf(stand), {}, kLidars, PlaceGuess{about});
   EXPECT_EQ(search.add(seenAt(place, kMapTDrive.inverse(), stand)).outcome, PlaceOutcome::Found);
 }
 

@@ -1,5 +1,5 @@
 #include "lab/evaluation/Evaluation.h"
-#include "lab/evaluation/TotalStation.h"
+#include "base/positions/TotalStation.h"
 
 #include "base/formats/Trajectory.h"
 

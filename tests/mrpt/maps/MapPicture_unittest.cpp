@@ -39,7 +39,7 @@ TEST(MapPicture, showsTheStemWhereItStands)
   MapPicture picture({10.0, 1000});
   picture.add(floorWithStem());
   const Trajectory path{{Timestamp{}, Rigid::identity()}, {Timestamp{1s}, Rigid{{1, 0, 0, 0}, {0, -4, 0}}}};
-  picture.write(folder / "map.png", path, "a test");
+  picture.write(folder / "map.png", {path}, "a test");
 
   mrpt::img::CImage image;
   ASSERT_TRUE(image.loadFromFile((folder / "map.png").string()));
@@ -67,7 +67,7 @@ TEST(MapPicture, isTheSameForKeyframesInAnyOrder)
     MapPicture picture({10.0, 600});
     picture.add(other_first ? other : floorWithStem());
     picture.add(other_first ? floorWithStem() : other);
-    picture.write(folder / (other_first ? "a.png" : "b.png"), path, "a test");
+    picture.write(folder / (other_first ? "a.png" : "b.png"), {path}, "a test");
   }
   EXPECT_EQ(contentOf(folder / "a.png"), contentOf(folder / "b.png"));
 }

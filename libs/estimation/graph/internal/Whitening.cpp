@@ -22,6 +22,8 @@ Matrix6d rootOfInformation(const Matrix6d& information)
   return eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.vectors.transpose();
 }
 
+Eigen::Matrix3d rootOfInverse(const Eigen::Matrix3d& covariance) { return rootOf(covariance); }
+
 Matrix9d rootOfInverse(const Matrix9d& covariance) { return rootOf(covariance); }
 
 Matrix15d rootOfInverse(const Matrix15d& covariance) { return rootOf(covariance); }

@@ -9,6 +9,7 @@ namespace scanloom
 Matrix6d rootOfInformation(const Matrix6d&);
 
 /** That of the inverse of a positive definite covariance. */
+Eigen::Matrix3d rootOfInverse(const Eigen::Matrix3d& covariance);
 Matrix9d rootOfInverse(const Matrix9d& covariance);
 Matrix15d rootOfInverse(const Matrix15d& covariance);
 }  // namespace scanloom

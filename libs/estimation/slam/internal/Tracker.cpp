@@ -102,6 +102,7 @@ StateEstimate estimateOf(DeskewedScan seen, const Prediction& predicted, const C
   estimate.recovered = scan.recovered;
   estimate.map_restarted = map.restarted;
   estimate.keyframe = map.keyframe;
+  estimate.keyframe_covariance = map.keyframe_covariance;
   estimate.since_last = motion;
   return estimate;
 }
@@ -246,7 +247,7 @@ Timed<BodyEstimate> Tracker::smooth(const Measurement& measured, const Predictio
 
 UpdatedMap Tracker::updateMap(LocalMap local_map, const DeskewedScan& seen, const Continued& scan) const
 {
-  UpdatedMap map{std::move(local_map), scan.body.window, std::nullopt, false, {}};
+  UpdatedMap map{std::move(local_map), scan.body.window, std::nullopt, Matrix6d::Zero(), false, {}};
   if (seen.cloud.empty()) return map;
   map.restarted = scan.begins_map && !map.local_map.empty();
   if (map.restarted) map.local_map.clear();
@@ -269,6 +270,7 @@ UpdatedMap Tracker::withKeyframe(UpdatedMap map, const DeskewedScan& seen, const
     map.window.smoother.loosenAnchor(movedTo(map.window.local_T_anchor, drift));
   else
     map.window.before += drift;
+  map.keyframe_covariance = pose.covariance;
   map.keyframe = Keyframe{seen.stamp, map_T_local * pose.local_T_body, seen.cloud};
   // The map of an earlier drive does not move: registrations in it are poses, not relative to a keyframe.
   const bool is_relative = settings_.slam.relative && !map.local_map.isInPriorMap();

@@ -69,9 +69,10 @@ struct BodyEstimate
 struct UpdatedMap
 {
   LocalMap local_map;
-  SmootherWindow window;             // its anchor, as a new keyframe moves the map
-  std::optional<Keyframe> keyframe;  // the one that was added
-  bool restarted = false;            // the map begins with it
+  SmootherWindow window;                            // its anchor, as a new keyframe moves the map
+  std::optional<Keyframe> keyframe;                 // the one that was added
+  Matrix6d keyframe_covariance = Matrix6d::Zero();  // see StateEstimate
+  bool restarted = false;                           // the map begins with it
   StageRuns times;
 };
 

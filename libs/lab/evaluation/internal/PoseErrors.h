@@ -1,7 +1,7 @@
 /** Absolute and relative pose errors, as evo 1.x defines them (evo_ape, evo_rpe: translation_part, angle_deg,
  * point_distance). */
 #pragma once
-#include "lab/evaluation/internal/Alignment.h"
+#include "base/positions/Alignment.h"
 
 #include <optional>
 #include <vector>

@@ -11,8 +11,9 @@ Duration timeToSearch(const PriorMap& map) { return 1s + 20ms * map.keyframes().
 }  // namespace
 
 MapInUse::MapInUse(const GivenMap& given, const SlamSettings& settings, const std::vector<MountedLidar>& lidars)
-  : map_(given.map), about_(given.map_T_body), settings_(settings), lidars_(lidars)
+  : map_(given.map), settings_(settings), lidars_(lidars)
 {
+  if (given.map_T_body) about_ = PlaceGuess{*given.map_T_body};
 }
 
 std::optional<MapEntry> MapInUse::add(const std::vector<StateEstimate>& estimates, LevelBy level)

@@ -44,7 +44,7 @@ class MapInUse
   std::optional<MapEntry> taken(const StateEstimate& newest);
 
   std::shared_ptr<const PriorMap> map_;  // null: none is given
-  std::optional<Rigid> about_;           // where the drive starts
+  std::optional<PlaceGuess> about_;      // where the drive starts
   SlamSettings settings_;
   std::vector<MountedLidar> lidars_;
   std::optional<PlaceSearch> search_;  // begun, while it rests

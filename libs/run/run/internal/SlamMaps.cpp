@@ -15,12 +15,16 @@ constexpr const char *kPly = "map.ply", *kSimpleMap = "keyframes.simplemap", *kO
                      *kPicture = "map.png";
 }  // namespace
 
-std::vector<std::string> SlamMaps::names() { return {"keyframes.simplemap", "map.ply", "map.bt", "map.ot", "map.png"}; }
+std::vector<std::string> SlamMaps::names()
+{
+  return {"keyframes.simplemap", "keyframes.csv", "map.ply", "map.bt", "map.ot", "map.png"};
+}
 
 SlamMaps::SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>& lidars,
                    const OctoMapOptions& octomap, CloudClass of_keyframes)
   : folder_(folder),
     ply_(folder / "map.ply"),
+    table_(folder / "keyframes.csv"),
     simple_map_(mountedLidars(lidars), of_keyframes),
     octomap_(std::in_place, octomap, posesOf(mountedLidars(lidars))),
     picture_(MapPictureOptions{}),
@@ -31,7 +35,13 @@ SlamMaps::SlamMaps(const std::filesystem::path& folder, const std::vector<Record
 
 SlamMaps::~SlamMaps() { queue_.end(); }
 
-void SlamMaps::add(MeasuredKeyframe keyframe)
+void SlamMaps::add(MeasuredKeyframe keyframe, const KeyframeRow& row)
+{
+  table_.add(row);
+  addEarlier(std::move(keyframe));
+}
+
+void SlamMaps::addEarlier(MeasuredKeyframe keyframe)
 {
   if (!queue_.push(std::move(keyframe))) drawn_.get();
 }
@@ -77,10 +87,11 @@ void SlamMaps::addToAll(const MeasuredKeyframe& measured)
 void SlamMaps::writeAll(const Trajectory& path)
 {
   attempt(kPly, [&] { ply_.close(); });
+  attempt(kSimpleMap, [&] { table_.close(); });
   attempt(kSimpleMap, [&] { simple_map_.write(folder_ / kSimpleMap); });
   attempt(kOctoMaps, [&] { std::move(*octomap_).write(folder_ / "map.bt", folder_ / "map.ot"); });
   if (path.empty()) return;
-  attempt(kPicture, [&] { picture_.write(folder_ / kPicture, path, "map at breast height"); });
+  attempt(kPicture, [&] { picture_.write(folder_ / kPicture, {path}, "map at breast height"); });
 }
 
 void SlamMaps::close(const Trajectory& path, RunSummary& summary)

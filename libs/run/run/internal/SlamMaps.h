@@ -4,6 +4,7 @@
 #include "base/formats/CloudWriter.h"
 #include "base/formats/Trajectory.h"
 #include "input/rig/RecordingHeader.h"
+#include "mrpt/maps/KeyframeTable.h"
 #include "mrpt/maps/MapPicture.h"
 #include "mrpt/maps/OctoMapExport.h"
 #include "mrpt/maps/SimpleMapFile.h"
@@ -19,7 +20,7 @@
 
 namespace scanloom
 {
-/** keyframes.simplemap, map.ply, map.bt, map.ot and map.png, all in the map frame. */
+/** keyframes.simplemap and keyframes.csv, map.ply, map.bt, map.ot and map.png, all in the map frame. */
 class SlamMaps
 {
  public:
@@ -37,7 +38,10 @@ class SlamMaps
    * Keyframes are drawn by a thread of their own, in order, because an occupancy map takes seconds for one. Waits while
    * eight of them wait.
    */
-  void add(MeasuredKeyframe);
+  void add(MeasuredKeyframe, const KeyframeRow&);
+
+  /** Of an earlier drive in the same frame: not in keyframes.csv, which is of one drive. */
+  void addEarlier(MeasuredKeyframe);
 
   /**
    * Waits for the last keyframe, renames every file to its name, and adds map points and stages to the summary. A map
@@ -55,6 +59,7 @@ class SlamMaps
 
   std::filesystem::path folder_;
   CloudWriter ply_;
+  KeyframeTableWriter table_;
   SimpleMapBuilder simple_map_;
   std::optional<OctoMapBuilder> octomap_;  // none once it is given up, for its memory
   MapPicture picture_;

@@ -1,4 +1,4 @@
-#include "lab/evaluation/TotalStation.h"
+#include "base/positions/TotalStation.h"
 
 #include "support/TemporaryFolder.h"
 #include "support/messageOf.h"

@@ -1,4 +1,4 @@
-#include "lab/evaluation/PositionTrack.h"
+#include "base/positions/PositionTrack.h"
 
 #include "base/formats/SecondsText.h"
 #include "base/formats/Trajectory.h"

@@ -1,4 +1,4 @@
-#include "lab/evaluation/internal/Alignment.h"
+#include "base/positions/Alignment.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/poses/CPose3DQuat.h>

@@ -1,6 +1,6 @@
 /** Positions that a total station has measured, as its programs export them. */
 #pragma once
-#include "lab/evaluation/PositionTrack.h"
+#include "base/positions/PositionTrack.h"
 
 #include <filesystem>
 

@@ -1,7 +1,7 @@
 /** Aligns the frame of an estimate (map) with that of a reference, from positions of one point at the same times. */
 #pragma once
 #include "base/core/Rigid.h"
-#include "lab/evaluation/PositionTrack.h"
+#include "base/positions/PositionTrack.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
-#include "lab/evaluation/internal/ClockOffset.h"
+#include "base/positions/ClockOffset.h"
 
-#include "lab/evaluation/internal/Alignment.h"
+#include "base/positions/Alignment.h"
 
 #include <limits>
 

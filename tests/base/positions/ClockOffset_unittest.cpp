@@ -1,4 +1,4 @@
-#include "lab/evaluation/internal/ClockOffset.h"
+#include "base/positions/ClockOffset.h"
 
 #include <gtest/gtest.h>
 

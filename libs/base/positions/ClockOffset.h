@@ -1,6 +1,6 @@
 /** The clock offset between a reference and an estimate, from their positions. */
 #pragma once
-#include "lab/evaluation/PositionTrack.h"
+#include "base/positions/PositionTrack.h"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "lab/evaluation/internal/StationColumns.h"
+#include "base/positions/internal/StationColumns.h"
 
 #include "base/config/Names.h"
 #include "base/core/Text.h"

@@ -1,4 +1,4 @@
-#include "lab/evaluation/internal/Alignment.h"
+#include "base/positions/Alignment.h"
 
 #include "base/core/Decompositions.h"
 

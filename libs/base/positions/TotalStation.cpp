@@ -1,10 +1,10 @@
-#include "lab/evaluation/TotalStation.h"
+#include "base/positions/TotalStation.h"
 
 #include "base/config/Values.h"
 #include "base/core/Text.h"
 #include "base/formats/SecondsText.h"
 #include "base/formats/TrajectoryReader.h"
-#include "lab/evaluation/internal/StationColumns.h"
+#include "base/positions/internal/StationColumns.h"
 
 #include <fmt/format.h>
 

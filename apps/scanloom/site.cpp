@@ -1,0 +1,181 @@
+/** `scanloom site`: one map of several drives, in the frame of a reference. */
+#include "Arguments.h"
+#include "Reference.h"
+#include "Settings.h"
+#include "base/core/OutputFolder.h"
+#include "base/core/Progress.h"
+#include "base/positions/ClockOffset.h"
+#include "base/positions/TotalStation.h"
+#include "estimation/slam/PlaceSearch.h"
+#include "site/SiteFiles.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+
+namespace scanloom
+{
+namespace
+{
+struct SiteArguments
+{
+  ConfigurationArguments configuration;
+  OutputFolderArguments output;
+  std::vector<std::filesystem::path> drives, references;
+  std::string lever_arm = "0 0 0";
+};
+
+/** Of the first drive's run, unless others are given: it says what kind of world the drives are in. */
+SlamSettings settingsFor(const SiteArguments& arguments)
+{
+  ConfigurationArguments configuration = arguments.configuration;
+  const std::filesystem::path of_run = arguments.drives.front() / "configuration.ini";
+  if (configuration.files.empty() && std::filesystem::exists(of_run)) configuration.files = {of_run};
+  return load<SlamSettings>(configuration).settings;
+}
+
+std::vector<SiteDrive> readDrives(const std::vector<std::filesystem::path>& folders)
+{
+  std::vector<SiteDrive> drives;
+  for (const std::filesystem::path& folder : folders) drives.emplace_back(folder);
+  return drives;
+}
+
+std::vector<Reference> readReferences(const SiteArguments& arguments)
+{
+  std::vector<Reference> references;
+  for (const std::filesystem::path& file : arguments.references)
+    references.push_back({readTotalStation(file), leverArmOf(arguments.lever_arm)});
+  return references;
+}
+
+/** "monday, tuesday from 35 s on" */
+std::string drivesIn(std::size_t piece, const Site& site, const std::vector<SiteDrive>& drives)
+{
+  const std::vector<std::string> names = namesOf(drives);
+  std::vector<std::string> texts;
+  for (std::size_t d = 0; d < drives.size(); ++d)
+  {
+    const std::vector<DrivePiece> parts = piecesOf(d, site, drives);
+    for (const DrivePiece& part : parts)
+      if (part.piece == piece)
+        texts.push_back(parts.size() == 1 ? names[d]
+                                          : fmt::format("{} from {:.0f} s to {:.0f} s", names[d],
+                                                        seconds(part.begin - parts.front().begin),
+                                                        seconds(part.end - parts.front().begin)));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+void reportLoops(const Site& site)
+{
+  std::map<LoopDecision, int> counts;
+  for (const Loop& loop : site.loops) ++counts[loop.decision];
+  std::vector<std::string> refused;
+  for (const auto& [decision, count] : counts)
+    if (decision != LoopDecision::Accepted) refused.push_back(fmt::format("{} {}", count, toString(decision)));
+  fmt::print("{} keyframes, {} loops{}\n", site.keyframes.size(), counts[LoopDecision::Accepted],
+             refused.empty() ? "" : fmt::format(" (refused: {})", fmt::join(refused, ", ")));
+}
+
+/** @return whether all drives are in one piece. */
+bool reportPieces(const Site& site, const std::vector<SiteDrive>& drives)
+{
+  if (site.pieces.size() == 1) return true;
+  fmt::print("{} pieces that have no place in common:\n", site.pieces.size());
+  for (std::size_t p = 0; p < site.pieces.size(); ++p)
+    fmt::print("  {}: {} keyframes: {}{}\n", p + 1, site.pieces[p].keyframes.size(), drivesIn(p + 1, site, drives),
+               site.pieces[p].is_in_reference_frame ? " (in the reference's frame)" : "");
+  return false;
+}
+
+/** A clock that is off moves what is measured along the way, where loops hardly show it. @return whether it is right.
+ */
+bool reportClock(const std::filesystem::path& file, const Reference& reference, const Trajectory& trajectory,
+                 const std::string& drive)
+{
+  constexpr Duration kUsual = 50ms;
+  const auto late = clockOffset(trajectory, reference.body_p_point, reference.track);
+  if (!late || (*late<kUsual&& * late> - kUsual)) return true;
+  warn(fmt::format("{}: its clock is {:.2f} s {} that of {}: positions are wrong along the way", file.string(),
+                   std::abs(seconds(*late)), *late > Duration{} ? "behind" : "ahead of", drive));
+  return false;
+}
+
+/** @return whether the references are used, and agree with the drives. */
+bool reportReferences(const Site& site, const std::vector<SiteDrive>& drives, const std::vector<Reference>& references,
+                      const std::vector<std::filesystem::path>& files)
+{
+  if (references.empty()) return true;
+  if (site.references.empty())
+  {
+    warn("no reference has a time in common with a drive");
+    return false;
+  }
+  double squares = 0;
+  std::size_t used = 0;
+  for (const ReferencePosition& at : site.references)
+    if (at.used) ++used, squares += at.residual.squaredNorm();
+  if (used == 0)
+  {
+    warn(fmt::format("the references are not used: {} positions do not tell where a piece is", site.references.size()));
+    return false;
+  }
+  fmt::print("references: {} of {} positions agree, {:.3f} m off in the mean\n", used, site.references.size(),
+             std::sqrt(squares / static_cast<double>(used)));
+  constexpr double kMostOutliers = 0.2;
+  bool good = static_cast<double>(used) > (1 - kMostOutliers) * static_cast<double>(site.references.size());
+  if (!good) warn("positions of the references contradict the drives or each other: see references.csv");
+  const std::vector<std::string> names = namesOf(drives);
+  for (std::size_t r = 0; r < references.size(); ++r)
+    for (std::size_t d = 0; d < drives.size(); ++d)
+      good &= reportClock(files[r], references[r], trajectoryIn(site, drives, d), names[d]);
+  for (const SitePiece& piece : site.pieces)
+    if (!piece.is_in_reference_frame) good = false;
+  return good;
+}
+
+int run(const SiteArguments& arguments)
+{
+  refuseExisting(arguments.output, siteFiles());
+  const SlamSettings settings = settingsFor(arguments);
+  const std::vector<Reference> references = readReferences(arguments);
+  const std::vector<SiteDrive> drives = readDrives(arguments.drives);
+  OutputFolder folder(arguments.output.folder);
+  Progress progress("site", 100, "%");
+  const SiteProgress show = [&](const std::string&, double share)
+  { progress.update(static_cast<std::uint64_t>(100 * share)); };
+  const Site site = madeOf(drives, settings, references, show);
+  writeSite(folder.running(), site, drives, show);
+  const std::filesystem::path kept = folder.commit(siteFiles(), Completeness::Whole);
+
+  reportLoops(site);
+  const bool whole = reportPieces(site, drives);
+  const bool referenced = reportReferences(site, drives, references, arguments.references);
+  fmt::print("{}\n", (kept / "keyframes.simplemap").string());
+  return whole && referenced ? kDone : kQualityGate;
+}
+
+std::function<int()> addSiteOptions(CLI::App& app)
+{
+  auto arguments = std::make_shared<SiteArguments>();
+  addOption(app, "DRIVE", arguments->drives, "result folders of slam, the oldest first").required().existingFolder();
+  addConfiguration(app, arguments->configuration);
+  addOutputFolder(app, arguments->output).required();
+  addOption(app, "--reference", arguments->references,
+            "positions of a prism that a total station has measured (repeatable): the site gets their frame")
+      .repeatable()
+      .existingFile()
+      .typeName("FILE");
+  addOption(app, "--lever-arm", arguments->lever_arm, "where the prism is on the body: \"x y z\" in m").typeName("XYZ");
+  return [arguments] { return run(*arguments); };
+}
+}  // namespace
+
+Verb siteVerb()
+{
+  return {"site", "one map of several drives: loops closed, in the frame of a reference", schemaOf<SlamSettings>(),
+          &addSiteOptions};
+}
+}  // namespace scanloom

@@ -1,0 +1,32 @@
+/** Positions of a point of the machine that others have measured: by them a site comes into their frame. */
+#pragma once
+#include "base/positions/PositionTrack.h"
+#include "site/SiteDrive.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace scanloom
+{
+/** A track of a prism or an antenna, through one drive or several. z is up. */
+struct Reference
+{
+  PositionTrack track;
+  Eigen::Vector3d body_p_point = Eigen::Vector3d::Zero();
+  double sigma = 0.01;  // m, of each coordinate
+};
+
+/** A position of a reference, as the keyframe before it sees the point. */
+struct ReferencePosition
+{
+  Timestamp stamp;
+  std::size_t keyframe = 0;  // numbered through all drives
+  Eigen::Vector3d keyframe_p_point;
+  Eigen::Vector3d measured;                            // in the reference's frame
+  double sigma = 0;                                    // m
+  bool used = false;                                   // it agrees with the others and the drives
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();  // m, the site's position of the point less the measured one
+};
+}  // namespace scanloom

@@ -1,0 +1,36 @@
+/** Poses of a drive's keyframes relative to each other, as `slam` has them. */
+#pragma once
+#include "estimation/graph/PoseGraph.h"
+#include "site/SiteDrive.h"
+
+#include <vector>
+
+namespace scanloom
+{
+/**
+ * Edges of a pose graph from each keyframe to the three before it, whose mean it was aligned to in the local map: each
+ * has three times the covariance of that alignment. So the graph drifts as that map does (see MapDriftModel). None
+ * goes across the beginning of a part. Stretches of like errors are 25 keyframes
+ * long. `first`: number of the drive's first keyframe in the graph.
+ */
+std::vector<OdometryPose> odometryOf(const std::vector<DriveKeyframe>&, std::size_t first);
+
+/** Which way is up for each keyframe. Errors last for some keyframes: each one counts as a tenth. */
+std::vector<MeasuredUp> upsOf(const std::vector<DriveKeyframe>&, std::size_t first);
+
+/** How far a drive's odometry may be off between two of its keyframes of one part. */
+class OdometryDrift
+{
+ public:
+  explicit OdometryDrift(const std::vector<DriveKeyframe>&);
+
+  /** m, standard deviation. */
+  double between(std::size_t a, std::size_t b) const;
+
+  /** m, length of the way. */
+  double way(std::size_t a, std::size_t b) const;
+
+ private:
+  std::vector<double> way_, position_, heading_;  // sums from the first keyframe on: m, m2, rad2
+};
+}  // namespace scanloom
