@@ -144,10 +144,9 @@ int run(const SiteArguments& arguments)
   const std::vector<SiteDrive> drives = readDrives(arguments.drives);
   OutputFolder folder(arguments.output.folder);
   Progress progress("site", 100, "%");
-  const SiteProgress show = [&](const std::string&, double share)
-  { progress.update(static_cast<std::uint64_t>(100 * share)); };
+  const SiteProgress show = [&](double share) { progress.update(static_cast<std::uint64_t>(100 * share)); };
   const Site site = madeOf(drives, settings, references, show);
-  writeSite(folder.running(), site, drives, show);
+  writeSite(folder.running(), site, drives);
   const std::filesystem::path kept = folder.commit(siteFiles(), Completeness::Whole);
 
   reportLoops(site);

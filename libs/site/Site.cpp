@@ -97,7 +97,7 @@ class SiteBuilder
     {
       const std::vector<std::size_t> others = keyframesOf(piece);
       if (others.empty() || piece_of_part_[part] == piece) continue;
-      progress_("places", share(part));
+      showDone(layout_.parts()[part].begin);
       const std::size_t own = piece_of_part_[part];
       const auto found = search_.findAnywhere(measured_.keyframes, others, keyframesOf(own));
       if (!found) continue;
@@ -107,9 +107,9 @@ class SiteBuilder
     }
   }
 
-  double share(std::size_t part) const
+  void showDone(std::size_t keyframe) const
   {
-    return static_cast<double>(part) / static_cast<double>(layout_.parts().size());
+    progress_(static_cast<double>(keyframe) / static_cast<double>(layout_.size()));
   }
 
   /** Finds what loops the part has with its piece, and solves the piece, until nothing new is found. */
@@ -121,9 +121,9 @@ class SiteBuilder
       for (std::size_t about = 0; about < parts_; ++about)
         if (piece_of_part_[about] == piece_of_part_[part])
         {
-          progress_("loops", share(part));
-          measured_.loops = withLoopsFound({measured_.keyframes, measured_.loops, known_}, layout_, search_,
-                                           std::max(part, about), std::min(part, about));
+          measured_.loops =
+              withLoopsFound({measured_.keyframes, measured_.loops, known_}, layout_, search_, std::max(part, about),
+                             std::min(part, about), [&](std::size_t keyframe) { showDone(keyframe); });
         }
       measured_.loops = withoutLoneOnes(std::move(measured_.loops), measured_.keyframes, layout_);
       if (sweep > 0 && accepted() == before) return;

@@ -58,8 +58,8 @@ struct Site
   std::vector<SitePiece> pieces;              // the largest first
 };
 
-/** Called with what is being done, and the share of it that is done. */
-using SiteProgress = std::function<void(const std::string& step, double share)>;
+/** Called with the share that is done. */
+using SiteProgress = std::function<void(double share)>;
 
 /** The same drives in the same order give the same bits. Throws std::invalid_argument without a keyframe. */
 Site madeOf(const std::vector<SiteDrive>&, const SlamSettings&, const std::vector<Reference>&, const SiteProgress&);

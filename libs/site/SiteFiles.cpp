@@ -220,8 +220,7 @@ Trajectory trajectoryIn(const Site& site, const std::vector<SiteDrive>& drives, 
   return trajectory;
 }
 
-void writeSite(const std::filesystem::path& folder, const Site& site, const std::vector<SiteDrive>& drives,
-               const SiteProgress& progress)
+void writeSite(const std::filesystem::path& folder, const Site& site, const std::vector<SiteDrive>& drives)
 {
   const std::vector<std::string> names = namesOf(drives);
   std::filesystem::create_directories(folder / kDrives);
@@ -232,7 +231,6 @@ void writeSite(const std::filesystem::path& folder, const Site& site, const std:
 
   for (std::size_t p = 0; p < site.pieces.size(); ++p)
   {
-    progress("files", static_cast<double>(p) / static_cast<double>(site.pieces.size()));
     if (p == 1) std::filesystem::create_directories(folder / kPieces);
     const std::filesystem::path file = p == 0 ? folder / kMap : folder / kPieces / fmt::format("{}.simplemap", p + 1);
     writeMap(file, site.pieces[p], site, drives);

@@ -35,5 +35,5 @@ std::vector<DrivePiece> piecesOf(std::size_t drive, const Site&, const std::vect
 Trajectory trajectoryIn(const Site&, const std::vector<SiteDrive>&, std::size_t drive);
 
 /** Throws std::runtime_error if the disk does not take them. */
-void writeSite(const std::filesystem::path& folder, const Site&, const std::vector<SiteDrive>&, const SiteProgress&);
+void writeSite(const std::filesystem::path& folder, const Site&, const std::vector<SiteDrive>&);
 }  // namespace scanloom

@@ -32,7 +32,7 @@ struct SiteOfStems : testing::Test
 
   Site site(const std::vector<Reference>& references = {}) const
   {
-    return madeOf(drives, SlamSettings{}, references, [](const std::string&, double) {});
+    return madeOf(drives, SlamSettings{}, references, [](double) {});
   }
 
   const Rigid& truthOf(const SiteKeyframe& keyframe) const

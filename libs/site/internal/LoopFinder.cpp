@@ -143,11 +143,16 @@ bool wasFound(const Loop& loop)
 }  // namespace
 
 std::vector<Loop> withLoopsFound(const SiteState& state, const SiteLayout& layout, const LoopSearch& search,
-                                 std::size_t of, std::size_t about)
+                                 std::size_t of, std::size_t about,
+                                 const std::function<void(std::size_t keyframe)>& searching)
 {
   Sweep sweep(state, layout, search);
   const SitePart& part = layout.parts()[of];
-  for (std::size_t to = part.begin; to < part.end; ++to) sweep.searchAll(to, about);
+  for (std::size_t to = part.begin; to < part.end; ++to)
+  {
+    searching(to);
+    sweep.searchAll(to, about);
+  }
   return std::move(sweep).loops();
 }
 

@@ -3,7 +3,7 @@
 #include "site/Site.h"
 #include "site/internal/SiteLayout.h"
 
-#include <optional>
+#include <functional>
 #include <vector>
 
 namespace scanloom
@@ -28,10 +28,10 @@ struct SiteState
 /**
  * The loops with those that were found in addition: keyframes of the part `of` about earlier ones of the part `about`,
  * both in one frame. A keyframe is searched where the nearest loop, known keyframe or its odometry has it, as far
- * around as that may be off, about one keyframe of each pass by the place.
+ * around as that may be off, about one keyframe of each pass by the place. `searching` is called before each.
  */
 std::vector<Loop> withLoopsFound(const SiteState&, const SiteLayout&, const LoopSearch&, std::size_t of,
-                                 std::size_t about);
+                                 std::size_t about, const std::function<void(std::size_t keyframe)>& searching);
 
 /** Loops that no other one beside them confirms become Alone: the odometry must lead from one to the other. */
 std::vector<Loop> withoutLoneOnes(std::vector<Loop>, const std::vector<SiteKeyframe>&, const SiteLayout&);

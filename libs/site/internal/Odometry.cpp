@@ -9,7 +9,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kAlignedTo = 3;           // keyframes of the local map (params: local_map.keyframes)
+constexpr std::size_t kAlignedTo = 3;           // keyframes; two simulated stands
 constexpr std::size_t kStretch = 25;            // keyframes, 100 m: what is seen there errs alike
 constexpr double kKeyframesOfOneTilt = 10;      // through which an error of the tilt lasts: slam's gravity, 40 m
 constexpr double kDriftOfAlignment = 3.0 / 14;  // of an alignment's variance, per keyframe: by the edges of odometryOf

@@ -10,9 +10,10 @@ namespace
 {
 std::string nameOf(const std::vector<Vector6d>& directions)
 {
+  RegistrationResult registration;
+  registration.degenerate_directions = directions;
   StateEstimate estimate;
-  estimate.registration.emplace();
-  estimate.registration->degenerate_directions = directions;
+  estimate.registration = registration;
   return openDirection(estimate);
 }
 

@@ -211,9 +211,9 @@ TEST(SlamMaps, thatCannotBeDrawnLeaveTheOthersWholeAndAreNamed)
   {
     std::vector<RecordedLidar> one(1);
     SlamMaps maps(folder.path(), one, {}, CloudClass::CGenericPointsMap);
-    maps.add({keyframeOf(Timestamp{1s}, 0)});
-    maps.add({keyframeOf(Timestamp{2s}, 1)});  // neither keyframes.simplemap nor the OctoMap knows lidar 1
-    maps.add({keyframeOf(Timestamp{3s}, 0)});
+    maps.add({keyframeOf(Timestamp{1s}, 0)}, {});
+    maps.add({keyframeOf(Timestamp{2s}, 1)}, {});  // neither keyframes.simplemap nor the OctoMap knows lidar 1
+    maps.add({keyframeOf(Timestamp{3s}, 0)}, {});
     maps.close({{Timestamp{1s}, Rigid::identity()}}, summary);
   }
   EXPECT_EQ(summary.counts.at("map_points"), 300u);
