@@ -42,11 +42,28 @@ std::vector<SiteDrive> readDrives(const std::vector<std::filesystem::path>& fold
   return drives;
 }
 
-std::vector<Reference> readReferences(const SiteArguments& arguments)
+struct References
 {
-  std::vector<Reference> references;
-  for (const std::filesystem::path& file : arguments.references)
-    references.push_back({readTotalStation(file), leverArmOf(arguments.lever_arm)});
+  std::vector<Reference> all;
+  std::optional<Geodetic> origin;  // of GNSS
+};
+
+/** Files of GNSS share an origin. Throws UsageError where they do not share a frame. */
+References readReferences(const SiteArguments& arguments)
+{
+  References references;
+  bool local = false;
+  for (const std::filesystem::path& path : arguments.references)
+  {
+    PositionFile file = readPositionFile(path, references.origin);
+    const ReferenceNoise noise = file.origin ? kGnssNoise : kTotalStationNoise;
+    references.all.push_back({std::move(file.track), leverArmOf(arguments.lever_arm), noise});
+    if (file.origin) references.origin = file.origin;
+    local |= !file.origin;
+  }
+  if (local && references.origin)
+    throw UsageError(
+        "--reference: latitude and longitude, and x and y of a station, are in different frames: give one");
   return references;
 }
 
@@ -140,18 +157,21 @@ int run(const SiteArguments& arguments)
 {
   refuseExisting(arguments.output, siteFiles());
   const SlamSettings settings = settingsFor(arguments);
-  const std::vector<Reference> references = readReferences(arguments);
+  const References references = readReferences(arguments);
   const std::vector<SiteDrive> drives = readDrives(arguments.drives);
   OutputFolder folder(arguments.output.folder);
   Progress progress("site", 100, "%");
   const SiteProgress show = [&](double share) { progress.update(static_cast<std::uint64_t>(100 * share)); };
-  const Site site = madeOf(drives, settings, references, show);
-  writeSite(folder.running(), site, drives);
+  const Site site = madeOf(drives, settings, references.all, show);
+  writeSite(folder.running(), site, drives, references.origin);
   const std::filesystem::path kept = folder.commit(siteFiles(), Completeness::Whole);
 
   reportLoops(site);
   const bool whole = reportPieces(site, drives);
-  const bool referenced = reportReferences(site, drives, references, arguments.references);
+  const bool referenced = reportReferences(site, drives, references.all, arguments.references);
+  if (const auto& origin = references.origin; origin && site.pieces.front().is_in_reference_frame)
+    fmt::print("east, north and up of latitude {:.7f}, longitude {:.7f}, height {:.2f} m\n", origin->latitude,
+               origin->longitude, origin->height);
   fmt::print("{}\n", (kept / "keyframes.simplemap").string());
   return whole && referenced ? kDone : kQualityGate;
 }
@@ -162,12 +182,15 @@ std::function<int()> addSiteOptions(CLI::App& app)
   addOption(app, "DRIVE", arguments->drives, "result folders of slam, the oldest first").required().existingFolder();
   addConfiguration(app, arguments->configuration);
   addOutputFolder(app, arguments->output).required();
-  addOption(app, "--reference", arguments->references,
-            "positions of a prism that a total station has measured (repeatable): the site gets their frame")
+  addOption(
+      app, "--reference", arguments->references,
+      "positions of a prism by a total station, or of an antenna by GNSS (lat, lon, height); repeatable: the site "
+      "gets their frame")
       .repeatable()
       .existingFile()
       .typeName("FILE");
-  addOption(app, "--lever-arm", arguments->lever_arm, "where the prism is on the body: \"x y z\" in m").typeName("XYZ");
+  addOption(app, "--lever-arm", arguments->lever_arm, "where prism or antenna is on the body: \"x y z\" in m")
+      .typeName("XYZ");
   return [arguments] { return run(*arguments); };
 }
 }  // namespace

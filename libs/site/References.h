@@ -10,12 +10,26 @@
 
 namespace scanloom
 {
+/** How well positions are known, and how far apart they do not err alike any more. */
+struct ReferenceNoise
+{
+  double sigma;  // m, of each coordinate
+  double apart;  // m of way
+  Duration lasting;
+};
+
+/** A prism on a moving machine: its instrument is better, but not its clock and the mount. */
+constexpr ReferenceNoise kTotalStationNoise{0.01, 1, Duration{0}};
+
+/** GNSS under a canopy, without corrections; what leaves reflect lasts for half a minute (assumed). */
+constexpr ReferenceNoise kGnssNoise{2, 1, Duration{30'000'000'000}};
+
 /** A track of a prism or an antenna, through one drive or several. z is up. */
 struct Reference
 {
   PositionTrack track;
   Eigen::Vector3d body_p_point = Eigen::Vector3d::Zero();
-  double sigma = 0.01;  // m, of each coordinate
+  ReferenceNoise noise = kTotalStationNoise;
 };
 
 /** A position of a reference, as the keyframe before it sees the point. */

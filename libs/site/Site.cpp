@@ -149,8 +149,10 @@ class SiteBuilder
       if (std::binary_search(keyframes.begin(), keyframes.end(), measured_.references[i].keyframe))
         positions.push_back(i);
     const std::vector<PositionPair> pairs = pairsOf(positions);
+    double largest_sigma = 0;
+    for (const std::size_t i : positions) largest_sigma = std::max(largest_sigma, measured_.references[i].sigma);
     std::vector<PositionPair> agreeing;
-    for (const std::size_t k : agreeingPairs(pairs))
+    for (const std::size_t k : agreeingPairs(pairs, largest_sigma))
     {
       agreeing.push_back(pairs[k]);
       measured_.references[positions[k]].used = true;

@@ -220,7 +220,8 @@ Trajectory trajectoryIn(const Site& site, const std::vector<SiteDrive>& drives, 
   return trajectory;
 }
 
-void writeSite(const std::filesystem::path& folder, const Site& site, const std::vector<SiteDrive>& drives)
+void writeSite(const std::filesystem::path& folder, const Site& site, const std::vector<SiteDrive>& drives,
+               const std::optional<Geodetic>& origin)
 {
   const std::vector<std::string> names = namesOf(drives);
   std::filesystem::create_directories(folder / kDrives);
@@ -236,7 +237,10 @@ void writeSite(const std::filesystem::path& folder, const Site& site, const std:
     writeMap(file, site.pieces[p], site, drives);
   }
   writePicture(folder / kPicture, site, drives);
-  writeAtomically(folder / kSummary,
-                  [&](std::ostream& file) { file << jsonText(toJson(site, drives, names)) << '\n'; });
+  nlohmann::json json = toJson(site, drives, names);
+  if (origin)
+    json["east_north_up_of"] = {
+        {"latitude", origin->latitude}, {"longitude", origin->longitude}, {"height", origin->height}};
+  writeAtomically(folder / kSummary, [&](std::ostream& file) { file << jsonText(json) << '\n'; });
 }
 }  // namespace scanloom

@@ -9,9 +9,11 @@
  *   site.json             drives, pieces, counts
  */
 #pragma once
+#include "base/positions/Geodetic.h"
 #include "site/Site.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,7 @@ std::vector<DrivePiece> piecesOf(std::size_t drive, const Site&, const std::vect
 /** The drive's poses in the frames of its pieces: between two keyframes their corrections are interpolated. */
 Trajectory trajectoryIn(const Site&, const std::vector<SiteDrive>&, std::size_t drive);
 
-/** Throws std::runtime_error if the disk does not take them. */
-void writeSite(const std::filesystem::path& folder, const Site&, const std::vector<SiteDrive>&);
+/** `origin`: of a site that is east, north and up of it. Throws std::runtime_error if the disk does not take them. */
+void writeSite(const std::filesystem::path& folder, const Site&, const std::vector<SiteDrive>&,
+               const std::optional<Geodetic>& origin);
 }  // namespace scanloom

@@ -45,7 +45,7 @@ edges | awk '
     only("ndt", "core")
     only("config", "core")
     only("lidar", "core")
-    only("simulation", "core config formats lidar batching packets rawlogs bags ros2 rig imu")
+    only("simulation", "core config formats positions lidar batching packets rawlogs bags ros2 rig imu")
     never("observations", "slam")
     never("edit", "slam")
     never("diagnosis", "slam")

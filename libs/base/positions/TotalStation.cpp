@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -42,6 +43,8 @@ std::vector<std::string> fieldsOf(std::string_view line, char separator)
 class StationLines
 {
  public:
+  bool geodetic() const { return columns_.geodetic; }
+
   /** Nothing for a header, a comment or an empty line. */
   std::optional<StampedPosition> measurement(const std::string& line)
   {
@@ -88,12 +91,13 @@ class StationLines
 };
 }  // namespace
 
-PositionTrack readTotalStation(const std::filesystem::path& path)
+PositionFile readPositionFile(const std::filesystem::path& path, const std::optional<Geodetic>& origin)
 {
   std::ifstream file(path);
-  if (!file) throw std::invalid_argument(fmt::format("cannot read the total station's '{}'", path.string()));
+  if (!file) throw std::invalid_argument(fmt::format("cannot read the positions of '{}'", path.string()));
 
-  PositionTrack track;
+  PositionFile positions{{}, std::nullopt};
+  PositionTrack& track = positions.track;
   StationLines lines;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) try
@@ -104,13 +108,22 @@ PositionTrack readTotalStation(const std::filesystem::path& path)
         throw std::invalid_argument(fmt::format("stamp {} is not after {}: sort the file by time",
                                                 secondsText(measurement->stamp), secondsText(track.back().stamp)));
       track.push_back(*measurement);
+      if (!lines.geodetic()) continue;
+      const Eigen::Vector3d& p = measurement->position;
+      if (std::abs(p.x()) > 90 || std::abs(p.y()) > 360)
+        throw std::invalid_argument(fmt::format("latitude {} or longitude {} is on no earth", p.x(), p.y()));
+      const Geodetic at{p.x(), p.y(), p.z()};
+      if (!positions.origin) positions.origin = origin.value_or(at);
+      track.back().position = eastNorthUp(at, *positions.origin);
     }
     catch (const std::invalid_argument& problem)
     {
       throw std::invalid_argument(fmt::format("{}:{}: {}", path.string(), number, problem.what()));
     }
-  return track;
+  return positions;
 }
+
+PositionTrack readTotalStation(const std::filesystem::path& path) { return readPositionFile(path).track; }
 
 bool isTotalStation(const std::filesystem::path& reference)
 {

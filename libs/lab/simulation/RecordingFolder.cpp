@@ -80,6 +80,17 @@ void writeTotalStation(const Scene& scene, const std::filesystem::path& path)
   file.commit();
 }
 
+void writeGnss(const Scene& scene, const std::filesystem::path& path)
+{
+  OutputFile file(path);
+  file.stream() << "#t [s],lat [deg],lon [deg],height [m]\n";
+  for (const GnssFix& fix :
+       gnssFixes(scene.scenery.drive(), scene.span, scene.gnss, scene.body_T_prism.translation, scene.seed))
+    fmt::print(file.stream(), "{},{:.9f},{:.9f},{:.3f}\n", secondsText(fix.stamp), fix.at.latitude, fix.at.longitude,
+               fix.at.height);
+  file.commit();
+}
+
 const char* nameOf(ObjectKind kind)
 {
   return kind == ObjectKind::Person ? "person" : kind == ObjectKind::Vehicle ? "vehicle" : "tree";
@@ -108,6 +119,7 @@ void writeExtrinsics(const Scene& scene, const std::filesystem::path& path)
   poses.emplace_back("T_body_imu", scene.body_imu.body_T_imu);
   poses.emplace_back("T_body_prism", scene.body_T_prism);
   poses.emplace_back("T_ts_world", stationTWorld());
+  if (scene.gnss.error > 0) poses.emplace_back("T_enu_world", enuTWorld());
   OutputFile file(path);
   file.stream() << "# T_a_b maps coordinates in b to a. Line: name x y z yaw pitch roll (m, deg; R = Rz(yaw) Ry(pitch) "
                    "Rx(roll)), then the 4x4 rows.\n# sensor = Ouster sensor coordinate frame (after "
@@ -169,6 +181,7 @@ std::vector<std::string> recordingFileNames(const SimulationSettings& settings)
   const char* const lidars = settings.recording.packets() ? "recording.pcap" : "recording.rawlog";
   std::vector<std::string> names{lidars,           "imu.csv",     "groundtruth.tum", "total_station.csv",
                                  "extrinsics.txt", "objects.csv", "summary.json"};
+  if (settings.gnss.error > 0) names.emplace_back("gnss.csv");
   for (const SimulatedLidarOptions& lidar : settings.lidars) names.push_back(lidar.name + ".json");
   return names;
 }
@@ -181,6 +194,7 @@ void writeRecording(const Scene& scene, const std::filesystem::path& folder,
   const TurnOnBias bias = writeImu(scene, folder / "imu.csv");
   writeGroundTruth(scene, folder / "groundtruth.tum");
   writeTotalStation(scene, folder / "total_station.csv");
+  if (scene.gnss.error > 0) writeGnss(scene, folder / "gnss.csv");
   writeExtrinsics(scene, folder / "extrinsics.txt");
   writeObjects(scene, folder / "objects.csv");
   writeText(folder / "summary.json", summaryOf(scene, counts, bias));

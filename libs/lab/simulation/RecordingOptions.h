@@ -4,6 +4,7 @@
 #include "lab/simulation/internal/Buildings.h"
 #include "lab/simulation/internal/Drive.h"
 #include "lab/simulation/internal/ForestOptions.h"
+#include "lab/simulation/internal/Gnss.h"
 #include "lab/simulation/internal/Ground.h"
 #include "lab/simulation/internal/Machine.h"
 #include "lab/simulation/internal/MovingObjects.h"
@@ -56,6 +57,7 @@ struct SimulationSettings
   SimulatedImuOptions imu;
   SimulatedImuOptions lidar_imu = ousterLikeImu();
   TotalStationOptions station;
+  GnssOptions gnss;
   Rigid body_T_prism = Rigid::fromXyzYawPitchRoll(-1.1, 0.5, 3.9, 0, 0, 0);
 
   template <typename Self, typename Visitor>
@@ -76,6 +78,7 @@ struct SimulationSettings
     visit(s.lidars, Section{"simulated_lidars", "any number of lidars: lidar1_, lidar2_, ...", "lidar"});
     visit(s.ranging, Section{"simulated_ranging", "ranging of all lidars: returns, noise, reflectivities"});
     visit(s.station, Section{"simulated_total_station", "the total station that tracks the prism"});
+    visit(s.gnss, Section{"simulated_gnss", "a receiver of GNSS whose antenna is where the prism is"});
   }
 };
 }  // namespace scanloom

@@ -23,7 +23,8 @@ std::vector<std::size_t> evenly(std::size_t all, std::size_t most)
   return some;
 }
 
-std::vector<std::size_t> explained(const std::vector<PositionPair>& pairs, const PositionPair& a, const PositionPair& b)
+std::vector<std::size_t> explained(const std::vector<PositionPair>& pairs, const PositionPair& a, const PositionPair& b,
+                                   double sigma)
 {
   const Rigid reference_T_map = align({a, b}, AlignmentKind::Yaw).reference_T_map;
   std::vector<std::size_t> agreeing;
@@ -31,13 +32,13 @@ std::vector<std::size_t> explained(const std::vector<PositionPair>& pairs, const
   {
     const double off = (reference_T_map * pairs[i].map_p - pairs[i].reference_p).norm();
     const double way = std::min((pairs[i].map_p - a.map_p).norm(), (pairs[i].map_p - b.map_p).norm());
-    if (off < kSlack + kSlackPerWay * way) agreeing.push_back(i);
+    if (off < 3 * sigma + kSlack + kSlackPerWay * way) agreeing.push_back(i);
   }
   return agreeing;
 }
 }  // namespace
 
-std::vector<std::size_t> agreeingPairs(const std::vector<PositionPair>& pairs)
+std::vector<std::size_t> agreeingPairs(const std::vector<PositionPair>& pairs, double sigma)
 {
   std::vector<std::size_t> best;
   const std::vector<std::size_t> tried = evenly(pairs.size(), kTried);
@@ -45,7 +46,7 @@ std::vector<std::size_t> agreeingPairs(const std::vector<PositionPair>& pairs)
     for (const std::size_t k : tried)
     {
       if (k <= i || (pairs[i].map_p - pairs[k].map_p).norm() < kLeastApart) continue;
-      std::vector<std::size_t> agreeing = explained(pairs, pairs[i], pairs[k]);
+      std::vector<std::size_t> agreeing = explained(pairs, pairs[i], pairs[k], sigma);
       if (agreeing.size() > best.size()) best = std::move(agreeing);
     }
   if (best.size() < kLeast || 2 * best.size() < pairs.size()) return {};

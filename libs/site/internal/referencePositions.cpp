@@ -7,7 +7,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kApart = 1;         // m
 constexpr Duration kWidestGap = 2s;  // between poses: in a wider one nothing tells where the body was
 
 /** Of the last keyframe before the stamp; none before the first. */
@@ -22,16 +21,19 @@ std::optional<std::size_t> keyframeBefore(Timestamp stamp, const std::vector<Dri
 std::vector<ReferencePosition> ofDrive(const Reference& reference, const SiteDrive& drive, std::size_t first)
 {
   std::vector<ReferencePosition> positions;
-  std::optional<Eigen::Vector3d> last;
+  std::optional<StampedPosition> last;
   for (const StampedPosition& measured : reference.track)
   {
     const std::optional<std::size_t> before = keyframeBefore(measured.stamp, drive.keyframes());
     const std::optional<Rigid> drive_T_body = poseAt(drive.trajectory(), measured.stamp, kWidestGap);
-    if (!before || !drive_T_body || (last && (*last - drive_T_body->translation).norm() < kApart)) continue;
-    last = drive_T_body->translation;
+    if (!before || !drive_T_body) continue;
+    const bool errs_alike = last && ((last->position - drive_T_body->translation).norm() < reference.noise.apart ||
+                                     measured.stamp - last->stamp < reference.noise.lasting);
+    if (errs_alike) continue;
+    last = StampedPosition{measured.stamp, drive_T_body->translation};
     positions.push_back({measured.stamp, first + *before,
                          drive.keyframes()[*before].drive_T_body.inverse() * (*drive_T_body * reference.body_p_point),
-                         measured.position, reference.sigma});
+                         measured.position, reference.noise.sigma});
   }
   return positions;
 }

@@ -6,6 +6,6 @@
 
 namespace scanloom
 {
-/** Positions of the reference during the drives, at least 1 m of way apart: nearer ones err alike. */
+/** Positions of the reference during the drives, so far apart that they do not err alike. */
 std::vector<ReferencePosition> referencePositions(const Reference&, const std::vector<SiteDrive>&, const SiteLayout&);
 }  // namespace scanloom

@@ -36,15 +36,17 @@ bool isOneOf(const std::string& name, const std::vector<std::string>& names)
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-constexpr int kStamp = 3;  // 0 to 2: x, y, z
+constexpr int kStamp = 3, kLatitude = 4, kLongitude = 5;  // 0 to 2: x, y, z
 
 /** The quantity that a column of this name holds, if it is one that we need. */
 std::optional<int> quantityOf(const std::string& name)
 {
   static const std::vector<std::vector<std::string>> kNames{{"x", "e", "east", "easting"},
                                                             {"y", "n", "north", "northing"},
-                                                            {"z", "h", "height", "elevation", "up"},
-                                                            {"t", "time", "stamp", "timestamp"}};
+                                                            {"z", "h", "height", "elevation", "up", "alt", "altitude"},
+                                                            {"t", "time", "stamp", "timestamp"},
+                                                            {"lat", "latitude"},
+                                                            {"lon", "long", "lng", "longitude"}};
   for (std::size_t i = 0; i < kNames.size(); ++i)
     if (isOneOf(name, kNames[i])) return static_cast<int>(i);
   return std::nullopt;
@@ -63,6 +65,7 @@ Unit unitOf(const Column& column, const std::map<std::string, Unit>& units, Unit
 }
 
 const std::map<std::string, Duration> kTimes{{"s", 1s}, {"sec", 1s}, {"ms", 1ms}, {"us", 1us}, {"ns", 1ns}};
+const std::map<std::string, double> kAngles{{"deg", 1}, {"degrees", 1}};
 const std::map<std::string, double> kLengths{{"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}};
 
 /** The decimal point some digits to the right: text, so that no digit of a stamp is lost. */
@@ -113,7 +116,7 @@ std::optional<Timestamp> dateOf(const std::string& text)
 StationColumns StationColumns::ofHeader(const std::vector<std::string>& names)
 {
   StationColumns columns;
-  std::array<bool, 4> has{};
+  std::array<bool, 6> has{};
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     const Column column = columnOf(names[i]);
@@ -128,10 +131,19 @@ StationColumns StationColumns::ofHeader(const std::vector<std::string>& names)
       columns.stamp_unit = unitOf(column, kTimes, Duration(1s));
       continue;
     }
-    columns.position[q] = i;
-    columns.position_unit[q] = unitOf(column, kLengths, 1.0);
+    const bool is_angle = *quantity == kLatitude || *quantity == kLongitude;
+    const std::size_t axis = is_angle ? q - kLatitude : q;
+    columns.geodetic |= is_angle;
+    columns.position[axis] = i;
+    columns.position_unit[axis] = unitOf(column, is_angle ? kAngles : kLengths, 1.0);
   }
-  for (const auto& [q, name] : {std::pair{3, "t"}, {0, "x (or e)"}, {1, "y (or n)"}, {2, "z (or h)"}})
+  if (columns.geodetic && (has[0] || has[1]))
+    throw std::invalid_argument("the header names both latitude or longitude, and x or y: which is it?");
+  const std::vector<std::pair<int, const char*>> needed =
+      columns.geodetic
+          ? std::vector<std::pair<int, const char*>>{{3, "t"}, {4, "lat"}, {5, "lon"}, {2, "height"}}
+          : std::vector<std::pair<int, const char*>>{{3, "t"}, {0, "x (or e)"}, {1, "y (or n)"}, {2, "z (or h)"}};
+  for (const auto& [q, name] : needed)
     if (!has[static_cast<std::size_t>(q)])
       throw std::invalid_argument(fmt::format("the header names no column {}", name));
   return columns;

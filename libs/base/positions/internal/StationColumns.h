@@ -15,7 +15,8 @@ struct StationColumns
   std::size_t stamp = 0;
   std::array<std::size_t, 3> position{1, 2, 3};
   Duration stamp_unit = 1s;
-  std::array<double, 3> position_unit{1, 1, 1};  // m
+  std::array<double, 3> position_unit{1, 1, 1};  // m; latitude and longitude: deg
+  bool geodetic = false;                         // latitude, longitude, height instead of x, y, z
 
   /** Throws std::invalid_argument with what is missing, given twice, or of an unknown unit. */
   static StationColumns ofHeader(const std::vector<std::string>& names);

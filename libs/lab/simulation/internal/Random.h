@@ -33,6 +33,7 @@ enum class RandomStream : std::uint64_t
   Precipitation,
   Engine,
   Buildings,
+  Gnss,
 };
 
 /** SplitMix64 (Steele, Lea, Flood: Fast Splittable Pseudorandom Number Generators, OOPSLA 2014), seeded by a key. */

@@ -39,6 +39,7 @@ Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
            0,
            EngineVibration(settings.engine, VibratingPart::ImuMount, seed)},
           TotalStation(settings.station, settings.body_T_prism.translation, span, seed),
+          settings.gnss,
           settings.body_T_prism};
 }
 }  // namespace scanloom

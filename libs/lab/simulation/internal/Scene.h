@@ -39,6 +39,7 @@ struct Scene
   std::vector<LidarStation> lidars;
   ImuSetup body_imu;
   TotalStation station;
+  GnssOptions gnss;
   Rigid body_T_prism;
 };
 
