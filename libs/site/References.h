@@ -10,19 +10,18 @@
 
 namespace scanloom
 {
-/** How well positions are known, and how far apart they do not err alike any more. */
+/** How well positions are known, and for how long they err alike. */
 struct ReferenceNoise
 {
-  double sigma;  // m, of each coordinate
-  double apart;  // m of way
-  Duration lasting;
+  double sigma;      // m, of each coordinate
+  Duration lasting;  // positions within so much time count as one
 };
 
 /** A prism on a moving machine: its instrument is better, but not its clock and the mount. */
-constexpr ReferenceNoise kTotalStationNoise{0.01, 1, Duration{0}};
+constexpr ReferenceNoise kTotalStationNoise{0.01, Duration{0}};
 
 /** GNSS under a canopy, without corrections; what leaves reflect lasts for half a minute (assumed). */
-constexpr ReferenceNoise kGnssNoise{2, 1, Duration{30'000'000'000}};
+constexpr ReferenceNoise kGnssNoise{2, 30s};
 
 /** A track of a prism or an antenna, through one drive or several. z is up. */
 struct Reference
@@ -40,6 +39,7 @@ struct ReferencePosition
   Eigen::Vector3d keyframe_p_point;
   Eigen::Vector3d measured;                            // in the reference's frame
   double sigma = 0;                                    // m
+  double share = 1;                                    // that it counts
   bool used = false;                                   // it agrees with the others and the drives
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();  // m, the site's position of the point less the measured one
 };

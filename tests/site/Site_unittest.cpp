@@ -152,6 +152,17 @@ TEST_F(SiteOfStems, fourPositionsTellNoFrame)
   EXPECT_FALSE(site({{trackOf(drive), kLever}}).pieces[0].is_in_reference_frame);
 }
 
+TEST_F(SiteOfStems, positionsWhoseErrorsLastCountAsOne)
+{
+  const DriveOfStems drive{straight(-20, 0, 12)};  // a position every 10 s
+  add(drive);
+  const auto sigmaWith = [&](Duration lasting) {
+    return std::sqrt(site({{trackOf(drive), kLever, {2, lasting}}}).keyframes[6].covariance(2, 2));
+  };
+  EXPECT_NEAR(sigmaWith(0s), 2 / std::sqrt(13), 0.05);
+  EXPECT_NEAR(sigmaWith(20s) / sigmaWith(0s), std::sqrt(3), 0.15);
+}
+
 TEST_F(SiteOfStems, positionsOfAnotherPrismAreNotUsed)
 {
   const DriveOfStems drive{straight(-20, 0, 12)};

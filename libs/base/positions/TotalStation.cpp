@@ -48,7 +48,12 @@ class StationLines
   /** Nothing for a header, a comment or an empty line. */
   std::optional<StampedPosition> measurement(const std::string& line)
   {
-    if (beginsWith(line, "#") || trimmed(line).empty()) return std::nullopt;
+    if (trimmed(line).empty()) return std::nullopt;
+    if (beginsWith(line, "#"))
+    {
+      if (!begun_) beginByComment(line.substr(1));
+      return std::nullopt;
+    }
     if (!begun_ && begin(line)) return std::nullopt;
     std::vector<std::string> fields = fieldsOf(line, separator_);
     if (separator_ != ',')
@@ -83,6 +88,21 @@ class StationLines
     if (stationTime(first, 1s)) return false;
     columns_ = StationColumns::ofHeader(fields);
     return true;
+  }
+
+  /** Some programs write the names of columns as a comment. */
+  void beginByComment(const std::string& comment)
+  {
+    try
+    {
+      const char separator = separatorOf(comment);
+      columns_ = StationColumns::ofHeader(fieldsOf(comment, separator));
+      separator_ = separator;
+      begun_ = true;
+    }
+    catch (const std::invalid_argument&)  // it is any other comment
+    {
+    }
   }
 
   bool begun_ = false;

@@ -16,7 +16,8 @@ struct PositionFile
 
 /**
  * One measurement a line. Fields are separated by `;`, tabulators, `,` or blanks (the first of these that the first
- * line has); with other separators than `,` numbers may have a decimal comma. Comments (#) and empty lines are skipped.
+ * line has); with other separators than `,` numbers may have a decimal comma. Comments (#) and empty lines are skipped,
+ * but for a comment that is a header.
  *
  * A header names the columns, in any order and any case: t, time, stamp, timestamp; x, e, east, easting; y, n, north,
  * northing; z, h, height, elevation, up. Others are skipped. A unit may follow: `x [mm]`, `x (mm)`, `x_mm`; s, ms, us,

@@ -105,7 +105,8 @@ void requireSound(const PoseGraph& graph)
   require(graph.odometry.empty() || graph.scale_sigma > 0, "scale_sigma must be above 0");
   for (const MeasuredUp& up : graph.ups) require(up.pose < count && up.sigma > 0, "an up without a pose or a sigma");
   for (const MeasuredPosition& at : graph.positions)
-    require(at.pose < count && isPositiveDefinite(at.covariance), "a position without a pose or a covariance");
+    require(at.pose < count && isPositiveDefinite(at.covariance) && at.share > 0,
+            "a position without a pose, a covariance or a share");
   if (graph.fixed) require(*graph.fixed < count, "the fixed pose is none of them");
 }
 
@@ -217,7 +218,7 @@ class Problem
         problem->AddResidualBlock(loops_[i].get(), new ceres::ScaledLoss(nullptr, w, ceres::TAKE_OWNERSHIP),
                                   block(graph_.loops[i].from), block(graph_.loops[i].to));
     for (std::size_t i = 0; i < positions_.size(); ++i)
-      if (const double w = position_weights_.at(i); w > 0)
+      if (const double w = graph_.positions[i].share * position_weights_.at(i); w > 0)
         problem->AddResidualBlock(positions_[i].get(), new ceres::ScaledLoss(nullptr, w, ceres::TAKE_OWNERSHIP),
                                   block(graph_.positions[i].pose));
     if (gauge_) problem->AddResidualBlock(gauge_.get(), nullptr, block(*graph_.fixed));

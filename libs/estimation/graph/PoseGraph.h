@@ -44,6 +44,7 @@ struct MeasuredPosition
   Eigen::Vector3d body_p_point;
   Eigen::Vector3d map_p_point;
   Eigen::Matrix3d covariance;  // m2
+  double share = 1;            // that it counts: positions whose errors last count as one together
 };
 
 struct PoseGraph

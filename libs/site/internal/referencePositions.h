@@ -6,6 +6,6 @@
 
 namespace scanloom
 {
-/** Positions of the reference during the drives, so far apart that they do not err alike. */
+/** Positions of the reference during the drives, at least 1 m of way apart. */
 std::vector<ReferencePosition> referencePositions(const Reference&, const std::vector<SiteDrive>&, const SiteLayout&);
 }  // namespace scanloom

@@ -49,7 +49,8 @@ class PieceGraph
       if (const auto pose = numberOf(references[i].keyframe); pose && references[i].used)
       {
         graph_.positions.push_back({*pose, references[i].keyframe_p_point, references[i].measured,
-                                    references[i].sigma * references[i].sigma * Eigen::Matrix3d::Identity()});
+                                    references[i].sigma * references[i].sigma * Eigen::Matrix3d::Identity(),
+                                    references[i].share});
         references_.push_back(i);
       }
   }

@@ -42,6 +42,13 @@ TEST(PositionFile, ofGnssIsEastNorthUpOfItsFirstFix)
   EXPECT_NEAR(file.track[1].position.z(), 0.5, 1e-3);
 }
 
+TEST(PositionFile, mayHaveItsHeaderInAComment)
+{
+  const PositionFile file = read("# of the receiver\n#t [s],lat [deg],lon [deg],height [m]\n1,62.2417,25.7473,141.5\n");
+  EXPECT_TRUE(file.origin);
+  EXPECT_FALSE(read("# t x and y of the prism\n1,2,3,4\n").origin);
+}
+
 TEST(PositionFile, ofGnssMayHaveTheOriginOfAnotherOne)
 {
   const PositionFile file = read("t,latitude,longitude,alt\n1,62.2418,25.7473,141.5\n", kOrigin);
