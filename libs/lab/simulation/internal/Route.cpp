@@ -64,9 +64,8 @@ void Route::addReturn(const DriveOptions& drive)
 {
   const double rests = 4 * drive.standstill + kTurnTime;
   const double moving = (drive.duration - rests) / 2 - drive.speed_up;
-  require(moving >= drive.speed_up,
-          fmt::format("[simulated_drive] duration = {} s: there and back takes at least {} s", drive.duration,
-                      rests + 4 * drive.speed_up));
+  require(moving >= drive.speed_up, fmt::format("[simulated_drive] duration = {} s: there and back takes at least {} s",
+                                                drive.duration, rests + 4 * drive.speed_up));
   farthest_ = drive.speed * moving;
   legs_.push_back({drive.standstill, moving, 0, drive.speed, false});
   turns_at_ = endOf(legs_.back()) + drive.standstill;
