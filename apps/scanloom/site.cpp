@@ -2,6 +2,8 @@
 #include "Arguments.h"
 #include "Reference.h"
 #include "Settings.h"
+#include "base/core/ConfigError.h"
+#include "base/core/Interruption.h"
 #include "base/core/OutputFolder.h"
 #include "base/core/Progress.h"
 #include "base/positions/ClockOffset.h"
@@ -12,6 +14,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+#include <map>
 #include <memory>
 
 namespace scanloom
@@ -23,7 +27,7 @@ struct SiteArguments
   ConfigurationArguments configuration;
   OutputFolderArguments output;
   std::vector<std::filesystem::path> drives, references;
-  std::string lever_arm = "0 0 0";
+  std::string lever_arm;
 };
 
 /** Of the first drive's run, unless others are given: it says what kind of world the drives are in. */
@@ -38,7 +42,13 @@ SlamSettings settingsFor(const SiteArguments& arguments)
 std::vector<SiteDrive> readDrives(const std::vector<std::filesystem::path>& folders)
 {
   std::vector<SiteDrive> drives;
-  for (const std::filesystem::path& folder : folders) drives.emplace_back(folder);
+  for (std::size_t i = 0; i < folders.size(); ++i)
+  {
+    for (std::size_t k = 0; k < i; ++k)
+      if (std::filesystem::equivalent(folders[i], folders[k]))
+        throw UsageError(fmt::format("{} is given twice", folders[i].string()));
+    drives.emplace_back(folders[i]);
+  }
   return drives;
 }
 
@@ -51,6 +61,8 @@ struct References
 /** Files of GNSS share an origin. Throws UsageError where they do not share a frame. */
 References readReferences(const SiteArguments& arguments)
 {
+  if (!arguments.references.empty() && arguments.lever_arm.empty())
+    throw UsageError("--reference: say where prism or antenna is on the body, --lever-arm \"x y z\" in m");
   References references;
   bool local = false;
   for (const std::filesystem::path& path : arguments.references)
@@ -112,11 +124,11 @@ bool reportPieces(const Site& site, const std::vector<SiteDrive>& drives)
 bool reportClock(const std::filesystem::path& file, const Reference& reference, const Trajectory& trajectory,
                  const std::string& drive)
 {
-  constexpr Duration kUsual = 50ms;
+  const double usual = reference.noise.lasting > Duration{0} ? 1 : 0.05;  // s: GNSS of 2 m tells no less
   const auto late = clockOffset(trajectory, reference.body_p_point, reference.track);
-  if (!late || (*late<kUsual&& * late> - kUsual)) return true;
+  if (!late || std::abs(seconds(*late)) < usual) return true;
   warn(fmt::format("{}: its clock is {:.2f} s {} that of {}: positions are wrong along the way", file.string(),
-                   std::abs(seconds(*late)), *late > Duration{} ? "behind" : "ahead of", drive));
+                   std::abs(seconds(*late)), seconds(*late) > 0 ? "behind" : "ahead of", drive));
   return false;
 }
 
@@ -153,16 +165,33 @@ bool reportReferences(const Site& site, const std::vector<SiteDrive>& drives, co
   return good;
 }
 
-int run(const SiteArguments& arguments)
+struct Interrupted
 {
+};
+
+/** Throws Interrupted. */
+Site madeShowingProgress(const std::vector<SiteDrive>& drives, const SlamSettings& settings,
+                         const std::vector<Reference>& references)
+{
+  Progress progress("site", 100, "%");
+  return madeOf(drives, settings, references,
+                [&](double share)
+                {
+                  if (interrupted()) throw Interrupted{};
+                  progress.update(static_cast<std::uint64_t>(100 * share));
+                });
+}
+
+int run(const SiteArguments& arguments)
+try
+{
+  catchInterruption();
   refuseExisting(arguments.output, siteFiles());
   const SlamSettings settings = settingsFor(arguments);
   const References references = readReferences(arguments);
   const std::vector<SiteDrive> drives = readDrives(arguments.drives);
   OutputFolder folder(arguments.output.folder);
-  Progress progress("site", 100, "%");
-  const SiteProgress show = [&](double share) { progress.update(static_cast<std::uint64_t>(100 * share)); };
-  const Site site = madeOf(drives, settings, references.all, show);
+  const Site site = madeShowingProgress(drives, settings, references.all);
   writeSite(folder.running(), site, drives, references.origin);
   const std::filesystem::path kept = folder.commit(siteFiles(), Completeness::Whole);
 
@@ -174,6 +203,10 @@ int run(const SiteArguments& arguments)
                origin->longitude, origin->height);
   fmt::print("{}\n", (kept / "keyframes.simplemap").string());
   return whole && referenced ? kDone : kQualityGate;
+}
+catch (const Interrupted&)
+{
+  return kInterrupted;
 }
 
 std::function<int()> addSiteOptions(CLI::App& app)
@@ -189,7 +222,8 @@ std::function<int()> addSiteOptions(CLI::App& app)
       .repeatable()
       .existingFile()
       .typeName("FILE");
-  addOption(app, "--lever-arm", arguments->lever_arm, "where prism or antenna is on the body: \"x y z\" in m")
+  addOption(app, "--lever-arm", arguments->lever_arm,
+            "with --reference: where prism or antenna is on the body, \"x y z\" in m")
       .typeName("XYZ");
   return [arguments] { return run(*arguments); };
 }

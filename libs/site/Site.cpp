@@ -9,7 +9,6 @@
 #include "site/internal/siteGraph.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -35,6 +34,9 @@ class SiteBuilder
     for (std::size_t part = 0; part < layout_.parts().size(); ++part) piece_of_part_.push_back(part);
   }
 
+  std::size_t parts() const { return layout_.parts().size(); }
+
+  /** Parts come in their order. */
   void addPart(std::size_t part)
   {
     ++parts_;
@@ -66,7 +68,9 @@ class SiteBuilder
 
   Site made() &&
   {
-    return {std::move(measured_.keyframes), std::move(measured_.loops), std::move(measured_.references), pieces()};
+    std::vector<SitePiece> all = pieces();
+    return {std::move(measured_.keyframes), std::move(measured_.loops), std::move(measured_.references),
+            std::move(all)};
   }
 
  private:
@@ -117,14 +121,12 @@ class SiteBuilder
   {
     for (int sweep = 0; sweep < kMostSweeps; ++sweep)
     {
-      const auto before = accepted();
+      const std::size_t before = accepted();
       for (std::size_t about = 0; about < parts_; ++about)
         if (piece_of_part_[about] == piece_of_part_[part])
-        {
           measured_.loops =
               withLoopsFound({measured_.keyframes, measured_.loops, known_}, layout_, search_, std::max(part, about),
                              std::min(part, about), [&](std::size_t keyframe) { showDone(keyframe); });
-        }
       measured_.loops = withoutLoneOnes(std::move(measured_.loops), measured_.keyframes, layout_);
       if (sweep > 0 && accepted() == before) return;
       solve(piece_of_part_[part]);
@@ -174,12 +176,18 @@ class SiteBuilder
     return pairs;
   }
 
+  bool usesReferences() const
+  {
+    return std::any_of(measured_.references.begin(), measured_.references.end(),
+                       [](const ReferencePosition& position) { return position.used; });
+  }
+
   std::vector<SitePiece> pieces() const
   {
     std::vector<SitePiece> pieces;
     for (std::size_t piece = 0; piece < parts_; ++piece)
       if (std::vector<std::size_t> keyframes = keyframesOf(piece); !keyframes.empty())
-        pieces.push_back({std::move(keyframes), referenced_ == piece});
+        pieces.push_back({std::move(keyframes), referenced_ == piece && usesReferences()});
     std::stable_sort(pieces.begin(), pieces.end(),
                      [](const SitePiece& a, const SitePiece& b) { return a.keyframes.size() > b.keyframes.size(); });
     return pieces;
@@ -219,9 +227,8 @@ Site madeOf(const std::vector<SiteDrive>& drives, const SlamSettings& settings,
             const std::vector<Reference>& references, const SiteProgress& progress)
 {
   SiteBuilder builder(drives, settings, progress);
-  const std::size_t parts = SiteLayout(drives).parts().size();
-  if (parts == 0) throw std::invalid_argument("a site without a keyframe");
-  for (std::size_t part = 0; part < parts; ++part) builder.addPart(part);
+  if (builder.parts() == 0) throw std::invalid_argument("a site without a keyframe");
+  for (std::size_t part = 0; part < builder.parts(); ++part) builder.addPart(part);
   builder.addReferences(references);
   return std::move(builder).made();
 }

@@ -254,7 +254,7 @@ class Problem
   {
     const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> root(information());
     if (root.info() != Eigen::Success)
-      throw std::runtime_error("pose graph: nothing holds some of its poses in their place");
+      throw UnheldPoseGraph("pose graph: nothing holds some of its poses in their place");
     const auto poses = static_cast<Eigen::Index>(6 * blocks_.size());
     std::vector<Matrix6d> covariances;
     for (Eigen::Index at = 0; at < poses; at += 6)

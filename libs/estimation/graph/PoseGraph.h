@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace scanloom
@@ -66,9 +67,15 @@ struct SolvedPoseGraph
   std::vector<double> loop_distances, position_distances;  // in standard deviations, of all, used or not
 };
 
+/** Nothing holds the graph in its place: there is no fixed pose, and all positions are refused. */
+struct UnheldPoseGraph : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
 /**
  * One thread; the same graph gives the same bits. Throws std::invalid_argument for an index without a pose or a
- * covariance that is not positive definite, std::runtime_error if nothing holds the graph.
+ * covariance that is not positive definite, and UnheldPoseGraph.
  */
 SolvedPoseGraph solved(const PoseGraph&);
 }  // namespace scanloom

@@ -100,17 +100,40 @@ class PieceGraph
 };
 }  // namespace
 
-SiteMeasurements solvedPiece(SiteMeasurements measurements, const std::vector<std::size_t>& piece,
-                             const std::vector<SiteDrive>& drives, const SiteLayout& layout)
+namespace
+{
+bool isIn(const std::vector<std::size_t>& piece, const ReferencePosition& reference)
+{
+  return std::binary_search(piece.begin(), piece.end(), reference.keyframe);
+}
+
+SiteMeasurements solvedOnce(SiteMeasurements measurements, const std::vector<std::size_t>& piece,
+                            const std::vector<SiteDrive>& drives, const SiteLayout& layout)
 {
   PieceGraph graph(piece);
   graph.addPoses(measurements.keyframes);
   for (std::size_t d = 0; d < drives.size(); ++d) graph.addDrive(drives[d].keyframes(), layout.firstOf(d));
   graph.addLoops(measurements.loops);
   graph.addReferences(measurements.references);
-  measurements = graph.solved(std::move(measurements));
+  return graph.solved(std::move(measurements));
+}
+}  // namespace
+
+SiteMeasurements solvedPiece(SiteMeasurements measurements, const std::vector<std::size_t>& piece,
+                             const std::vector<SiteDrive>& drives, const SiteLayout& layout)
+{
+  try
+  {
+    measurements = solvedOnce(measurements, piece, drives, layout);
+  }
+  catch (const UnheldPoseGraph&)  // all its positions are refused
+  {
+    for (ReferencePosition& reference : measurements.references)
+      if (isIn(piece, reference)) reference.used = false;
+    measurements = solvedOnce(std::move(measurements), piece, drives, layout);
+  }
   for (ReferencePosition& reference : measurements.references)
-    if (std::binary_search(piece.begin(), piece.end(), reference.keyframe))
+    if (isIn(piece, reference))
       reference.residual =
           measurements.keyframes[reference.keyframe].site_T_body * reference.keyframe_p_point - reference.measured;
   return measurements;
