@@ -61,15 +61,17 @@ struct References
 /** Files of GNSS share an origin. Throws UsageError where they do not share a frame. */
 References readReferences(const SiteArguments& arguments)
 {
-  if (!arguments.references.empty() && arguments.lever_arm.empty())
+  if (arguments.references.empty()) return {};
+  if (arguments.lever_arm.empty())
     throw UsageError("--reference: say where prism or antenna is on the body, --lever-arm \"x y z\" in m");
+  const Eigen::Vector3d lever_arm = leverArmOf(arguments.lever_arm);
   References references;
   bool local = false;
   for (const std::filesystem::path& path : arguments.references)
   {
     PositionFile file = readPositionFile(path, references.origin);
     const ReferenceNoise noise = file.origin ? kGnssNoise : kTotalStationNoise;
-    references.all.push_back({std::move(file.track), leverArmOf(arguments.lever_arm), noise});
+    references.all.push_back({std::move(file.track), lever_arm, noise});
     if (file.origin) references.origin = file.origin;
     local |= !file.origin;
   }

@@ -25,8 +25,6 @@ std::filesystem::path existing(const std::filesystem::path& folder, const char* 
 
 /** rad, of roll and pitch together. */
 double tiltSigma(const Matrix6d& covariance) { return std::sqrt(0.5 * (covariance(3, 3) + covariance(4, 4))); }
-
-Eigen::Vector3d upIn(const Rigid& drive_T_body) { return drive_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ(); }
 }  // namespace
 
 SiteDrive::SiteDrive(const std::filesystem::path& folder)
@@ -43,7 +41,7 @@ SiteDrive::SiteDrive(const std::filesystem::path& folder)
                     table.string(), rows.size(), reader_->size()));
   for (std::size_t i = 0; i < rows.size(); ++i)
     keyframes_.push_back({rows[i].stamp, reader_->pose(i), rows[i].covariance,
-                          upIn(poseAt(trajectory_, rows[i].stamp).value_or(reader_->pose(i))),
+                          upInBody(poseAt(trajectory_, rows[i].stamp).value_or(reader_->pose(i))),
                           tiltSigma(reader_->covariance(i)), rows[i].begins_map});
 }
 

@@ -28,6 +28,12 @@ struct Rigid
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return rotation * point + translation; }
 };
 
+/** Unit vector along the map's z, which is up, in the body's frame. */
+inline Eigen::Vector3d upInBody(const Rigid& map_T_body)
+{
+  return map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+}
+
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 

@@ -39,9 +39,8 @@ class Weights
   Weights(std::size_t count, double usual) : usual_(usual), weights_(count, 1.0) {}
 
   double at(std::size_t i) const { return weights_[i]; }
-  std::size_t size() const { return weights_.size(); }
 
-  /** Squared distances of the measurements; returns the mu from which it begins, infinite if none is unusual. */
+  /** The mu from which it begins, by the measurements' squared distances: infinite if none of them is unusual. */
   double firstMu(const std::vector<double>& squares) const
   {
     const double largest = squares.empty() ? 0 : *std::max_element(squares.begin(), squares.end());
@@ -78,7 +77,7 @@ class Weights
 
 Matrix6d gaugeInformation(const Rigid& map_T_body)
 {
-  const Eigen::Vector3d up = map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up = upInBody(map_T_body);
   Matrix6d information = Matrix6d::Zero();
   information.topLeftCorner<3, 3>().diagonal().setConstant(1 / (kFixedMetres * kFixedMetres));
   information.bottomRightCorner<3, 3>() = up * up.transpose() / (kFixedRadians * kFixedRadians);

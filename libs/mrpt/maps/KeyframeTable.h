@@ -16,8 +16,8 @@ namespace scanloom
 struct KeyframeRow
 {
   Timestamp stamp;
-  bool begins_map =
-      false;  // the body was lost since the keyframe before: the pose relative to that one is worth little
+  /** The body was lost since the keyframe before: the pose relative to that one is worth little. */
+  bool begins_map = false;
   /** Of the pose in the map of the keyframes before it: boxMinus(truth, estimate), translation (m), rotation (rad),
    * along the body's axes. */
   Matrix6d covariance = Matrix6d::Zero();
@@ -30,9 +30,6 @@ class KeyframeTableWriter
 
   void add(const KeyframeRow&);
   void close() { file_.commit(); }
-
-  /** With the whole rows that there are. */
-  void closeAfterFailure() { file_.commitLines(); }
 
  private:
   OutputFile file_;

@@ -5,7 +5,7 @@ namespace scanloom
 bool UpFactor::Evaluate(double const* const* parameters, double* residuals, double** jacobians) const
 {
   const Rigid map_T_body = poseOf(parameters[0]);
-  const Eigen::Vector3d up = map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up = upInBody(map_T_body);
   Eigen::Map<Eigen::Vector3d>{residuals} = up.cross(body_up_) / sigma_;
   if (!jacobians) return true;
 

@@ -14,12 +14,6 @@
 
 namespace scanloom
 {
-/** Unit vector, in the body's frame. */
-inline Eigen::Vector3d upInBody(const Rigid& map_T_body)
-{
-  return map_T_body.rotation.conjugate() * Eigen::Vector3d::UnitZ();
-}
-
 /** The state at the scan's end by the IMU alone. */
 struct Prediction
 {
