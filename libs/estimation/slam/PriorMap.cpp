@@ -5,12 +5,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace scanloom
 {
 PriorMap::PriorMap(const std::vector<scanloom::Keyframe>& keyframes, const std::vector<MountedLidar>& lidars,
-                   const SlamSettings& settings)
+                   const SlamSettings& settings, const std::vector<Matrix6d>& covariances)
   : cells_(settings.map_cells), lidars_(lidars), keyframes_(keyframes.size())
 {
   if (keyframes.empty()) throw std::invalid_argument("a map without a keyframe");
@@ -20,7 +21,8 @@ PriorMap::PriorMap(const std::vector<scanloom::Keyframe>& keyframes, const std::
                     {
                       const Rigid& map_T_body = keyframes[i].map_T_body;
                       const std::vector<View> views = viewsOf(keyframes[i].points, posesOf(lidars), corrections);
-                      keyframes_[i] = {map_T_body, binned(movedBy(map_T_body, views), cells_)};
+                      keyframes_[i] = {map_T_body, covariances.empty() ? Matrix6d::Zero() : covariances.at(i),
+                                       binned(movedBy(map_T_body, views), cells_)};
                     });
 }
 
@@ -34,6 +36,13 @@ std::vector<std::size_t> PriorMap::around(const Eigen::Vector3d& place, std::siz
   near.resize(std::min(near.size(), count));
   std::sort(near.begin(), near.end());
   return near;
+}
+
+Matrix6d PriorMap::covarianceAt(const Rigid& map_T_body) const
+{
+  const std::size_t nearest = around(map_T_body.translation, 1, std::numeric_limits<double>::infinity()).front();
+  const Keyframe& keyframe = keyframes_[nearest];
+  return movedTo(keyframe.map_T_body.inverse() * map_T_body, keyframe.covariance);
 }
 
 NdtMap PriorMap::whole() const

@@ -18,8 +18,13 @@ std::shared_ptr<const PriorMap> readKeyframes(const std::filesystem::path& folde
 {
   const SimpleMapReader reader(keyframesOf(folder));
   std::vector<Keyframe> keyframes;
-  for (std::size_t i = 0; i < reader.size(); ++i) keyframes.push_back(reader.keyframe(i));
-  return std::make_shared<const PriorMap>(keyframes, reader.lidars(), settings);
+  std::vector<Matrix6d> covariances;
+  for (std::size_t i = 0; i < reader.size(); ++i)
+  {
+    keyframes.push_back(reader.keyframe(i));
+    covariances.push_back(reader.covariance(i));
+  }
+  return std::make_shared<const PriorMap>(keyframes, reader.lidars(), settings, covariances);
 }
 
 Rigid lastPoseOf(const std::filesystem::path& file)

@@ -801,7 +801,8 @@ TEST(LidarInertialSlam, sixteenBeamsFollowAMachineThroughAFlatHall)
 namespace
 {
 /** Of the stand, in its own frame. */
-std::shared_ptr<const PriorMap> mapOf(const StandOfStems& stand, const std::vector<MountedLidar>& lidars)
+std::shared_ptr<const PriorMap> mapOf(const StandOfStems& stand, const std::vector<MountedLidar>& lidars,
+                                      const Matrix6d& covariance = Matrix6d::Zero())
 {
   std::vector<Keyframe> keyframes;
   for (const double x : {0, 4, 8})
@@ -810,7 +811,8 @@ std::shared_ptr<const PriorMap> mapOf(const StandOfStems& stand, const std::vect
     const Scan scan = stand.scanAt(Timestamp{0s}, [&](Timestamp) { return world_T_body; });
     keyframes.push_back({scan.end(), world_T_body, scan.points});
   }
-  return std::make_shared<const PriorMap>(keyframes, lidars, SlamSettings{});
+  return std::make_shared<const PriorMap>(keyframes, lidars, SlamSettings{},
+                                          std::vector<Matrix6d>(keyframes.size(), covariance));
 }
 }  // namespace
 
@@ -828,7 +830,8 @@ TEST(LidarInertialSlam, goesOnInTheMapOfAnEarlierDriveWithItsVelocity)
     for (StateEstimate& e : slam.addScan(stand.scanAt(start, [&](Timestamp t) { return machine.bodyAt(t); })))
       run.estimates.push_back(std::move(e));
     if (start != Timestamp{6s}) continue;
-    slam.enterMap({mapOf(stand, lidars), worldTMap(run, machine), 1e-4 * Matrix6d::Identity()});
+    slam.enterMap(
+        {mapOf(stand, lidars, 4e-4 * Matrix6d::Identity()), worldTMap(run, machine), 1e-4 * Matrix6d::Identity()});
   }
   const Timestamp entered = run.estimates.back().stamp - 2s;
   for (const StateEstimate& e : run.estimates)
@@ -837,6 +840,7 @@ TEST(LidarInertialSlam, goesOnInTheMapOfAnEarlierDriveWithItsVelocity)
     EXPECT_TRUE(e.in_map);
     EXPECT_EQ(e.health, Health::Ok);
     EXPECT_FALSE(e.keyframe) << "the map has some";
+    EXPECT_GT(e.since_start(0, 0), 4e-4) << "the map's own error";
     EXPECT_LT((e.map_T_body.translation - machine.bodyAt(e.stamp).translation).norm(), 0.05);
     EXPECT_LT((e.velocity - machine.imuAt(e.stamp).velocity).norm(), 0.1);
   }

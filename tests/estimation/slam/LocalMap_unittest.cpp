@@ -110,13 +110,25 @@ TEST(LocalMap, aKeyframeIsAlignedToWhatItSees)
 namespace
 {
 /** Keyframes of an earlier drive, each of a cube. */
-std::shared_ptr<const PriorMap> priorWith(const std::vector<double>& places)
+std::shared_ptr<const PriorMap> priorWith(const std::vector<double>& places,
+                                          const std::vector<Matrix6d>& covariances = {})
 {
   std::vector<Keyframe> keyframes;
   for (const double x : places) keyframes.push_back({Timestamp{}, at(x), cubePoints()});
-  return std::make_shared<const PriorMap>(keyframes, std::vector<MountedLidar>{{}}, SlamSettings{});
+  return std::make_shared<const PriorMap>(keyframes, std::vector<MountedLidar>{{}}, SlamSettings{}, covariances);
 }
 }  // namespace
+
+TEST(PriorMap, isAsSureOfAPlaceAsItsNearestKeyframe)
+{
+  Matrix6d heading = Matrix6d::Zero();
+  heading(5, 5) = 1e-4;  // 0.01 rad of heading
+  const auto map = priorWith({0, 10}, {1e-6 * Matrix6d::Identity(), heading});
+  const Matrix6d beyond = map->covarianceAt(at(13));
+  EXPECT_NEAR(beyond(1, 1), 9e-4, 1e-9) << "3 m ahead, a heading moves the body by 3 m x 0.01";
+  EXPECT_NEAR(map->covarianceAt(at(1))(5, 5), 1e-6, 1e-12);
+  EXPECT_EQ(priorWith({0})->covarianceAt(at(0)).norm(), 0) << "not known";
+}
 
 TEST(LocalMap, takesUpTheNearestKeyframesOfAnEarlierDrive)
 {

@@ -44,17 +44,20 @@ inline Scan scanOf(std::size_t columns, Timestamp start,
 class StandOfStems
 {
  public:
-  explicit StandOfStems(unsigned seed = 1)
+  /** `felled`: number of the stem that stands no more; none: -1. */
+  explicit StandOfStems(unsigned seed = 1, int felled = -1)
   {
     std::mt19937 random(seed);
     const auto uniform = [&random](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
     for (int stem = 0; stem < 80; ++stem)
     {
       const double x = uniform(-30, 45), y = uniform(-30, 30), radius = uniform(0.08, 0.2);
+      stems_.emplace_back(x, y);
       for (int i = 0; i < 120; ++i)
       {
         const double angle = uniform(0, 2 * M_PI);
-        points_.emplace_back(x + radius * std::cos(angle), y + radius * std::sin(angle), uniform(0, 6));
+        const Eigen::Vector3d p(x + radius * std::cos(angle), y + radius * std::sin(angle), uniform(0, 6));
+        if (stem != felled) points_.push_back(p);
       }
     }
     for (int i = 0; i < 12000; ++i)
@@ -63,6 +66,9 @@ class StandOfStems
       points_.emplace_back(x, y, 0.3 * std::sin(0.2 * x) + 0.2 * std::cos(0.3 * y));
     }
   }
+
+  /** Where they stand, or stood. */
+  const std::vector<Eigen::Vector2d>& stems() const { return stems_; }
 
   /** 64 columns in [start, start + 100 ms); map_T_body says where the body is at an instant. */
   Scan scanAt(Timestamp start, const std::function<Rigid(Timestamp)>& map_T_body) const
@@ -77,6 +83,7 @@ class StandOfStems
   }
 
  private:
+  std::vector<Eigen::Vector2d> stems_;
   std::vector<Eigen::Vector3d> points_;
 };
 }  // namespace scanloom

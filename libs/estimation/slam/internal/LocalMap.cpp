@@ -58,6 +58,8 @@ void LocalMap::moveTo(const Eigen::Vector3d& place)
     if (!std::binary_search(before.begin(), before.end(), i)) ndt_.add(prior_->keyframes()[i].points);
 }
 
+Matrix6d LocalMap::covarianceOfPrior(const Rigid& map_T_body) const { return prior_->covarianceAt(map_T_body); }
+
 const Eigen::Vector3d& LocalMap::oldest() const
 {
   if (!of_prior_.empty()) return prior_->keyframes()[of_prior_.front()].map_T_body.translation;

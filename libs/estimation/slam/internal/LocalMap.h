@@ -65,6 +65,9 @@ class LocalMap
   /** Whether registrations are in the frame of an earlier drive's map. */
   bool isInPriorMap() const { return prior_ != nullptr; }
 
+  /** Of a body there by errors of the earlier drive's map, in which the map must be. */
+  Matrix6d covarianceOfPrior(const Rigid& map_T_body) const;
+
   /** Where the oldest keyframe of the map is; there must be one. */
   const Eigen::Vector3d& oldest() const;
   const NdtMap& ndt() const { return ndt_; }

@@ -89,7 +89,8 @@ StateEstimate estimateOf(DeskewedScan seen, const Prediction& predicted, const C
   estimate.in_map = map.local_map.isInPriorMap();
   estimate.since_start = since_start;
   // In the map of an earlier drive the way since that one's start is part of the map.
-  if (!estimate.in_map) estimate.since_start += scaleError(scan.body.map_T_body);
+  estimate.since_start +=
+      estimate.in_map ? map.local_map.covarianceOfPrior(scan.body.map_T_body) : scaleError(scan.body.map_T_body);
   estimate.correction = boxMinus(scan.body.map_T_body, predicted.map_T_body);
   estimate.velocity = scan.body.velocity;
   estimate.imu_bias = scan.body.window.smoother.newest().bias;
