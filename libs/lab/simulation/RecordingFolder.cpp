@@ -111,6 +111,17 @@ void writeObjects(const Scene& scene, const std::filesystem::path& path)
   file.commit();
 }
 
+void writeTrees(const Scene& scene, const std::filesystem::path& path)
+{
+  OutputFile file(path);
+  file.stream() << "#x [m],y [m],z [m],diameter [m],length [m] (x y z: foot of the stem, world frame; diameter at "
+                   "1.3 m)\n";
+  for (const Stem& stem : scene.scenery.world().stems())
+    fmt::print(file.stream(), "{:.3f},{:.3f},{:.3f},{:.3f},{:.2f}\n", stem.foot.x(), stem.foot.y(), stem.foot.z(),
+               stem.diameter, stem.length);
+  file.commit();
+}
+
 void writeExtrinsics(const Scene& scene, const std::filesystem::path& path)
 {
   std::vector<std::pair<std::string, Rigid>> poses;
@@ -180,7 +191,7 @@ std::vector<std::string> recordingFileNames(const SimulationSettings& settings)
 {
   const char* const lidars = settings.recording.packets() ? "recording.pcap" : "recording.rawlog";
   std::vector<std::string> names{lidars,           "imu.csv",     "groundtruth.tum", "total_station.csv",
-                                 "extrinsics.txt", "objects.csv", "summary.json"};
+                                 "extrinsics.txt", "objects.csv", "trees.csv",       "summary.json"};
   if (settings.gnss.error > 0) names.emplace_back("gnss.csv");
   for (const SimulatedLidarOptions& lidar : settings.lidars) names.push_back(lidar.name + ".json");
   return names;
@@ -197,6 +208,7 @@ void writeRecording(const Scene& scene, const std::filesystem::path& folder,
   if (scene.gnss.error > 0) writeGnss(scene, folder / "gnss.csv");
   writeExtrinsics(scene, folder / "extrinsics.txt");
   writeObjects(scene, folder / "objects.csv");
+  writeTrees(scene, folder / "trees.csv");
   writeText(folder / "summary.json", summaryOf(scene, counts, bias));
 }
 }  // namespace scanloom

@@ -1,6 +1,6 @@
 /**
  * A recording as a folder: recording.pcap, <lidar>.json, imu.csv (EuRoC), groundtruth.tum (100 Hz), total_station.csv,
- * extrinsics.txt, objects.csv (10 Hz) and summary.json.
+ * extrinsics.txt, objects.csv (10 Hz), trees.csv and summary.json.
  */
 #pragma once
 #include "lab/simulation/internal/Scene.h"

@@ -21,6 +21,7 @@ struct DriveOptions
   double curve_length = 22.0;
   double start = 0;
   double left = 0;
+  int day = 0;
 
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
@@ -30,8 +31,11 @@ struct DriveOptions
                          "winding: rests, drives at 'speed', rests again; return: drives half of the time, turns round "
                          "on the spot and drives back; work: repeats the cycle of [simulated_work] until the recording "
                          "ends"});
-    visit(o.standstill, Field{"standstill", "s", "time at rest before and after a drive, and before and after turning round", atLeast(0)});
-    visit(o.speed, Field{"speed", "m/s", "cruising speed along the axis of the path; route = work has speeds of its own", between(0, 40)});
+    visit(o.standstill, Field{"standstill", "s",
+                              "time at rest before and after a drive, and before and after turning round", atLeast(0)});
+    visit(o.speed,
+          Field{"speed", "m/s", "cruising speed along the axis of the path; route = work has speeds of its own",
+                between(0, 40)});
     visit(o.speed_up, Field{"speed_up", "s", "time to reach the cruising speed, and to stop", above(0)});
     visit(o.curve, Field{"curve", "m", "amplitude of the winding path", between(0, 20)});
     visit(o.curve_length, Field{"curve_length", "m", "length of one period of the winding path", above(1)});
@@ -39,6 +43,8 @@ struct DriveOptions
           Field{"start", "m", "where on the path the drive starts: other drives through one stand", atLeast(0)});
     visit(o.left, Field{"left", "m", "how far left of the path the machine drives, within the lane that it keeps free",
                         between(-1.5, 1.5)});
+    visit(o.day,
+          Field{"day", "d", "how many days after the first drive: its stamps are those of another day", atLeast(0)});
   }
 };
 

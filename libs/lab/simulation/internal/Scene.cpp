@@ -15,7 +15,8 @@ Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
 {
   const std::uint64_t stand_seed =
       settings.forest.stand.seed > 0 ? static_cast<std::uint64_t>(settings.forest.stand.seed) : seed;
-  const RecordingSpan span{kStart, settings.drive.duration};
+  const Timestamp start = kStart + 24h * settings.drive.day;
+  const RecordingSpan span{start, settings.drive.duration};
   const Ground ground(settings.ground, settings.slopes);
   const Route route(settings.drive, settings.work, seed);
   BodyMotionOptions body = settings.body;
@@ -32,7 +33,7 @@ Scene makeScene(const SimulationSettings& settings, std::uint64_t seed)
                   drive, machine, MovingObjects(settings.objects, drive, seed)),
           std::move(lidars),
           {body_T_imu,
-           kStart + kImuPhase,
+           start + kImuPhase,
            settings.imu,
            {},
            RandomStream::BodyImu,
