@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace scanloom
@@ -13,7 +14,7 @@ namespace scanloom
 /** How well positions are known, and for how long they err alike. */
 struct ReferenceNoise
 {
-  double sigma;      // m, of each coordinate
+  double sigma;      // m, of each coordinate, where the file says none
   Duration lasting;  // positions within so much time count as one
 };
 
@@ -39,6 +40,7 @@ struct ReferencePosition
   Eigen::Vector3d keyframe_p_point;
   Eigen::Vector3d measured;                            // in the reference's frame
   double sigma = 0;                                    // m
+  std::string name{};                                  // of a control point; empty: none
   double share = 1;                                    // that it counts
   bool used = false;                                   // it agrees with the others and the drives
   Eigen::Vector3d residual = Eigen::Vector3d::Zero();  // m, the site's position of the point less the measured one

@@ -13,7 +13,7 @@ namespace scanloom
 struct CloudWriter::Format
 {
   std::string ending;
-  std::unique_ptr<CloudEncoding> (*encoding)(Timestamp origin, const Eigen::Vector3d& offset);
+  std::unique_ptr<CloudEncoding> (*encoding)(Timestamp origin, const Eigen::Vector3d& offset, const std::string& wkt);
   OutputFile::Convert finish = nullptr;  // of the encoded file
 };
 
@@ -49,15 +49,15 @@ const CloudWriter::Format& CloudWriter::formatOf(const std::filesystem::path& pa
       fmt::format("{}: a cloud's file must end in one of {}", path.string(), fmt::join(endings(), ", ")));
 }
 
-CloudWriter::CloudWriter(const std::filesystem::path& path, const Eigen::Vector3d& offset)
-  : format_(formatOf(path)), file_(path), offset_(offset)
+CloudWriter::CloudWriter(const std::filesystem::path& path, const Eigen::Vector3d& offset, const std::string& wkt)
+  : format_(formatOf(path)), file_(path), offset_(offset), wkt_(wkt)
 {
 }
 
 void CloudWriter::begin(Timestamp origin)
 {
   origin_ = origin;
-  encoding_ = format_.encoding(origin, offset_);
+  encoding_ = format_.encoding(origin, offset_, wkt_);
   file_.stream() << encoding_->header(0);
 }
 

@@ -26,10 +26,12 @@ class CloudWriter
   static const std::vector<std::string>& endings();
 
   /**
+   * `wkt`: what LAS files name as the coordinate reference system; other formats do not.
    * Throws std::invalid_argument for another ending, UsageError for .laz without LASzip, and std::runtime_error if the
    * file cannot be written.
    */
-  explicit CloudWriter(const std::filesystem::path&, const Eigen::Vector3d& offset = Eigen::Vector3d::Zero());
+  explicit CloudWriter(const std::filesystem::path&, const Eigen::Vector3d& offset = Eigen::Vector3d::Zero(),
+                       const std::string& wkt = "");
 
   /**
    * Appends the points, transformed by frame_T_points. Their t is relative to `stamp`. Throws std::runtime_error if the
@@ -51,6 +53,7 @@ class CloudWriter
   const Format& format_;
   OutputFile file_;
   Eigen::Vector3d offset_;
+  std::string wkt_;
   std::unique_ptr<CloudEncoding> encoding_;  // none before the first cloud
   Timestamp origin_;
   std::size_t size_ = 0;

@@ -14,6 +14,7 @@ namespace scanloom
 namespace
 {
 constexpr std::uint16_t kHeaderSize = 375, kPointSize = 30;
+constexpr std::size_t kRecordHeaderSize = 54;
 constexpr std::uint8_t kPointFormat = 6;
 constexpr double kStep = 0.001;  // m, of the coordinates
 
@@ -38,7 +39,10 @@ void putZeros(LittleEndianBuffer& buffer, std::size_t count)
 class LasEncoding : public CloudEncoding
 {
  public:
-  LasEncoding(Timestamp origin, const Eigen::Vector3d& offset) : origin_(origin), offset_(offset) {}
+  LasEncoding(Timestamp origin, const Eigen::Vector3d& offset, std::string wkt)
+    : origin_(origin), offset_(offset), wkt_(std::move(wkt))
+  {
+  }
 
   /** Table 3 of the specification. No date of the file's making: the same input gives the same bits. */
   std::string header(std::size_t points) const override
@@ -55,8 +59,8 @@ class LasEncoding : public CloudEncoding
     putText(buffer, "scanloom", 32);
     putZeros<std::uint16_t>(buffer, 2);  // date
     buffer.put(kHeaderSize);
-    buffer.put(std::uint32_t{kHeaderSize});  // where the points begin
-    buffer.put(std::uint32_t{0});            // variable length records
+    buffer.put(static_cast<std::uint32_t>(kHeaderSize + recordSize()));  // where the points begin
+    buffer.put(std::uint32_t{wkt_.empty() ? 0U : 1U});                   // variable length records
     buffer.put(kPointFormat);
     buffer.put(kPointSize);
     putZeros<std::uint32_t>(buffer, 6);  // the counts of earlier versions
@@ -72,6 +76,7 @@ class LasEncoding : public CloudEncoding
     buffer.put(static_cast<std::uint64_t>(points));
     buffer.put(static_cast<std::uint64_t>(points));  // first returns
     putZeros<std::uint64_t>(buffer, 14);             // later returns
+    if (!wkt_.empty()) putReferenceSystem(buffer);
     std::ostringstream text;
     buffer.writeTo(text);
     return text.str();
@@ -95,6 +100,20 @@ class LasEncoding : public CloudEncoding
   }
 
  private:
+  std::size_t recordSize() const { return wkt_.empty() ? 0 : kRecordHeaderSize + wkt_.size() + 1; }
+
+  /** Tables 5 and 22: OGC coordinate system WKT record. */
+  void putReferenceSystem(LittleEndianBuffer& buffer) const
+  {
+    constexpr std::uint16_t kWktRecord = 2112;
+    buffer.put(std::uint16_t{0});  // reserved
+    putText(buffer, "LASF_Projection", 16);
+    buffer.put(kWktRecord);
+    buffer.put(static_cast<std::uint16_t>(wkt_.size() + 1));
+    putText(buffer, "", 32);  // description
+    putText(buffer, wkt_, wkt_.size() + 1);
+  }
+
   std::int32_t steps(double coordinate, int axis)
   {
     const double count = std::round(coordinate / kStep);
@@ -108,13 +127,14 @@ class LasEncoding : public CloudEncoding
 
   Timestamp origin_;
   Eigen::Vector3d offset_;
+  std::string wkt_;
   Eigen::Array3d lowest_ = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Array3d highest_ = Eigen::Array3d::Constant(-std::numeric_limits<double>::infinity());
 };
 }  // namespace
 
-std::unique_ptr<CloudEncoding> lasEncoding(Timestamp origin, const Eigen::Vector3d& offset)
+std::unique_ptr<CloudEncoding> lasEncoding(Timestamp origin, const Eigen::Vector3d& offset, const std::string& wkt)
 {
-  return std::make_unique<LasEncoding>(origin, offset);
+  return std::make_unique<LasEncoding>(origin, offset, wkt);
 }
 }  // namespace scanloom

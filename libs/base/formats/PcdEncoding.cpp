@@ -39,7 +39,7 @@ class PcdEncoding : public CloudEncoding
 };
 }  // namespace
 
-std::unique_ptr<CloudEncoding> pcdEncoding(Timestamp origin, const Eigen::Vector3d& offset)
+std::unique_ptr<CloudEncoding> pcdEncoding(Timestamp origin, const Eigen::Vector3d& offset, const std::string&)
 {
   return std::make_unique<PcdEncoding>(origin, offset);
 }

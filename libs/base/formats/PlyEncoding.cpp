@@ -38,7 +38,7 @@ class PlyEncoding : public CloudEncoding
 };
 }  // namespace
 
-std::unique_ptr<CloudEncoding> plyEncoding(Timestamp origin, const Eigen::Vector3d& offset)
+std::unique_ptr<CloudEncoding> plyEncoding(Timestamp origin, const Eigen::Vector3d& offset, const std::string&)
 {
   return std::make_unique<PlyEncoding>(origin, offset);
 }

@@ -37,9 +37,9 @@ std::vector<PositionPair> pairsAtReference(const Trajectory& estimate, const Eig
                                            const PositionTrack& reference)
 {
   std::vector<PositionPair> pairs;
-  for (const auto& [stamp, position] : reference)
-    if (const auto pose = poseAt(estimate, stamp, kLongestGap))
-      pairs.push_back({stamp, *pose * body_p_point, position});
+  for (const StampedPosition& measured : reference)
+    if (const auto pose = poseAt(estimate, measured.stamp, kLongestGap))
+      pairs.push_back({measured.stamp, *pose * body_p_point, measured.position});
   return pairs;
 }
 

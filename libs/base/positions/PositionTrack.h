@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace scanloom
@@ -13,6 +14,8 @@ struct StampedPosition
 {
   Timestamp stamp;
   Eigen::Vector3d position;  // m
+  double sigma = 0;          // m, of each coordinate; 0: not said
+  std::string name{};        // of a control point; empty: none
 };
 
 /** With strictly increasing stamps. */

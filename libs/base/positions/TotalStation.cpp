@@ -62,6 +62,8 @@ class StationLines
 
     const auto stamp = stationTime(field(columns_.stamp), columns_.stamp_unit);
     StampedPosition measured{stamp.value_or(Timestamp{}), {}};
+    if (columns_.name) measured.name = field(*columns_.name);
+    if (columns_.sigma) measured.sigma = columns_.sigma_unit * sigmaIn(field(*columns_.sigma));
     for (int axis = 0; axis < 3; ++axis)
     {
       const auto a = static_cast<std::size_t>(axis);
@@ -77,6 +79,14 @@ class StationLines
   }
 
  private:
+  static double sigmaIn(const std::string& text)
+  {
+    const auto sigma = parseNumber(text);
+    if (!sigma || !(*sigma > 0))
+      throw std::invalid_argument(fmt::format("a standard deviation of '{}': must be above 0", text));
+    return *sigma;
+  }
+
   /** @return whether the line is a header. */
   bool begin(const std::string& line)
   {

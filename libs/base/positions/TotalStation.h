@@ -26,6 +26,8 @@ struct PositionFile
  *
  * x, y, z must be right-handed: x is east where y is north. Instead of x and y there may be lat and lon (deg, WGS84)
  * beside the height: then positions are east, north and up of the origin, which is the first of them if none is given.
+ * There may be sigma, std or accuracy: the standard deviation of each coordinate, above 0; and name, point or id: of a
+ * control point at which the machine's point was.
  *
  * Throws std::invalid_argument with file and line for a header that lacks a column or has an unknown unit, for any line
  * that is none of these, and for a stamp that is not after the one before.

@@ -32,7 +32,8 @@ std::vector<ReferencePosition> ofDrive(const Reference& reference, const SiteDri
     last = drive_T_body->translation;
     positions.push_back({measured.stamp, first + *before,
                          drive.keyframes()[*before].drive_T_body.inverse() * (*drive_T_body * reference.body_p_point),
-                         measured.position, reference.noise.sigma});
+                         measured.position, measured.sigma > 0 ? measured.sigma : reference.noise.sigma,
+                         measured.name});
   }
   return positions;
 }

@@ -114,6 +114,28 @@ TEST(CloudWriter, lasHasPointsOfFormatSixInMillimetres)
   EXPECT_NEAR(load<double>(file, kSecond + 22) - load<double>(file, kFirst + 22), 3600, 1e-6);
 }
 
+/** Tables 5 and 22 of the same. */
+TEST(CloudWriter, lasNamesTheReferenceSystemOfItsCoordinates)
+{
+  const TemporaryFolder folder;
+  const std::string wkt = "PROJCS[\"a grid\"]";
+  CloudWriter writer(folder / "a.las", {500000, 6886000, 0}, wkt);
+  writer.add(onePoint(), fromNanoseconds(kEpoch), Rigid::fromXyzYawPitchRoll(500000, 6886000, 0, 0, 0, 0));
+  writer.close();
+
+  const std::string text = contentOf(folder / "a.las");
+  const std::vector<std::uint8_t> file(text.begin(), text.end());
+  constexpr std::size_t kRecord = 375, kText = kRecord + 54;
+  EXPECT_EQ(load<std::uint32_t>(file, 100), 1U);
+  EXPECT_EQ(text.substr(kRecord + 2, 15), "LASF_Projection");
+  EXPECT_EQ(load<std::uint16_t>(file, kRecord + 18), 2112);
+  EXPECT_EQ(load<std::uint16_t>(file, kRecord + 20), wkt.size() + 1);
+  EXPECT_EQ(text.substr(kText, wkt.size()), wkt);
+  const auto first_point = load<std::uint32_t>(file, 96);
+  EXPECT_EQ(first_point, kText + wkt.size() + 1);
+  EXPECT_EQ(load<std::int32_t>(file, first_point), 1500) << "mm from the offset";
+}
+
 TEST(CloudWriter, lasRefusesWhatItCannotHold)
 {
   const TemporaryFolder folder;

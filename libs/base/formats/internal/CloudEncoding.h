@@ -35,11 +35,14 @@ inline std::string offsetLine(const char* mark, const Eigen::Vector3d& offset)
 }
 
 /** PLY, the Polygon File Format (G. Turk, Stanford, 1994): what every viewer opens. */
-std::unique_ptr<CloudEncoding> plyEncoding(Timestamp origin, const Eigen::Vector3d& offset);
+std::unique_ptr<CloudEncoding> plyEncoding(Timestamp origin, const Eigen::Vector3d& offset, const std::string& wkt);
 
 /** PCD, of the Point Cloud Library (its documentation: "The PCD (Point Cloud Data) file format"). */
-std::unique_ptr<CloudEncoding> pcdEncoding(Timestamp origin, const Eigen::Vector3d& offset);
+std::unique_ptr<CloudEncoding> pcdEncoding(Timestamp origin, const Eigen::Vector3d& offset, const std::string& wkt);
 
-/** LAS 1.4 (ASPRS, LAS Specification 1.4-R15), point data record format 6: what tools for forests and surveys read. */
-std::unique_ptr<CloudEncoding> lasEncoding(Timestamp origin, const Eigen::Vector3d& offset);
+/**
+ * LAS 1.4 (ASPRS, LAS Specification 1.4-R15), point data record format 6: what tools for forests and surveys read.
+ * `wkt`: of the coordinate reference system; empty: of none.
+ */
+std::unique_ptr<CloudEncoding> lasEncoding(Timestamp origin, const Eigen::Vector3d& offset, const std::string& wkt);
 }  // namespace scanloom

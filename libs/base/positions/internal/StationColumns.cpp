@@ -36,7 +36,7 @@ bool isOneOf(const std::string& name, const std::vector<std::string>& names)
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-constexpr int kStamp = 3, kLatitude = 4, kLongitude = 5;  // 0 to 2: x, y, z
+constexpr int kStamp = 3, kLatitude = 4, kLongitude = 5, kSigma = 6, kName = 7;  // 0 to 2: x, y, z
 
 /** The quantity that a column of this name holds, if it is one that we need. */
 std::optional<int> quantityOf(const std::string& name)
@@ -46,7 +46,9 @@ std::optional<int> quantityOf(const std::string& name)
                                                             {"z", "h", "height", "elevation", "up", "alt", "altitude"},
                                                             {"t", "time", "stamp", "timestamp"},
                                                             {"lat", "latitude"},
-                                                            {"lon", "long", "lng", "longitude"}};
+                                                            {"lon", "long", "lng", "longitude"},
+                                                            {"sigma", "std", "accuracy"},
+                                                            {"name", "point", "id"}};
   for (std::size_t i = 0; i < kNames.size(); ++i)
     if (isOneOf(name, kNames[i])) return static_cast<int>(i);
   return std::nullopt;
@@ -116,7 +118,7 @@ std::optional<Timestamp> dateOf(const std::string& text)
 StationColumns StationColumns::ofHeader(const std::vector<std::string>& names)
 {
   StationColumns columns;
-  std::array<bool, 6> has{};
+  std::array<bool, 8> has{};
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     const Column column = columnOf(names[i]);
@@ -129,6 +131,17 @@ StationColumns StationColumns::ofHeader(const std::vector<std::string>& names)
     {
       columns.stamp = i;
       columns.stamp_unit = unitOf(column, kTimes, Duration(1s));
+      continue;
+    }
+    if (*quantity == kName)
+    {
+      columns.name = i;
+      continue;
+    }
+    if (*quantity == kSigma)
+    {
+      columns.sigma = i;
+      columns.sigma_unit = unitOf(column, kLengths, 1.0);
       continue;
     }
     const bool is_angle = *quantity == kLatitude || *quantity == kLongitude;

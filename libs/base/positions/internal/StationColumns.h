@@ -17,6 +17,8 @@ struct StationColumns
   Duration stamp_unit = 1s;
   std::array<double, 3> position_unit{1, 1, 1};  // m; latitude and longitude: deg
   bool geodetic = false;                         // latitude, longitude, height instead of x, y, z
+  std::optional<std::size_t> sigma, name;
+  double sigma_unit = 1;  // m
 
   /** Throws std::invalid_argument with what is missing, given twice, or of an unknown unit. */
   static StationColumns ofHeader(const std::vector<std::string>& names);
