@@ -47,9 +47,9 @@ SensorAddress webAddress(const WebArguments& arguments)
   }
 }
 
-void announcePage(const LiveServer& server, const SensorAddress& address)
+void announcePage(const std::string& url, const SensorAddress& address)
 {
-  fmt::print(stderr, "{}\n", server.url());
+  fmt::print(stderr, "{}\n", url);
   if (!isLoopback(address.ip))
     fmt::print(stderr, "warning: everyone who reaches {} sees the map and may mark events\n", address.text());
 }
@@ -59,7 +59,7 @@ Web::Web(const WebArguments& arguments, const ViewedWork& work, SensorInput& inp
     input_(input, feed_),
     server_(webAddress(arguments), exchange_, LiveServerOptions{5e6, 8, folder})
 {
-  announcePage(server_, webAddress(arguments));
+  announcePage(server_.url(), webAddress(arguments));
 }
 
 void Web::update(const FeedProgress& progress)

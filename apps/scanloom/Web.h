@@ -52,5 +52,5 @@ class Web
 std::unique_ptr<Web> openWeb(const WebArguments&, const ViewedWork&, SensorInput&, const std::filesystem::path& folder);
 
 /** Says on stderr where the page is, and a warning if other computers reach it. */
-void announcePage(const LiveServer&, const SensorAddress&);
+void announcePage(const std::string& url, const SensorAddress&);
 }  // namespace scanloom

@@ -9,6 +9,7 @@
 #include "base/positions/ClockOffset.h"
 #include "base/positions/TotalStation.h"
 #include "estimation/slam/PlaceSearch.h"
+#include "site/GnssOfRawlog.h"
 #include "site/SiteFiles.h"
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ struct SiteArguments
   ConfigurationArguments configuration;
   OutputFolderArguments output;
   std::vector<std::filesystem::path> drives, references;
-  std::string lever_arm;
+  std::string lever_arm, crs;
 };
 
 /** Of the first drive's run, unless others are given: it says what kind of world the drives are in. */
@@ -55,27 +56,31 @@ std::vector<SiteDrive> readDrives(const std::vector<std::filesystem::path>& fold
 struct References
 {
   std::vector<Reference> all;
-  std::optional<Geodetic> origin;  // of GNSS
+  SiteFrame frame;
 };
 
 /** Files of GNSS share an origin. Throws UsageError where they do not share a frame. */
 References readReferences(const SiteArguments& arguments)
 {
+  if (arguments.references.empty() && !arguments.crs.empty())
+    throw UsageError("--crs: without --reference nothing says where in these coordinates the site is");
   if (arguments.references.empty()) return {};
   if (arguments.lever_arm.empty())
     throw UsageError("--reference: say where prism or antenna is on the body, --lever-arm \"x y z\" in m");
   const Eigen::Vector3d lever_arm = leverArmOf(arguments.lever_arm);
   References references;
+  if (!arguments.crs.empty()) references.frame.grid.emplace(arguments.crs);
   bool local = false;
   for (const std::filesystem::path& path : arguments.references)
   {
-    PositionFile file = readPositionFile(path, references.origin);
+    PositionFile file = path.extension() == ".rawlog" ? readGnssOfRawlog(path, references.frame.origin)
+                                                      : readPositionFile(path, references.frame.origin);
     const ReferenceNoise noise = file.origin ? kGnssNoise : kTotalStationNoise;
     references.all.push_back({std::move(file.track), lever_arm, noise});
-    if (file.origin) references.origin = file.origin;
+    if (file.origin) references.frame.origin = file.origin;
     local |= !file.origin;
   }
-  if (local && references.origin)
+  if (local && references.frame.origin)
     throw UsageError(
         "--reference: latitude and longitude, and x and y of a station, are in different frames: give one");
   return references;
@@ -172,16 +177,28 @@ struct Interrupted
 };
 
 /** Throws Interrupted. */
+SiteProgress showing(Progress& progress)
+{
+  return [&progress](double share)
+  {
+    if (interrupted()) throw Interrupted{};
+    progress.update(static_cast<std::uint64_t>(100 * share));
+  };
+}
+
+SiteMap writeShowingProgress(const std::filesystem::path& folder, const Site& site,
+                             const std::vector<SiteDrive>& drives, const SiteFrame& frame)
+{
+  Progress progress("tiles", 100, "%");
+  return writeSite(folder, site, drives, frame, showing(progress));
+}
+
+/** Throws Interrupted. */
 Site madeShowingProgress(const std::vector<SiteDrive>& drives, const SlamSettings& settings,
                          const std::vector<Reference>& references)
 {
-  Progress progress("site", 100, "%");
-  return madeOf(drives, settings, references,
-                [&](double share)
-                {
-                  if (interrupted()) throw Interrupted{};
-                  progress.update(static_cast<std::uint64_t>(100 * share));
-                });
+  Progress progress("loops", 100, "%");
+  return madeOf(drives, settings, references, showing(progress));
 }
 
 int run(const SiteArguments& arguments)
@@ -194,13 +211,14 @@ try
   const std::vector<SiteDrive> drives = readDrives(arguments.drives);
   OutputFolder folder(arguments.output.folder);
   const Site site = madeShowingProgress(drives, settings, references.all);
-  writeSite(folder.running(), site, drives, references.origin);
+  const SiteMap map = writeShowingProgress(folder.running(), site, drives, references.frame);
   const std::filesystem::path kept = folder.commit(siteFiles(), Completeness::Whole);
 
   reportLoops(site);
   const bool whole = reportPieces(site, drives);
+  fmt::print("{} tiles; {} things that earlier drives saw are gone: gone.csv\n", map.tiles, map.gone.size());
   const bool referenced = reportReferences(site, drives, references.all, arguments.references);
-  if (const auto& origin = references.origin; origin && site.pieces.front().is_in_reference_frame)
+  if (const auto& origin = references.frame.origin; origin && site.pieces.front().is_in_reference_frame)
     fmt::print("east, north and up of latitude {:.7f}, longitude {:.7f}, height {:.2f} m\n", origin->latitude,
                origin->longitude, origin->height);
   fmt::print("{}\n", (kept / "keyframes.simplemap").string());
@@ -219,14 +237,18 @@ std::function<int()> addSiteOptions(CLI::App& app)
   addOutputFolder(app, arguments->output).required();
   addOption(
       app, "--reference", arguments->references,
-      "positions of a prism by a total station, or of an antenna by GNSS (lat, lon, height); repeatable: the site "
-      "gets their frame")
+      "positions of a prism by a total station, or of an antenna by GNSS (lat, lon, height; or CObservationGPS in a "
+      ".rawlog); repeatable: the site gets their frame")
       .repeatable()
       .existingFile()
       .typeName("FILE");
   addOption(app, "--lever-arm", arguments->lever_arm,
             "with --reference: where prism or antenna is on the body, \"x y z\" in m")
       .typeName("XYZ");
+  addOption(app, "--crs", arguments->crs,
+            "with --reference: write the points as LAS tiles in these coordinates of a country, such as EPSG:3067; x "
+            "and y of a station are taken to be in them")
+      .typeName("CRS");
   return [arguments] { return run(*arguments); };
 }
 }  // namespace

@@ -20,6 +20,7 @@
 #include "mrpt/observations/ObservationReader.h"
 #include "mrpt/observations/openInput.h"
 #include "run/page/Player.h"
+#include "run/page/SiteServer.h"
 #include "warn.h"
 
 #include <fmt/format.h>
@@ -160,9 +161,21 @@ int play(const ViewArguments& arguments)
   Player player(openerOf(arguments.file, poses, topics.get()), poses, exchange);
   const SensorAddress address = webAddress(arguments.web);
   const LiveServer server(address, exchange);
-  announcePage(server, address);
+  announcePage(server.url(), address);
   fmt::print(stderr, "Ctrl-C ends it\n");
   player.run([] { return !interrupted(); });
+  return kDone;
+}
+
+int showSite(const ViewArguments& arguments)
+{
+  if (arguments.ros2.given() || arguments.scan || !arguments.trajectory.empty())
+    throw UsageError(fmt::format("{}: a site is shown on a page, with --web alone", arguments.file.string()));
+  const SensorAddress address = webAddress(arguments.web);
+  const SiteServer server(address, arguments.file);
+  announcePage(server.url(), address);
+  fmt::print(stderr, "Ctrl-C ends it\n");
+  while (!interrupted()) std::this_thread::sleep_for(50ms);
   return kDone;
 }
 
@@ -181,6 +194,7 @@ int run(const ViewArguments& arguments)
   if (!std::filesystem::exists(arguments.file))
     throw UsageError(fmt::format("{}: no such file", arguments.file.string()));
   catchInterruption();
+  if (arguments.png.empty() && isSite(arguments.file)) return showSite(arguments);
   if (!arguments.png.empty()) return draw(arguments);
   if (arguments.web.given() || arguments.ros2.given() || (isRecording(arguments.file) && !arguments.scan))
     return play(arguments);
@@ -190,10 +204,10 @@ int run(const ViewArguments& arguments)
 std::function<int()> addViewOptions(CLI::App& app)
 {
   auto arguments = std::make_shared<ViewArguments>();
-  addOption(
-      app, "file", arguments->file,
-      "a capture, bag, rawlog or folder of clouds to play; a map (.simplemap, .bt, .ot), a cloud (.ply, .pcd, .bin of "
-      "KITTI) or a trajectory (.tum) to show")
+  addOption(app, "file", arguments->file,
+            "a capture, bag, rawlog or folder of clouds to play; a folder of `site`; a map (.simplemap, .bt, .ot), a "
+            "cloud (.ply, .pcd, .bin of "
+            "KITTI) or a trajectory (.tum) to show")
       .required();
   addOption(app, "--png", arguments->png, "draw into this picture instead of a window; needs no display")
       .typeName("FILE");

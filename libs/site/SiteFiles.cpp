@@ -7,7 +7,8 @@
 #include "mrpt/maps/MapFiles.h"
 #include "mrpt/maps/MapPicture.h"
 #include "mrpt/maps/SimpleMapFile.h"
-#include "site/internal/RigOfDrives.h"
+#include "site/internal/MapTile.h"
+#include "site/internal/SiteTiles.h"
 
 #include <fmt/ostream.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,8 @@ namespace scanloom
 namespace
 {
 constexpr const char *kMap = "keyframes.simplemap", *kPieces = "pieces", *kDrives = "drives", *kLoops = "loops.csv",
-                     *kReferences = "references.csv", *kPicture = "site.png", *kSummary = "site.json";
+                     *kReferences = "references.csv", *kTiles = "tiles", *kGone = "gone.csv", *kPicture = "site.png",
+                     *kSummary = "site.json";
 
 Timestamp stampOf(const SiteKeyframe& keyframe, const std::vector<SiteDrive>& drives)
 {
@@ -35,20 +37,11 @@ std::vector<std::size_t> pieceByKeyframe(const Site& site)
   return piece;
 }
 
-Keyframe keyframeOf(const SiteKeyframe& in_site, const std::vector<SiteDrive>& drives, const RigOfDrives& rig)
-{
-  Keyframe keyframe = rig.withIds(in_site.drive, drives[in_site.drive].keyframe(in_site.index));
-  keyframe.map_T_body = in_site.site_T_body;
-  return keyframe;
-}
-
 void writeMap(const std::filesystem::path& file, const SitePiece& piece, const Site& site,
-              const std::vector<SiteDrive>& drives)
+              const PlacedKeyframes& placed)
 {
-  const RigOfDrives rig(drives);
-  SimpleMapBuilder map(rig.lidars());
-  for (const std::size_t i : piece.keyframes)
-    map.add({keyframeOf(site.keyframes[i], drives, rig), site.keyframes[i].covariance});
+  SimpleMapBuilder map(placed.lidars());
+  for (const std::size_t i : piece.keyframes) map.add({placed.at(i), site.keyframes[i].covariance});
   map.write(file);
 }
 
@@ -98,11 +91,11 @@ void writeLoops(const std::filesystem::path& file, const Site& site, const std::
 void writeReferences(const std::filesystem::path& file, const Site& site, const std::vector<std::string>& names)
 {
   OutputFile output(file);
-  output.stream() << "stamp_ns,drive,x,y,z,used,residual_x,residual_y,residual_z\n";
+  output.stream() << "stamp_ns,drive,name,x,y,z,used,residual_x,residual_y,residual_z\n";
   for (const ReferencePosition& at : site.references)
-    fmt::print(output.stream(), "{},{},{:.4f},{:.4f},{:.4f},{:d},{:.4f},{:.4f},{:.4f}\n", nanoseconds(at.stamp),
-               csvField(names[site.keyframes[at.keyframe].drive]), at.measured.x(), at.measured.y(), at.measured.z(),
-               at.used, at.residual.x(), at.residual.y(), at.residual.z());
+    fmt::print(output.stream(), "{},{},{},{:.4f},{:.4f},{:.4f},{:d},{:.4f},{:.4f},{:.4f}\n", nanoseconds(at.stamp),
+               csvField(names[site.keyframes[at.keyframe].drive]), csvField(at.name), at.measured.x(), at.measured.y(),
+               at.measured.z(), at.used, at.residual.x(), at.residual.y(), at.residual.z());
   output.commit();
 }
 
@@ -118,21 +111,26 @@ std::vector<MapLink> linksOf(std::size_t number, const Site& site, const Eigen::
   return links;
 }
 
-void writePicture(const std::filesystem::path& file, const Site& site, const std::vector<SiteDrive>& drives)
+void writePicture(const std::filesystem::path& file, const Site& site, const std::vector<SiteDrive>& drives,
+                  const PlacedKeyframes& placed)
 {
-  const RigOfDrives rig(drives);
-  const std::vector<std::size_t>& keyframes = site.pieces.front().keyframes;
-  const Eigen::Vector3d offset = offsetFor(site.keyframes[keyframes.front()].site_T_body);
+  const Eigen::Vector3d& offset = placed.offset();
   MapPicture picture(MapPictureOptions{});
-  for (const std::size_t i : keyframes)
-  {
-    Keyframe keyframe = keyframeOf(site.keyframes[i], drives, rig);
-    keyframe.map_T_body = lessBy(offset, keyframe.map_T_body);
-    picture.add(keyframe);
-  }
+  for (const std::size_t i : site.pieces.front().keyframes) picture.add(placed.lessOffset(i));
   std::string title = "site at breast height";
   if (!offset.isZero()) title += fmt::format(", coordinates less {:.0f} {:.0f} m", offset.x(), offset.y());
   picture.write(file, pathsOf(1, site, drives, offset), title, linksOf(1, site, offset));
+}
+
+void writeGone(const std::filesystem::path& file, const std::vector<GoneThing>& gone,
+               const std::vector<std::string>& names)
+{
+  OutputFile output(file);
+  output.stream() << "x,y,z,height,width,gone_by\n";
+  for (const GoneThing& thing : gone)
+    fmt::print(output.stream(), "{:.2f},{:.2f},{:.2f},{:.1f},{:.1f},{}\n", thing.foot.x(), thing.foot.y(),
+               thing.foot.z(), thing.height, thing.width, csvField(names[thing.gone_by]));
+  output.commit();
 }
 
 nlohmann::json toJson(const Site& site, const std::vector<SiteDrive>& drives, const std::vector<std::string>& names)
@@ -159,7 +157,10 @@ nlohmann::json toJson(const Site& site, const std::vector<SiteDrive>& drives, co
 }
 }  // namespace
 
-std::vector<std::string> siteFiles() { return {kMap, kPieces, kDrives, kLoops, kReferences, kPicture, kSummary}; }
+std::vector<std::string> siteFiles()
+{
+  return {kMap, kPieces, kDrives, kLoops, kReferences, kTiles, kGone, kPicture, kSummary};
+}
 
 std::vector<std::string> namesOf(const std::vector<SiteDrive>& drives)
 {
@@ -220,8 +221,8 @@ Trajectory trajectoryIn(const Site& site, const std::vector<SiteDrive>& drives, 
   return trajectory;
 }
 
-void writeSite(const std::filesystem::path& folder, const Site& site, const std::vector<SiteDrive>& drives,
-               const std::optional<Geodetic>& origin)
+SiteMap writeSite(const std::filesystem::path& folder, const Site& site, const std::vector<SiteDrive>& drives,
+                  const SiteFrame& frame, const SiteProgress& progress)
 {
   const std::vector<std::string> names = namesOf(drives);
   std::filesystem::create_directories(folder / kDrives);
@@ -230,17 +231,29 @@ void writeSite(const std::filesystem::path& folder, const Site& site, const std:
   writeLoops(folder / kLoops, site, drives, names);
   if (!site.references.empty()) writeReferences(folder / kReferences, site, names);
 
+  PlacedKeyframes placed(site, drives);
+  std::filesystem::create_directories(folder / kTiles);
+  WrittenTiles written = writeTiles(folder / kTiles, site, placed, progress);
+  placed.leaveOut(std::move(written.gone_voxels));
+  if (frame.grid) writePointTiles(folder / kTiles, written.tiles, site, placed, frame);
+  writeGone(folder / kGone, written.gone, names);
+
   for (std::size_t p = 0; p < site.pieces.size(); ++p)
   {
-    if (p == 1) std::filesystem::create_directories(folder / kPieces);
+    if (p == 1) placed.leaveOut({}), std::filesystem::create_directories(folder / kPieces);
     const std::filesystem::path file = p == 0 ? folder / kMap : folder / kPieces / fmt::format("{}.simplemap", p + 1);
-    writeMap(file, site.pieces[p], site, drives);
+    writeMap(file, site.pieces[p], site, placed);
+    if (p == 0) writePicture(folder / kPicture, site, drives, placed);
   }
-  writePicture(folder / kPicture, site, drives);
   nlohmann::json json = toJson(site, drives, names);
-  if (origin)
+  for (const TileNumber& tile : written.tiles) json["tiles"].push_back(nameOf(tile));
+  json["tile_edge"] = kTileEdge;
+  json["coordinates_less"] = {placed.offset().x(), placed.offset().y(), placed.offset().z()};
+  json["gone"] = written.gone.size();
+  if (const auto& origin = frame.origin)
     json["east_north_up_of"] = {
         {"latitude", origin->latitude}, {"longitude", origin->longitude}, {"height", origin->height}};
   writeAtomically(folder / kSummary, [&](std::ostream& file) { file << jsonText(json) << '\n'; });
+  return {written.tiles.size(), std::move(written.gone)};
 }
 }  // namespace scanloom

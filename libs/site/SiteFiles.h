@@ -5,11 +5,15 @@
  *   drives/NAME.tum       the poses of each drive, in the frame of its piece
  *   loops.csv             every pair of keyframes that was searched, and whether it is believed
  *   references.csv        every position of a reference during a drive, and what is left of it
+ *   tiles/X_Y.bt          the largest piece as occupancy in squares of 51.2 m, whose corner is at X, Y times that
+ *   tiles/X_Y.las         with a grid: their points in its coordinates
+ *   gone.csv              what earlier drives saw and later ones saw through: it is in none of the maps above
  *   site.png              the largest piece from above, with drives and loops
- *   site.json             drives, pieces, counts
+ *   site.json             drives, pieces, tiles, counts
  */
 #pragma once
 #include "base/positions/Geodetic.h"
+#include "site/GoneThing.h"
 #include "site/Site.h"
 
 #include <filesystem>
@@ -36,7 +40,20 @@ std::vector<DrivePiece> piecesOf(std::size_t drive, const Site&, const std::vect
 /** The drive's poses in the frames of its pieces: between two keyframes their corrections are interpolated. */
 Trajectory trajectoryIn(const Site&, const std::vector<SiteDrive>&, std::size_t drive);
 
-/** `origin`: of a site that is east, north and up of it. Throws std::runtime_error if the disk does not take them. */
-void writeSite(const std::filesystem::path& folder, const Site&, const std::vector<SiteDrive>&,
-               const std::optional<Geodetic>& origin);
+/** What the site's coordinates are. */
+struct SiteFrame
+{
+  std::optional<Geodetic> origin;   // they are east, north and up of it
+  std::optional<CountryGrid> grid;  // of the LAS files; without an origin that of the site itself
+};
+
+struct SiteMap
+{
+  std::size_t tiles = 0;
+  std::vector<GoneThing> gone;
+};
+
+/** Throws std::runtime_error if the disk does not take them. */
+SiteMap writeSite(const std::filesystem::path& folder, const Site&, const std::vector<SiteDrive>&, const SiteFrame&,
+                  const SiteProgress&);
 }  // namespace scanloom

@@ -33,7 +33,7 @@ TEST(Web, saysSoIfOtherComputersReachIt)
     const SensorAddress address{SensorAddress::parse(ip).ip, 0};
     const LiveServer server(address, exchange);
     testing::internal::CaptureStderr();
-    announcePage(server, address);
+    announcePage(server.url(), address);
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_THAT(announced("0.0.0.0"), testing::HasSubstr("warning: everyone who reaches"));

@@ -1,9 +1,9 @@
 #!/bin/sh
-# Runs the commands of README.md and doc/tutorial.md as a newcomer does, in an empty folder: those in blocks ```sh, after
-# files in blocks ```ini NAME. Checks of all pages: links lead to files and headings, keys after --set exist, and no page
+# Runs the commands of README.md, doc/tutorial.md and doc/three_days.md as a newcomer does, in an empty folder: those in
+# blocks ```sh, after files in blocks ```ini NAME. Checks of all pages: links lead to files and headings, keys after --set exist, and no page
 # says "not yet", which becomes wrong without a change of the page. calibrate may end with 3: after a short drive some
 # numbers stay open.
-#   pages.sh SCANLOOM SOURCE_DIR links|README.md|doc/tutorial.md
+#   pages.sh SCANLOOM SOURCE_DIR links|README.md|doc/tutorial.md|doc/three_days.md
 set -eu
 program=$1 source=$2 what=$3
 dir=$(mktemp -d)

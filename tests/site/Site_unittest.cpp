@@ -1,14 +1,24 @@
 #include "site/Site.h"
 
+#include "input/rawlogs/Conversions.h"
+#include "mrpt/maps/OctoMapExport.h"
+#include "mrpt/maps/OctoMapFile.h"
+#include "mrpt/maps/SimpleMapReader.h"
 #include "site/DriveOfStems.h"
+#include "site/GnssOfRawlog.h"
 #include "site/SiteFiles.h"
 #include "support/TemporaryFolder.h"
 #include "support/messageOf.h"
 
 #include <gmock/gmock.h>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/obs/CObservationGPS.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 
 namespace scanloom::site_unittest
 {
@@ -207,6 +217,126 @@ TEST_F(SiteOfStems, posesBetweenKeyframesMoveWithBoth)
   ASSERT_EQ(trajectory.size(), made.keyframes.size());
   for (std::size_t i = 0; i < trajectory.size(); ++i)
     EXPECT_LT(boxMinus(trajectory[i].map_T_body, made.keyframes[i].site_T_body).norm(), 1e-8);
+}
+
+TEST_F(SiteOfStems, aStemThatWasFelledSinceIsGoneFromTheMap)
+{
+  constexpr int kFelled = 39;  // beside the way
+  const Eigen::Vector2d stem = StandOfStems().stems()[kFelled];
+  add({straight(-10, 0, 6)});
+  DriveOfStems later{straight(-8, 1, 6)};
+  later.start = Timestamp{9000s};
+  add(later, StandOfStems(1, kFelled));
+  const Site made = site();
+  const SiteMap map = writeSite(folder.path(), made, drives, {}, [](double) {});
+  ASSERT_EQ(map.gone.size(), 1U);
+  const Eigen::Vector3d& foot = map.gone[0].foot;  // in the first drive's frame, which began at x = -10
+  EXPECT_LT((foot.head<2>() + Eigen::Vector2d(-10, 0) - stem).norm(), 0.3);
+  EXPECT_GT(map.gone[0].height, 3) << "few rays pass above";
+  EXPECT_EQ(map.gone[0].gone_by, 1U);
+
+  const SimpleMapReader reader(folder / "keyframes.simplemap");
+  int beside = 0, all = 0;
+  for (std::size_t i = 0; i < reader.size(); ++i)
+  {
+    const Keyframe keyframe = reader.keyframe(i);
+    for (std::size_t k = 0; k < keyframe.points.size(); ++k)
+    {
+      const Eigen::Vector3d p = keyframe.map_T_body * keyframe.points.position(k).cast<double>().eval();
+      beside += (p - foot).head<2>().norm() < 0.4 && p.z() > foot.z() + 0.3 && p.z() < foot.z() + map.gone[0].height;
+      ++all;
+    }
+  }
+  EXPECT_LT(beside, 7 * 120 * map.gone[0].height / 6 / 4) << "a quarter of what the first drive saw there";
+  EXPECT_GT(all, 100000);
+}
+
+TEST_F(SiteOfStems, nothingIsGoneWhereNothingWasFelled)
+{
+  add({straight(-10, 0, 6)});
+  DriveOfStems later{straight(-8, 1, 6)};
+  later.start = Timestamp{9000s};
+  add(later);
+  EXPECT_TRUE(writeSite(folder.path(), site(), drives, {}, [](double) {}).gone.empty());
+}
+
+TEST_F(SiteOfStems, tilesTogetherHaveAllThatIsKnown)
+{
+  add({straight(-10, 0, 6)});
+  const Site made = site();
+  const SiteMap map = writeSite(folder.path(), made, drives, {}, [](double) {});
+  OctoMapBuilder whole(octoMapPreset("preview"), {Rigid::fromXyzYawPitchRoll(0, 0, 3, 0, 0, 0)});
+  const SimpleMapReader reader(folder / "keyframes.simplemap");
+  for (std::size_t i = 0; i < reader.size(); ++i) whole.add(reader.keyframe(i));
+  whole.tree();
+  std::uint64_t in_tiles = 0;
+  for (const auto& file : std::filesystem::directory_iterator(folder / "tiles"))
+    in_tiles += occupiedVoxels(*readOctoMap(file.path()));
+  EXPECT_GE(map.tiles, 4U);
+  EXPECT_EQ(in_tiles, occupiedVoxels(whole.tree()));
+}
+
+TEST_F(SiteOfStems, pointsAreInTheCoordinatesOfACountry)
+{
+  add({straight(-10, 0, 6)});
+  SiteFrame frame{Geodetic{62.0833, 27, 100}, std::nullopt};
+  frame.grid.emplace("EPSG:3067");
+  writeSite(folder.path(), site(), drives, frame, [](double) {});
+  std::ifstream las(folder / "tiles" / "0_0.las", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(las), {}};
+  const auto at = [&](std::size_t place)
+  {
+    double value = 0;
+    std::memcpy(&value, bytes.data() + place, sizeof value);
+    return value;
+  };
+  constexpr std::size_t kMostX = 179, kLeastX = 187, kMostY = 195, kLeastY = 203;  // of the header (LAS 1.4, table 3)
+  // The tile is east and north of the origin, which lies on the grid's meridian: its scale is 0.9996 there.
+  EXPECT_NEAR(at(kLeastX), 500000, 0.5);
+  EXPECT_NEAR(at(kMostX), 500000 + 0.9996 * 51.2, 0.5);
+  const double north = CountryGrid("EPSG:3067").of({62.0833, 27, 100}).y();
+  EXPECT_GE(at(kLeastY), north - 0.01);
+  EXPECT_LE(at(kMostY), north + 0.9996 * 51.2 + 0.01);
+}
+
+TEST_F(SiteOfStems, fixesOfARawlogAreAReference)
+{
+  const Geodetic origin{62.0833, 27, 100};
+  const std::filesystem::path file = folder / "drive.rawlog";
+  {
+    mrpt::io::CFileGZOutputStream stream(file.string());
+    auto archive = mrpt::serialization::archiveFrom(stream);
+    for (int i = 0; i < 3; ++i)
+    {
+      mrpt::obs::gnss::Message_NMEA_GGA gga;
+      gga.fields.latitude_degrees = origin.latitude + 1e-4 * i;
+      gga.fields.longitude_degrees = origin.longitude;
+      gga.fields.altitude_meters = 82;
+      gga.fields.geoidal_distance = 18;
+      gga.fields.fix_quality = static_cast<std::uint8_t>(i == 0 ? 1 : i == 1 ? 0 : 4);
+      mrpt::obs::CObservationGPS gps;
+      gps.timestamp = toMrpt(Timestamp{1000s + 1s * i});
+      gps.setMsg(gga);
+      archive << gps;
+    }
+  }
+  const PositionFile read = readGnssOfRawlog(file);
+  ASSERT_TRUE(read.origin);
+  EXPECT_NEAR(read.origin->height, 100, 1e-9) << "above the ellipsoid";
+  ASSERT_EQ(read.track.size(), 2U) << "one had no fix";
+  EXPECT_NEAR(read.track[1].position.y(), 2e-4 * M_PI / 180 * 6.385e6, 0.1);
+  EXPECT_EQ(read.track[0].sigma, 2);
+  EXPECT_EQ(read.track[1].sigma, 0.02) << "fixed RTK";
+}
+
+TEST_F(SiteOfStems, aPositionCountsAsItsFileSays)
+{
+  const DriveOfStems drive{straight(-20, 0, 12)};
+  add(drive);
+  PositionTrack track = trackOf(drive);
+  for (StampedPosition& position : track) position.sigma = 0.5;
+  const Site made = site({{track, kLever, {2, 0s}}});
+  EXPECT_NEAR(std::sqrt(made.keyframes[6].covariance(2, 2)), 0.5 / std::sqrt(13), 0.02);
 }
 
 TEST_F(SiteOfStems, foldersThatAreNoDriveSayWhatIsMissing)

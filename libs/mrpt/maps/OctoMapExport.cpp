@@ -44,6 +44,25 @@ std::vector<octomap::Pointcloud> splitByLidar(const Keyframe& keyframe, std::siz
   }
   return clouds;
 }
+/** The points whose rays may pass the area. */
+octomap::Pointcloud through(const MapArea& area, const octomap::Pointcloud& points, const octomap::point3d& origin,
+                            double max_range)
+{
+  octomap::Pointcloud passing;
+  for (const octomap::point3d& point : points)
+  {
+    const octomap::point3d ray = point - origin;
+    const double reach = std::min(1.0, max_range / std::max<double>(ray.norm(), 1e-6));
+    bool passes = true;
+    for (unsigned axis = 0; axis < 2; ++axis)
+    {
+      const double a = origin(axis), b = a + reach * ray(axis), least = area.least[axis];
+      passes &= std::max(a, b) >= least && std::min(a, b) <= least + area.edge;
+    }
+    if (passes) passing.push_back(point);
+  }
+  return passing;
+}
 }  // namespace
 
 OctoMapOptions octoMapPreset(const std::string& name)
@@ -53,9 +72,11 @@ OctoMapOptions octoMapPreset(const std::string& name)
   throw std::invalid_argument(fmt::format("OctoMap preset '{}' is unknown: preview, inventory or fine", name));
 }
 
-OctoMapBuilder::OctoMapBuilder(const OctoMapOptions& options, std::vector<Rigid> body_T_sensor)
+OctoMapBuilder::OctoMapBuilder(const OctoMapOptions& options, std::vector<Rigid> body_T_sensor,
+                               const std::optional<MapArea>& area)
   : options_(options),
     body_T_sensor_(std::move(body_T_sensor)),
+    area_(area),
     tree_(std::make_unique<octomap::OcTree>(options.resolution))
 {
 }
@@ -70,7 +91,10 @@ void OctoMapBuilder::add(const Keyframe& keyframe)
     const Rigid map_T_sensor = keyframe.map_T_body * body_T_sensor_[lidar];
     for (const octomap::point3d& point : clouds[lidar])
       if (octomap::OcTreeKey key; !tree_->coordToKeyChecked(point, key)) ++left_out_;
-    insertRays(*tree_, clouds[lidar], toOctomap(map_T_sensor.translation), options_.max_range);
+    const octomap::point3d origin = toOctomap(map_T_sensor.translation);
+    const octomap::Pointcloud& cloud =
+        area_ ? through(*area_, clouds[lidar], origin, options_.max_range) : clouds[lidar];
+    insertRays(*tree_, cloud, origin, options_.max_range, area_);
   }
 }
 

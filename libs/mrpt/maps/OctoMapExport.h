@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,11 +44,20 @@ struct OctoMapOptions
 /** preview 0.2 m / 30 m, inventory 0.1 m / 20 m, fine 0.05 m / 15 m; throws std::invalid_argument on another name. */
 OctoMapOptions octoMapPreset(const std::string& name);
 
+/** A square of the map, whose corners are at multiples of 32 voxels. */
+struct MapArea
+{
+  Eigen::Vector2d least;  // m, its corner of least x and y
+  double edge;            // m
+};
+
 class OctoMapBuilder
 {
  public:
-  /** `body_T_sensor` by sensor id: where each lidar's rays start. */
-  OctoMapBuilder(const OctoMapOptions&, std::vector<Rigid> body_T_sensor);
+  /** `body_T_sensor` by sensor id: where each lidar's rays start. `area`: only what is in it becomes part of the map.
+   */
+  OctoMapBuilder(const OctoMapOptions&, std::vector<Rigid> body_T_sensor,
+                 const std::optional<MapArea>& area = std::nullopt);
   ~OctoMapBuilder();
 
   /**
@@ -72,6 +82,7 @@ class OctoMapBuilder
  private:
   OctoMapOptions options_;
   std::vector<Rigid> body_T_sensor_;
+  std::optional<MapArea> area_;
   std::unique_ptr<octomap::OcTree> tree_;
   std::uint64_t left_out_ = 0;
 };

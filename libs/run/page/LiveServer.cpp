@@ -51,12 +51,6 @@ LiveServer::~LiveServer()
   collector_.join();
 }
 
-std::string LiveServer::url() const
-{
-  const SensorAddress& address = server_.address();
-  return fmt::format(address.ip.isV4() ? "http://{}:{}" : "http://[{}]:{}", address.ip.text(), address.port);
-}
-
 void LiveServer::collect()
 {
   yieldToAll();

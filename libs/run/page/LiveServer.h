@@ -43,7 +43,7 @@ class LiveServer
   LiveServer& operator=(const LiveServer&) = delete;
 
   /** "http://127.0.0.1:8080" */
-  std::string url() const;
+  std::string url() const { return server_.url(); }
   const SensorAddress& address() const { return server_.address(); }
 
  private:

@@ -5,6 +5,7 @@
 #include "site/internal/LoopSearch.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace scanloom
@@ -14,6 +15,7 @@ namespace
 constexpr double kWayBetweenPasses = 40;  // m: nearer along the way, keyframes share a local map
 constexpr double kBeside = 8;             // m: passes that are farther apart see little in common
 constexpr double kFarthestReach = 30;     // m: what is less certain is searched after others have been found
+constexpr std::size_t kEnough = 3;        // other parts in which a keyframe is found: more tell nothing new
 constexpr double kOneAnother = 20;        // m of way: loops that are nearer to each other must agree
 
 struct Guess
@@ -36,6 +38,7 @@ class Sweep
   /** Searches the keyframe about those of the part. */
   void searchAll(std::size_t to, std::size_t about)
   {
+    if (isFoundInEnough(to, about)) return;
     const SitePart& part = layout_.parts()[about];
     const std::vector<Guess> known = guessesOf(to, about);
     const std::optional<Guess> rough = surest(known, to, part.begin);
@@ -112,6 +115,17 @@ class Sweep
         nearest.back() = from;
     }
     return nearest;
+  }
+
+  /** In parts other than its own and this one: time grows with the number of drives, and not with its square. */
+  bool isFoundInEnough(std::size_t to, std::size_t about) const
+  {
+    std::set<std::size_t> parts;
+    for (const Loop& loop : state_.loops)
+      if (loop.to == to && loop.decision == LoopDecision::Accepted) parts.insert(layout_.partOf(loop.from));
+    parts.erase(layout_.partOf(to));
+    parts.erase(about);
+    return layout_.partOf(to) != about && parts.size() >= kEnough;
   }
 
   bool isFound(std::size_t from, std::size_t to) const

@@ -91,6 +91,29 @@ TEST(OctoMapBuilder, onlyFreesTheLineUpToTheLargestRange)
   EXPECT_EQ(stateAt(builder.tree(), {10, 0, 0}), State::Unknown);
 }
 
+TEST(OctoMapBuilder, hasInItsAreaWhatItWouldHaveThereWithoutOne)
+{
+  const MapArea area{{3.2, -3.2}, 6.4};
+  OctoMapBuilder whole(octoMapPreset("inventory"), {kBodyTLeft}), part(octoMapPreset("inventory"), {kBodyTLeft}, area);
+  Keyframe keyframe;
+  addStemSeenFrom(keyframe.points, kBodyTLeft.translation, {6, 0.3, 0}, 0.15, 0);
+  addStemSeenFrom(keyframe.points, kBodyTLeft.translation, {16, 1, 0}, 0.15, 0);  // through the area and beyond
+  addStemSeenFrom(keyframe.points, kBodyTLeft.translation, {-6, 1, 0}, 0.15, 0);
+  for (OctoMapBuilder* builder : {&whole, &part}) builder->add(keyframe);
+
+  std::size_t within = 0;
+  for (auto leaf = whole.tree().begin_leafs(); leaf != whole.tree().end_leafs(); ++leaf)
+  {
+    const bool is_in = leaf.getX() > 3.2 && leaf.getX() < 9.6 && std::abs(leaf.getY()) < 3.2;
+    const octomap::OcTreeNode* node = part.tree().search(leaf.getKey());
+    ASSERT_EQ(node != nullptr, is_in) << leaf.getX() << " " << leaf.getY();
+    if (!is_in) continue;
+    EXPECT_EQ(node->getLogOdds(), leaf->getLogOdds());
+    ++within;
+  }
+  EXPECT_GT(within, 1000U);
+}
+
 TEST(OctoMapBuilder, doesNotCarveAStemThatBothLidarsSee)
 {
   const Eigen::Vector3d stem(6, 0.3, 0);

@@ -2,10 +2,10 @@
 #include "run/page/LiveServer.h"
 
 #include "input/packets/SocketAddress.h"
+#include "run/page/Asked.h"
 #include "run/page/internal/LiveFeed.h"
 
 #include <gmock/gmock.h>
-#include <poll.h>
 
 #include <fmt/format.h>
 #include <thread>
@@ -17,10 +17,6 @@ namespace
 using testing::HasSubstr;
 using testing::StartsWith;
 using Clock = std::chrono::steady_clock;
-
-const SensorAddress kAnyPort{SensorAddress::parse("127.0.0.1").ip, 0};
-
-bool pageIsThere() { return std::filesystem::exists("/usr/share/javascript/three/three.min.js"); }
 
 #define SCANLOOM_NEEDS_THREE \
   if (!pageIsThere()) GTEST_SKIP() << "three.js is not installed (libjs-three)"
@@ -52,41 +48,7 @@ bool isReached(const std::string& address)
   return ::connect(socket.number(), where.get(), where.length) == 0;
 }
 
-class Browser
-{
- public:
-  Browser(const Served& served, const std::string& request) : Browser(served.host(), request) {}
-
-  Browser(const std::string& address, const std::string& request) : socket_(::socket(AF_INET, SOCK_STREAM, 0))
-  {
-    const SensorAddress asked = SensorAddress::parse(address);
-    const SocketAddress where = SocketAddress::of(asked.ip, asked.port);
-    EXPECT_EQ(::connect(socket_.number(), where.get(), where.length), 0);
-    ::send(socket_.number(), request.data(), request.size(), MSG_NOSIGNAL);
-  }
-
-  /** All that comes within the time, or until there is `enough`. */
-  std::string read(std::chrono::milliseconds time, const std::string& enough = "\xff never") const
-  {
-    std::string text;
-    const Clock::time_point end = Clock::now() + time;
-    while (Clock::now() < end && text.find(enough) == std::string::npos)
-    {
-      pollfd readable{socket_.number(), POLLIN, 0};
-      if (::poll(&readable, 1, 20) <= 0) continue;
-      char part[4096];
-      const ssize_t received = ::recv(socket_.number(), part, sizeof part, 0);
-      if (received <= 0) break;
-      text.append(part, static_cast<std::size_t>(received));
-    }
-    return text;
-  }
-
- private:
-  FileDescriptor socket_;
-};
-
-std::string answerTo(const Served& served, const std::string& request) { return Browser(served, request).read(20s); }
+std::string answerTo(const Served& served, const std::string& request) { return wholeAnswer(served.host(), request); }
 }  // namespace
 
 TEST(LiveServer, servesThePageAndItsFilesOnly)
@@ -150,7 +112,7 @@ TEST(LiveServer, statusComesAsEvents)
   served.feed.warn("the disk is nearly full");
   std::this_thread::sleep_for(60ms);
   served.feed.offer();
-  const std::string events = Browser(served, served.get("/status")).read(20s, "nearly full");
+  const std::string events = Browser(served.host(), served.get("/status")).read(20s, "nearly full");
   EXPECT_THAT(events, HasSubstr("text/event-stream"));
   EXPECT_THAT(events, HasSubstr("\"count\":2"));
   EXPECT_THAT(events, HasSubstr("\"word\":\"WAITING\""));
@@ -163,14 +125,14 @@ TEST(LiveServer, aNinthPageIsToldSo)
   std::vector<std::unique_ptr<Browser>> pages;
   for (int i = 0; i < 8; ++i)
   {
-    pages.push_back(std::make_unique<Browser>(served, served.get("/points")));
+    pages.push_back(std::make_unique<Browser>(served.host(), served.get("/points")));
     EXPECT_THAT(pages.back()->read(20s, "\r\n\r\n"), StartsWith("HTTP/1.1 200"));
   }
   EXPECT_THAT(answerTo(served, served.get("/points")), HasSubstr("8 pages are open already"));
   pages.clear();
   std::string answer;
   for (int i = 0; i < 400 && answer.rfind("HTTP/1.1 200", 0) != 0; ++i, std::this_thread::sleep_for(50ms))
-    answer = Browser(served, served.get("/points")).read(20s, "\r\n\r\n");
+    answer = Browser(served.host(), served.get("/points")).read(20s, "\r\n\r\n");
   EXPECT_THAT(answer, StartsWith("HTTP/1.1 200"));
 }
 
@@ -223,7 +185,7 @@ TEST(LiveServer, whoAsksTooSlowlyIsLeft)
 {
   SCANLOOM_NEEDS_THREE;
   const Served served;
-  const Browser browser(served, "GET / HTTP/1.1\r\nHost: ");
+  const Browser browser(served.host(), "GET / HTTP/1.1\r\nHost: ");
   const Clock::time_point begin = Clock::now();
   EXPECT_EQ(browser.read(40s), "");
   EXPECT_LT(Clock::now() - begin, 39s);  // 5 s where the page's thread runs at once
@@ -233,7 +195,8 @@ TEST(LiveServer, endsAtOnceWithPagesOpen)
 {
   SCANLOOM_NEEDS_THREE;
   auto served = std::make_unique<Served>();
-  const Browser points(*served, served->get("/points")), status(*served, served->get("/status")), half(*served, "GET");
+  const Browser points(served->host(), served->get("/points")), status(served->host(), served->get("/status")),
+      half(served->host(), "GET");
   points.read(20s, "\r\n\r\n");
   const Clock::time_point begin = Clock::now();
   served.reset();
@@ -244,7 +207,7 @@ TEST(LiveServer, aPageThatDoesNotReadCostsTheFeedNothing)
 {
   SCANLOOM_NEEDS_THREE;
   Served served;
-  const Browser stalled(served, served.get("/points"));
+  const Browser stalled(served.host(), served.get("/points"));
   StateEstimate estimate;
   estimate.keyframe.emplace();
   estimate.keyframe->points.resize(60000);

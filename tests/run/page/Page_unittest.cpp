@@ -1,5 +1,6 @@
 /** The page in Chromium, by what it shows and draws. Skipped, saying so, where chromium or three.js is missing. */
 #include "run/page/LiveServer.h"
+#include "run/page/SiteServer.h"
 #include "run/page/internal/LiveFeed.h"
 #include "support/TemporaryFolder.h"
 #include "support/runProgram.h"
@@ -8,6 +9,7 @@
 #include <mrpt/img/CImage.h>
 
 #include <cmath>
+#include <fstream>
 #include <thread>
 
 namespace scanloom::page_unittest
@@ -243,5 +245,28 @@ TEST(Page, drawsAMillionPointsOrAsManyAsItCanInTime)
   std::cout << seen.text.substr(at) << '\n';
   EXPECT_GE(points, 950000);
   EXPECT_GE(at_rest, 800000) << "all but what the camera does not see";
+}
+
+TEST(Page, showsASitesDrivesLoopsReferencesAndWhatIsGone)
+{
+  SCANLOOM_NEEDS_CHROMIUM;
+  const TemporaryFolder site;
+  std::filesystem::create_directories(site / "drives");
+  std::ofstream(site / "site.json")
+      << R"({"drives": [{"name": "a, b", "pieces": [{"piece": 1, "begin_ns": 0, "end_ns": 9000000000}]}], "tiles": [],
+             "tile_edge": 51.2, "pieces": [{}], "coordinates_less": [0, 0, 0]})";
+  std::ofstream(site / "drives" / "a, b.tum") << "1 0 0 0 0 0 0 1\n2 40 0 0 0 0 0 1\n";
+  std::ofstream(site / "loops.csv") << "from_drive,from_stamp_ns,to_drive,to_stamp_ns,decision\n"
+                                       "\"a, b\",1000000000,\"a, b\",2000000000,accepted\n"
+                                       "\"a, b\",1000000000,\"a, b\",2000000000,look alike\n";
+  std::ofstream(site / "references.csv") << "x,y,z,used,residual_x,residual_y,residual_z\n1,2,3,1,0.03,0,0.04\n";
+  std::ofstream(site / "gone.csv") << "x,y,z,height,width,gone_by\n20,5,0,8.2,0.4,\"a, b\"\n";
+  const SiteServer server({SensorAddress::parse("127.0.0.1").ip, 0}, site.path());
+  const std::string said = look(server.url() + "/?theme=light", "0 tiles").text;
+  EXPECT_THAT(said, HasSubstr("a, b\n2 poses"));
+  EXPECT_THAT(said, HasSubstr("accepted\n1"));
+  EXPECT_THAT(said, HasSubstr("look alike\n1"));
+  EXPECT_THAT(said, HasSubstr("0.050 m"));
+  EXPECT_THAT(said, HasSubstr("8.2 m high at 20, 5: a, b saw through it"));
 }
 }  // namespace scanloom::page_unittest

@@ -143,14 +143,21 @@ void makeRoot(octomap::OcTree& tree, const VoxelMarks::NumberedBlock& marks)
   constexpr bool kInnerNodesLater = true;
   tree.setNodeValue(keyOf(marks.number * VoxelBlock::kVoxels + voxel), 0.0F, kInnerNodesLater);
 }
+bool isIn(const MapArea& area, const octomap::OcTree& tree, const VoxelMarks::NumberedBlock& block)
+{
+  const octomap::point3d corner = tree.keyToCoord(keyOf(block.number * VoxelBlock::kVoxels));  // middle of a voxel
+  const Eigen::Array2d within = Eigen::Array2d(corner.x(), corner.y()) - area.least.array();
+  return (within >= 0).all() && (within < area.edge).all();
+}
 }  // namespace
 
 void insertRays(octomap::OcTree& tree, const octomap::Pointcloud& points, const octomap::point3d& origin,
-                double max_range)
+                double max_range, const std::optional<MapArea>& area)
 {
   const VoxelMarks marks = marksOf(tree, points, origin, max_range);
   for (const VoxelMarks::NumberedBlock& block : marks.blocks())
   {
+    if (area && !isIn(*area, tree, block)) continue;
     if (!tree.getRoot()) makeRoot(tree, block);
     BlockUpdate(tree, block).run();
   }

@@ -1,22 +1,10 @@
 import { Scene } from "./scene.js";
 import { readForEver } from "./stream.js";
 import { show, showWord } from "./panel.js";
+import { connectChoice, connectTheme } from "./choice.js";
 import { connectPlayer, post, showPlayer } from "./player.js";
 
 const element = (id) => document.getElementById(id);
-
-/** Remembered by the browser, so that a reload changes nothing; ?id=value in the address comes first, for a bookmark. */
-function connectChoice(id, otherwise, choose) {
-  const buttons = [...element(id).querySelectorAll("button")];
-  const pick = (value) => {
-    for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.value === value));
-    choose(value);
-  };
-  for (const button of buttons)
-    button.onclick = () => { localStorage.setItem(id, button.dataset.value); pick(button.dataset.value); };
-  const wanted = new URLSearchParams(location.search).get(id) || localStorage.getItem(id);
-  pick(buttons.some((button) => button.dataset.value === wanted) ? wanted : otherwise);
-}
 
 function connectMark() {
   const button = element("mark"), usual = button.textContent;
@@ -57,11 +45,7 @@ function openScene() {
 }
 
 const scene = openScene();
-const dark = matchMedia("(prefers-color-scheme: dark)").matches;
-connectChoice("theme", dark ? "dark" : "light", (theme) => {
-  document.documentElement.dataset.theme = theme;
-  if (scene) scene.setTheme(theme);
-});
+connectTheme((theme) => { if (scene) scene.setTheme(theme); });
 connectChoice("camera", "follow", (mode) => { if (scene) scene.setCamera(mode); });
 connectChoice("colour", "height", (mode) => { if (scene) scene.setColour(mode); });
 connectMark();

@@ -94,6 +94,11 @@ HttpServer::HttpServer(const SensorAddress& address, Answer answer)
   thread_ = std::thread([this] { accept(); });
 }
 
+std::string HttpServer::url() const
+{
+  return fmt::format(address_.ip.isV4() ? "http://{}:{}" : "http://[{}]:{}", address_.ip.text(), address_.port);
+}
+
 HttpServer::~HttpServer()
 {
   stopping_ = true;

@@ -39,6 +39,9 @@ class HttpServer
   /** With the port in use. */
   const SensorAddress& address() const { return address_; }
 
+  /** "http://127.0.0.1:8080" */
+  std::string url() const;
+
  private:
   struct Connection
   {

@@ -25,7 +25,9 @@ constexpr const char *kHtml = "text/html; charset=utf-8", *kCss = "text/css; cha
 constexpr std::array kPage{Wanted{"/", "index.html", kHtml},           Wanted{"/page.css", "page.css", kCss},
                            Wanted{"/page.js", "page.js", kScript},     Wanted{"/scene.js", "scene.js", kScript},
                            Wanted{"/stream.js", "stream.js", kScript}, Wanted{"/panel.js", "panel.js", kScript},
-                           Wanted{"/map.js", "map.js", kScript},       Wanted{"/player.js", "player.js", kScript}};
+                           Wanted{"/map.js", "map.js", kScript},       Wanted{"/player.js", "player.js", kScript},
+                           Wanted{"/site.html", "site.html", kHtml},   Wanted{"/site.js", "site.js", kScript},
+                           Wanted{"/choice.js", "choice.js", kScript}};
 
 constexpr const char* kThreeFolder = "/usr/share/javascript/three";
 constexpr std::array kThree{Wanted{"/three.min.js", "three.min.js", kScript},
