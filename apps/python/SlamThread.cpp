@@ -4,8 +4,9 @@
 
 namespace scanloom
 {
-SlamThread::SlamThread(SensorInput& input, const SlamSettings& settings, KeptClouds kept, std::size_t ahead)
-  : input_(input), kept_(kept), poses_(ahead), thread_([this, settings] { run(settings); })
+SlamThread::SlamThread(SensorInput& input, const SlamSettings& settings, KeptClouds kept, std::size_t ahead,
+                       const GivenMap& map)
+  : input_(input), kept_(kept), poses_(ahead), thread_([this, settings, map] { run(settings, map); })
 {
 }
 
@@ -18,7 +19,7 @@ void SlamThread::stop()
   if (thread_.joinable()) thread_.join();
 }
 
-void SlamThread::run(const SlamSettings& settings)
+void SlamThread::run(const SlamSettings& settings, const GivenMap& map)
 try
 {
   result_ = runSlam(
@@ -28,7 +29,7 @@ try
         for (const std::string& warning : input_warnings_.due(input_)) warn(warning);
         return !stop_;
       },
-      [this](const std::string& warning) { warn(warning); });
+      [this](const std::string& warning) { warn(warning); }, [](const EventMark&) {}, map);
   for (const std::string& warning : input_.takeWarnings()) warn(warning);
   poses_.end();
 }

@@ -19,7 +19,7 @@ class SlamThread
 {
  public:
   /** The thread waits while `ahead` poses were not taken. The input must outlive this. */
-  SlamThread(SensorInput&, const SlamSettings&, KeptClouds, std::size_t ahead);
+  SlamThread(SensorInput&, const SlamSettings&, KeptClouds, std::size_t ahead, const GivenMap& = {});
   SlamThread(const SlamThread&) = delete;
   SlamThread& operator=(const SlamThread&) = delete;
   ~SlamThread();
@@ -40,7 +40,7 @@ class SlamThread
   const std::optional<SlamRunResult>& result() const { return result_; }
 
  private:
-  void run(const SlamSettings&);
+  void run(const SlamSettings&, const GivenMap&);
   void warn(const std::string&);
 
   SensorInput& input_;

@@ -2,8 +2,11 @@
 #include "PythonWarnings.h"
 #include "RunReport.h"
 #include "SlamThread.h"
+#include "arrays.h"
+#include "base/core/ConfigError.h"
 #include "base/formats/TrajectoryWriter.h"
 #include "bindings.h"
+#include "run/run/GivenMap.h"
 #include "trajectoryOf.h"
 
 #include <fmt/format.h>
@@ -12,6 +15,8 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace py = pybind11;
@@ -20,12 +25,28 @@ namespace scanloom
 {
 namespace
 {
+/** What the program takes as --map and --at. */
+struct MapArguments
+{
+  std::optional<std::filesystem::path> folder;
+  std::string at;                   // empty: anywhere in the map
+  std::optional<Rigid> map_T_body;  // in place of `at`
+};
+
+GivenMap givenMap(const MapArguments& arguments, const SlamSettings& settings)
+{
+  if (!arguments.folder) return {};
+  GivenMap map = readGivenMap(*arguments.folder, arguments.at, settings);
+  if (arguments.map_T_body) map.map_T_body = arguments.map_T_body;
+  return map;
+}
+
 /** The poses of `scanloom slam`, one by one. */
 class PoseStream
 {
  public:
-  PoseStream(const InputArguments& arguments, KeptClouds kept)
-    : PoseStream(openInput(arguments, ImuSamples::Ahead), kept)
+  PoseStream(const InputArguments& arguments, const MapArguments& map, KeptClouds kept)
+    : PoseStream(openInput(arguments, ImuSamples::Ahead), map, kept)
   {
   }
   PoseStream(const PoseStream&) = delete;
@@ -64,7 +85,7 @@ class PoseStream
   const RunReport& report() const { return report_; }
 
  private:
-  PoseStream(OpenedInput opened, KeptClouds kept)
+  PoseStream(OpenedInput opened, const MapArguments& map, KeptClouds kept)
     : input_(std::move(opened.input.sensors)),
       notes_(std::move(opened.notes)),
       warnings_of_opening_(std::move(opened.warnings)),
@@ -72,7 +93,7 @@ class PoseStream
   {
     refuseUnknownImu(*input_, opened.settings.slam);
     constexpr std::size_t kAhead = 2;  // poses
-    run_ = std::make_unique<SlamThread>(*input_, opened.settings, kept, kAhead);
+    run_ = std::make_unique<SlamThread>(*input_, opened.settings, kept, kAhead, givenMap(map, opened.settings));
   }
 
   std::unique_ptr<SensorInput> input_;
@@ -80,6 +101,18 @@ class PoseStream
   RunReport report_;
   std::unique_ptr<SlamThread> run_;  // last: it uses the input
 };
+
+/** `at` is the program's text, a .tum file or (4, 4). */
+MapArguments mapArguments(const std::optional<std::filesystem::path>& folder, const py::object& at)
+{
+  if (!folder && !at.is_none()) throw UsageError("at is a pose in the map of an earlier run: name its folder with map");
+  MapArguments arguments{folder, "", {}};
+  if (py::isinstance<py::str>(at) || py::hasattr(at, "__fspath__"))
+    arguments.at = at.cast<std::filesystem::path>().string();
+  else if (!at.is_none())
+    arguments.map_T_body = poseIn(at, "at");
+  return arguments;
+}
 
 void bindPose(py::module_& m)
 {
@@ -106,6 +139,7 @@ void bindPose(py::module_& m)
       .def_readonly("trusted", &Pose::trusted, "bool: the scan's registration was used.")
       .def_readonly("recovered", &Pose::recovered, "bool: found again, the pose does not continue the one before.")
       .def_readonly("map_restarted", &Pose::map_restarted, "bool: a new map begins here.")
+      .def_readonly("in_map", &Pose::in_map, "bool: the map frame is that of the map given, slam(map=...).")
       .def_readonly("scan_complete", &Pose::scan_complete, "bool: no lidar was late, silent or cut off.")
       .def_readonly("imu_complete", &Pose::imu_complete, "bool: the IMU covered the scan in time.")
       .def_readonly("cloud", &Pose::cloud,
@@ -124,9 +158,13 @@ void bindPoses(py::module_& m)
 {
   bindPose(m);
   py::class_<PoseStream> run(m, "Slam", "Iterates over the poses of a run, which a thread of C++ computes meanwhile.");
-  run.def(py::init([](const InputArguments& arguments, bool clouds)
-                   { return opened<PoseStream>(arguments, clouds ? KeptClouds::All : KeptClouds::None); }),
-          py::arg("input"), py::arg("clouds"))
+  run.def(py::init(
+              [](const InputArguments& arguments, const std::optional<std::filesystem::path>& map, const py::object& at,
+                 bool clouds) {
+                return opened<PoseStream>(arguments, mapArguments(map, at),
+                                          clouds ? KeptClouds::All : KeptClouds::None);
+              }),
+          py::arg("input"), py::arg("map"), py::arg("at"), py::arg("clouds"))
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__", &PoseStream::next)
       .def_property_readonly("lidars", &PoseStream::lidars, "list of str: their names, by the index in cloud.lidar.")

@@ -70,10 +70,15 @@ def scans(input, *, configuration=None, settings=None, lidars=(), metadata=()):
     return Scans(_arguments(input, settings, configuration, lidars, metadata))
 
 
-def slam(input, *, every_nth=None, configuration=None, settings=None, lidars=(), metadata=(), clouds=False):
+def slam(input, *, every_nth=None, map=None, at=None, configuration=None, settings=None, lidars=(), metadata=(),
+         clouds=False):
     """Iterates over the poses of a machine; the same bits as `scanloom slam` writes.
 
     every_nth: use every N-th scan only; the IMU is used in full.
+    map: result folder of an earlier slam, in whose map the drive is searched until it is found, as --map. From there on
+      poses are in the frame of that map, and `in_map`.
+    at: where in the map the body starts, within 6 m and 30 deg: (4, 4) map_T_body, a .tum file, whose last pose counts,
+      or "x y z yaw pitch roll" (m, deg); default: anywhere.
     clouds: keep the deskewed cloud of each pose; the memory of a long list of such poses is large.
     The other arguments are those of scans(). At the end `good` and `outcome` tell how the run went; a result that may
     be wrong is a ScanloomWarning, too.
@@ -81,7 +86,7 @@ def slam(input, *, every_nth=None, configuration=None, settings=None, lidars=(),
     settings = dict(settings or {})
     if every_nth is not None:
         settings["slam.every_nth"] = every_nth
-    return Slam(_arguments(input, settings, configuration, lidars, metadata), clouds)
+    return Slam(_arguments(input, settings, configuration, lidars, metadata), map, at, clouds)
 
 
 def register(target, source, guess=None, *, guess_sigma=None):
@@ -111,7 +116,10 @@ def _file_or_poses(given):
 
 
 def write_trajectory(file, poses):
-    """Writes poses as TUM (.tum), EuRoC (.csv) or KITTI (.txt), by the file's ending."""
+    """Writes poses as TUM (.tum), EuRoC (.csv) or KITTI (.txt), by the file's ending.
+
+    Of a drive that was found in a map, those from there on, as `scanloom slam` does.
+    """
     _scanloom.write_trajectory(file, list(poses))
 
 

@@ -73,6 +73,7 @@ class Pose:
     trusted: bool
     recovered: bool
     map_restarted: bool
+    in_map: bool
     scan_complete: bool
     imu_complete: bool
     cloud: Optional[Cloud]
@@ -165,6 +166,8 @@ def slam(
     input: Input,
     *,
     every_nth: Optional[int] = None,
+    map: Optional[Path] = None,
+    at: Union[Path, ArrayLike, None] = None,
     configuration: Configurations = None,
     settings: Optional[Settings] = None,
     lidars: Names = (),
