@@ -5,10 +5,7 @@ import re
 import unittest
 from pathlib import Path
 
-from support import DRIVE, SOURCE, program, python
-
-PAGE = (SOURCE / "doc" / "python.md").read_text()
-EXAMPLES = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
+from support import DRIVE, EXAMPLES, PAGE, program, python
 
 
 class Page(unittest.TestCase):

@@ -1,6 +1,7 @@
 """What the tests of the Python module share: a drive that the program simulated, and the program itself."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +11,8 @@ import numpy as np
 PROGRAM = os.environ["SCANLOOM_PROGRAM"]
 SOURCE = Path(os.environ["SCANLOOM_SOURCE"])
 DRIVE = Path(os.environ["SCANLOOM_DRIVE"])  # folder of a recording with two lidars and an IMU
+PAGE = (SOURCE / "doc" / "python.md").read_text()
+EXAMPLES = re.findall(r"^```python\n(.*?)^```$", PAGE, re.DOTALL | re.MULTILINE)
 
 
 def extrinsic(name):

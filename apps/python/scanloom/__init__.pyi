@@ -76,7 +76,7 @@ class Pose:
     in_map: bool
     scan_complete: bool
     imu_complete: bool
-    cloud: Optional[Cloud]
+    cloud: Union[Cloud, Any]  # None unless slam(clouds=True), which mypy cannot know
 
 class Slam(Iterator[Pose]):
     lidars: list[str]
