@@ -56,7 +56,8 @@ if(SCANLOOM_PYTHON)
   scanloom_package(python python3-scanloom python
 "python3 (>= ${minor}), python3 (<< ${Python_VERSION_MAJOR}.${next}), python3-numpy"
 "Python module: scans of several lidars as numpy arrays, poses of a machine with
-covariance and health, registration of point clouds, evaluation of trajectories.")
+covariance and health, registration of point clouds, evaluation of
+trajectories.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS scanloom)  # whose drivers serve live IMUs
 endif()
 set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)

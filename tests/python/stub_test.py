@@ -35,15 +35,25 @@ class Stub(unittest.TestCase):
         defined = {item.name for item in STUB.body if isinstance(item, (ast.FunctionDef, ast.ClassDef))}
         self.assertEqual(defined, set(scanloom.__all__))
 
-    @unittest.skipUnless(shutil.which("mypy"), "mypy is missing")
-    def test_gives_mypy_the_types_of_the_page_s_examples(self):
-        files = [Path(f"example_{number:02}.py") for number in range(1, len(EXAMPLES) + 1)]
-        for file, example in zip(files, EXAMPLES):
-            file.write_text(example)
-        Path("mypy.ini").write_text("[mypy-matplotlib.*]\nignore_missing_imports = True\n")
-        ended = subprocess.run(["mypy", "--strict", *files], capture_output=True, text=True,
-                               env={**os.environ, "MYPYPATH": str(Path(scanloom.__file__).parent.parent)})
+
+@unittest.skipUnless(shutil.which("mypy"), "mypy is missing")
+class Mypy(unittest.TestCase):
+    def checked(self, scripts):
+        files = [Path(f"script_{number:02}.py") for number in range(1, len(scripts) + 1)]
+        for file, script in zip(files, scripts):
+            file.write_text(script)
+        Path("mypy.ini").write_text("[mypy]\n[mypy-matplotlib.*]\nignore_missing_imports = True\n")
+        return subprocess.run(["mypy", "--strict", *files], capture_output=True, text=True,
+                              env={**os.environ, "MYPYPATH": str(Path(scanloom.__file__).parent.parent)})
+
+    def test_accepts_the_examples_of_the_page(self):
+        ended = self.checked(EXAMPLES)
         self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
+
+    def test_refuses_what_fails_when_it_runs(self):
+        ended = self.checked(["import scanloom\nscan = next(scanloom.scans('drive'))\nscan.stamp = 0\nscan.colour\n"])
+        self.assertIn('Cannot assign to final attribute "stamp"', ended.stdout)
+        self.assertIn('"Scan" has no attribute "colour"', ended.stdout)
 
 
 if __name__ == "__main__":

@@ -1,10 +1,12 @@
 from os import PathLike
-from typing import Any, Iterable, Iterator, Mapping, Optional, Sequence, Union
+from typing import Any, Final, Iterable, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 __version__: str
+
+# Attributes are Final: they have no setter. What they refer to, such as the values of an array, may be written.
 
 Path = Union[str, "PathLike[str]"]
 Settings = Mapping[str, Any]
@@ -24,75 +26,75 @@ class Configuration:
 class Cloud:
     """N points. Its arrays are views of one memory, which they keep alive, and may be written."""
 
-    xyz: NDArray[np.float32]  # (N, 3) m
-    x: NDArray[np.float32]  # (N,) m
-    y: NDArray[np.float32]
-    z: NDArray[np.float32]
-    t: NDArray[np.int32]  # (N,) ns after the stamp
-    ring: NDArray[np.uint8]
-    lidar: NDArray[np.uint8]
-    intensity: NDArray[np.uint8]
-    range: NDArray[np.uint32]  # (N,) mm
-    column: NDArray[np.uint16]
-    signal: NDArray[np.uint16]
-    near_ir: NDArray[np.uint16]
+    xyz: Final[NDArray[np.float32]]  # (N, 3) m
+    x: Final[NDArray[np.float32]]  # (N,) m
+    y: Final[NDArray[np.float32]]
+    z: Final[NDArray[np.float32]]
+    t: Final[NDArray[np.int32]]  # (N,) ns after the stamp
+    ring: Final[NDArray[np.uint8]]
+    lidar: Final[NDArray[np.uint8]]
+    intensity: Final[NDArray[np.uint8]]
+    range: Final[NDArray[np.uint32]]  # (N,) mm
+    column: Final[NDArray[np.uint16]]
+    signal: Final[NDArray[np.uint16]]
+    near_ir: Final[NDArray[np.uint16]]
     def __len__(self) -> int: ...
 
 class ImuSamples:
-    stamp: NDArray[np.int64]  # (M,) ns
-    gyro: NDArray[np.float64]  # (M, 3) rad/s
-    accel: NDArray[np.float64]  # (M, 3) m/s2
-    sensor: NDArray[np.int32]  # (M,) -1: the body's
+    stamp: Final[NDArray[np.int64]]  # (M,) ns
+    gyro: Final[NDArray[np.float64]]  # (M, 3) rad/s
+    accel: Final[NDArray[np.float64]]  # (M, 3) m/s2
+    sensor: Final[NDArray[np.int32]]  # (M,) -1: the body's
     def __len__(self) -> int: ...
 
 class Scan(Cloud):
-    stamp: int  # ns
-    period: int  # ns
-    complete: bool
-    missing: list[int]
-    imu: ImuSamples
+    stamp: Final[int]  # ns
+    period: Final[int]  # ns
+    complete: Final[bool]
+    missing: Final[list[int]]
+    imu: Final[ImuSamples]
 
 class Scans(Iterator[Scan]):
-    lidars: list[str]
-    notes: list[str]
-    warnings: list[str]
-    counts: dict[str, int]
-    good: Optional[bool]
+    lidars: Final[list[str]]
+    notes: Final[list[str]]
+    warnings: Final[list[str]]
+    counts: Final[dict[str, int]]
+    good: Final[Optional[bool]]
     def __iter__(self) -> "Scans": ...
     def __next__(self) -> Scan: ...
 
 class Pose:
-    stamp: int  # ns
-    map_T_body: NDArray[np.float64]  # (4, 4)
-    position: NDArray[np.float64]  # (3,) m
-    quaternion: NDArray[np.float64]  # (4,) x y z w
-    covariance: NDArray[np.float64]  # (6, 6) m, rad
-    covariance_since_start: NDArray[np.float64]  # (6, 6) m, rad
-    velocity: NDArray[np.float64]  # (3,) m/s
-    health: str
-    trusted: bool
-    recovered: bool
-    map_restarted: bool
-    in_map: bool
-    scan_complete: bool
-    imu_complete: bool
-    cloud: Union[Cloud, Any]  # None unless slam(clouds=True), which mypy cannot know
+    stamp: Final[int]  # ns
+    map_T_body: Final[NDArray[np.float64]]  # (4, 4)
+    position: Final[NDArray[np.float64]]  # (3,) m
+    quaternion: Final[NDArray[np.float64]]  # (4,) x y z w
+    covariance: Final[NDArray[np.float64]]  # (6, 6) m, rad
+    covariance_since_start: Final[NDArray[np.float64]]  # (6, 6) m, rad
+    velocity: Final[NDArray[np.float64]]  # (3,) m/s
+    health: Final[str]
+    trusted: Final[bool]
+    recovered: Final[bool]
+    map_restarted: Final[bool]
+    in_map: Final[bool]
+    scan_complete: Final[bool]
+    imu_complete: Final[bool]
+    cloud: Final[Union[Cloud, Any]]  # None unless slam(clouds=True), which mypy cannot know
 
 class Slam(Iterator[Pose]):
-    lidars: list[str]
-    notes: list[str]
-    warnings: list[str]
-    outcome: Optional[str]
-    good: Optional[bool]
-    counts: dict[str, int]
+    lidars: Final[list[str]]
+    notes: Final[list[str]]
+    warnings: Final[list[str]]
+    outcome: Final[Optional[str]]
+    good: Final[Optional[bool]]
+    counts: Final[dict[str, int]]
     def __iter__(self) -> "Slam": ...
     def __next__(self) -> Pose: ...
 
 class Odometry:
-    warnings: list[str]
-    outcome: Optional[str]
-    good: Optional[bool]
-    counts: dict[str, int]
+    warnings: Final[list[str]]
+    outcome: Final[Optional[str]]
+    good: Final[Optional[bool]]
+    counts: Final[dict[str, int]]
     def __init__(
         self,
         *,
@@ -117,22 +119,22 @@ class Odometry:
     def finish(self) -> list[Pose]: ...
 
 class Registration:
-    T: NDArray[np.float64]  # (4, 4) target_T_source
-    covariance: NDArray[np.float64]  # (6, 6) m, rad
-    outcome: str
-    degenerate_directions: NDArray[np.float64]  # (K, 6)
-    overlap: float
-    iterations: int
-    trustworthy: bool
+    T: Final[NDArray[np.float64]]  # (4, 4) target_T_source
+    covariance: Final[NDArray[np.float64]]  # (6, 6) m, rad
+    outcome: Final[str]
+    degenerate_directions: Final[NDArray[np.float64]]  # (K, 6)
+    overlap: Final[float]
+    iterations: Final[int]
+    trustworthy: Final[bool]
 
 class Place:
-    outcome: str
-    map_T_body: Optional[NDArray[np.float64]]  # (4, 4)
-    covariance: Optional[NDArray[np.float64]]  # (6, 6)
-    agreement: float
+    outcome: Final[str]
+    map_T_body: Final[Optional[NDArray[np.float64]]]  # (4, 4)
+    covariance: Final[Optional[NDArray[np.float64]]]  # (6, 6)
+    agreement: Final[float]
 
 class Site:
-    lidars: list[str]
+    lidars: Final[list[str]]
     def __init__(
         self, folder: Path, *, configuration: Configurations = None, settings: Optional[Settings] = None
     ) -> None: ...
@@ -146,12 +148,12 @@ class Site:
     ) -> Place: ...
 
 class Evaluation:
-    drift: float  # m
-    drift_percent: Optional[float]
-    path_length: float  # m
-    covered: float
-    ape: float  # m
-    rpe: float  # m
+    drift: Final[float]  # m
+    drift_percent: Final[Optional[float]]
+    path_length: Final[float]  # m
+    covered: Final[float]
+    ape: Final[float]  # m
+    rpe: Final[float]  # m
     def as_dict(self) -> dict[str, Any]: ...
 
 def scans(
