@@ -11,6 +11,7 @@
 #include "base/core/Interruption.h"
 #include "base/core/OutputFile.h"
 #include "base/core/OutputFolder.h"
+#include "estimation/slam/MapNearby.h"
 #include "input/rig/InputDisplay.h"
 #include "input/rig/RigOptions.h"
 #include "run/run/GivenMap.h"
@@ -124,6 +125,7 @@ SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings&
   const std::unique_ptr<SensorInput> sent = topics ? published(watched, *topics, input.live) : nullptr;
   SensorInput& sensors = sent ? *sent : watched;
   InputDisplay display = displayOf(input, sensors);
+  MapNearby map_nearby(map.map);
   SlamRunResult result = runSlam(
       sensors, settings,
       [&](const StateEstimate& estimate)
@@ -131,6 +133,10 @@ SlamRunResult runShowingProgress(const SlamInput& input, const SlamVerbSettings&
         files.add(estimate);
         if (web) web->feed().add(estimate);
         if (topics) topics->add(estimate);
+        if (!web && !topics) return;
+        const std::optional<Keyframe> of_map = map_nearby.next(estimate);
+        if (of_map && web) web->feed().addMap(*of_map);
+        if (of_map && topics) topics->addMap(*of_map);
       },
       [&](const RunProgress& progress)
       {

@@ -48,9 +48,13 @@ struct StateEstimate
   bool recovered = false;      // found again: the pose does not continue the previous one
   bool map_restarted = false;  // a new local map begins here
   bool in_map = false;         // the map frame is that of an earlier drive's map
+  bool entered_map = false;    // in_map, and the estimate before was not
   std::optional<Keyframe> keyframe;
   Matrix6d keyframe_covariance = Matrix6d::Zero();  // of its pose in the local map that it joins, tangent of boxPlus
   Trajectory since_last;  // body poses at the IMU's stamps, after the previous estimate up to this one
+
+  /** The pose does not continue the one before: the body did not move from there to here. */
+  bool leaps() const { return recovered || map_restarted || entered_map; }
 
   /** The map shifted farther than gravity shifts it in sound drives: accelerations were taken for a tilt, and the poses
    * before are as wrong as this one. */

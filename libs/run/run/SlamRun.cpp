@@ -293,6 +293,7 @@ class SlamRun
   {
     for (StateEstimate& estimate : estimates)
     {
+      estimate.entered_map = estimate.in_map && !was_in_map_;
       if (motion_) estimate.imu.reset();  // it was assumed
       counts_.add(estimate);
       if (motion_) motion_->update(estimate);

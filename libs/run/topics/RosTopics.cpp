@@ -175,13 +175,17 @@ void RosTopics::add(const StateEstimate& estimate)
   health_ = estimate.health;
   const PredictedMotion::Motion motion = motion_.correct(estimate);
   // Found again elsewhere: the body has not jumped in odom, which goes on smoothly (REP-105).
-  if (estimate.recovered || estimate.map_restarted) map_T_odom_ = estimate.map_T_body * odom_T_body_.inverse();
+  if (estimate.leaps()) map_T_odom_ = estimate.map_T_body * odom_T_body_.inverse();
   odom_T_body_ = map_T_odom_.inverse() * estimate.map_T_body;
   sendOdometry({estimate.stamp, kOdometryFrame, kBodyFrame, odom_T_body_,
                 alongMap(estimate.covariance, odom_T_body_.rotation), motion.velocity, motion.turn_rate});
-  if (!estimate.keyframe) return;
-  PointCloud points = thin(estimate.keyframe->points, kMapEdge);
-  send(map_, kLarge, cloudMessage(points, estimate.keyframe->stamp, kMapFrame, estimate.keyframe->map_T_body));
+  if (estimate.keyframe) addMap(*estimate.keyframe);
+}
+
+void RosTopics::addMap(const Keyframe& keyframe)
+{
+  PointCloud points = thin(keyframe.points, kMapEdge);
+  send(map_, kLarge, cloudMessage(points, keyframe.stamp, kMapFrame, keyframe.map_T_body));
 }
 
 void RosTopics::add(const StampedPose& pose)

@@ -46,6 +46,9 @@ class RosTopics
 
   void add(const StateEstimate&);
 
+  /** A part of the map, besides the keyframes of estimates. */
+  void addMap(const Keyframe&);
+
   /** A pose that was estimated before: its covariance and twist are not known. */
   void add(const StampedPose&);
 

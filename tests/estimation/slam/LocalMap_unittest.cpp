@@ -1,6 +1,7 @@
 #include "estimation/slam/internal/LocalMap.h"
 
 #include "estimation/ndt/cellAt.h"
+#include "estimation/slam/MapNearby.h"
 #include "estimation/slam/PriorMap.h"
 #include "support/with.h"
 
@@ -128,6 +129,25 @@ TEST(PriorMap, isAsSureOfAPlaceAsItsNearestKeyframe)
   EXPECT_NEAR(beyond(1, 1), 9e-4, 1e-9) << "3 m ahead, a heading moves the body by 3 m x 0.01";
   EXPECT_NEAR(map->covarianceAt(at(1))(5, 5), 1e-6, 1e-12);
   EXPECT_EQ(priorWith({0})->covarianceAt(at(0)).norm(), 0) << "not known";
+}
+
+TEST(MapNearby, givesEachKeyframeOnceTheBodyIsNear)
+{
+  MapNearby map(priorWith({0, 40, 100}));
+  StateEstimate estimate;
+  EXPECT_FALSE(map.next(estimate)) << "not in the map";
+  estimate.in_map = estimate.entered_map = true;
+  const std::optional<Keyframe> first = map.next(estimate);
+  estimate.entered_map = false;
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->map_T_body.translation.x(), 0);
+  EXPECT_GT(first->points.size(), 0U);
+  EXPECT_EQ(map.next(estimate)->map_T_body.translation.x(), 40);
+  EXPECT_FALSE(map.next(estimate)) << "100 m are not near";
+  estimate.map_T_body = at(60);
+  EXPECT_EQ(map.next(estimate)->map_T_body.translation.x(), 100);
+  estimate.entered_map = true;
+  EXPECT_TRUE(map.next(estimate)) << "whoever shows it forgot the frame before";
 }
 
 TEST(LocalMap, takesUpTheNearestKeyframesOfAnEarlierDrive)

@@ -65,6 +65,22 @@ TEST(LiveFeed, keepsABoundedNumberOfKeyframesForAPageThatDoesNotTakeThem)
   EXPECT_LE(exchange.news.keyframes.size(), 16U);
 }
 
+TEST(LiveFeed, forgetsWhatWasDrawnInAnotherFrameWhereTheDriveEntersAMap)
+{
+  LiveExchange exchange;
+  LiveFeed feed(exchange, {"slam", true, true});
+  StateEstimate before = estimateAt(0, fromNanoseconds(1)), entered = estimateAt(300, fromNanoseconds(2));
+  before.keyframe.emplace();
+  entered.in_map = entered.entered_map = true;
+  feed.add(before);
+  feed.add(entered);
+  feed.addMap(Keyframe{});
+  feed.offer(LiveFeed::Clock::now() + 1s);
+  EXPECT_TRUE(exchange.news.restarted);
+  EXPECT_EQ(exchange.news.keyframes.size(), 1U) << "the map's";
+  EXPECT_EQ(exchange.status.distance, 0) << "the body did not move from frame to frame";
+}
+
 TEST(LiveFeed, countsRepeatedWarningsAndShowsTheNewestFirst)
 {
   LiveExchange exchange;

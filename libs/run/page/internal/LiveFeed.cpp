@@ -87,7 +87,12 @@ void LiveFeed::add(const StateEstimate& estimate)
   status_.health = toString(estimate.health);
   status_.why = estimate.health == Health::Ok ? "" : openDirection(estimate);
   status_.speed = estimate.velocity.norm();
-  const bool leaps = !last_ || estimate.recovered || estimate.map_restarted;
+  if (estimate.entered_map)  // what was drawn is in another frame
+  {
+    news_ = {};
+    news_.restarted = true;
+  }
+  const bool leaps = !last_ || estimate.leaps();
   const Rigid before = leaps ? estimate.map_T_body : last_->map_T_body;
   status_.distance += (estimate.map_T_body.translation - before.translation).norm();
   addPath(estimate);
@@ -100,17 +105,18 @@ void LiveFeed::add(const StateEstimate& estimate)
     scan.map_T_end = estimate.map_T_body;
     news_.append({{std::move(scan)}, {}, {}, false});
   }
-  if (estimate.keyframe)
-  {
-    const Keyframe& keyframe = *estimate.keyframe;
-    status_.keyframes_left_out += news_.keyframes.size() >= 16;
-    news_.append({{},
-                  {{keyframe.stamp, Duration{0}, keyframe.map_T_body, keyframe.map_T_body,
-                    thinned(keyframe.points, kKeyframePoints)}},
-                  {},
-                  false});
-  }
+  if (estimate.keyframe) addMap(*estimate.keyframe);
   last_ = {estimate.stamp, estimate.map_T_body};
+}
+
+void LiveFeed::addMap(const Keyframe& keyframe)
+{
+  status_.keyframes_left_out += news_.keyframes.size() >= 16;
+  news_.append({{},
+                {{keyframe.stamp, Duration{0}, keyframe.map_T_body, keyframe.map_T_body,
+                  thinned(keyframe.points, kKeyframePoints)}},
+                {},
+                false});
 }
 
 void LiveFeed::add(const EventMark& mark)
@@ -123,7 +129,7 @@ void LiveFeed::add(const EventMark& mark)
 void LiveFeed::addPath(const StateEstimate& estimate)
 {
   PathPoint point{estimate.map_T_body.translation.cast<float>(), static_cast<std::uint8_t>(estimate.health)};
-  const bool leaps = estimate.recovered || estimate.map_restarted;
+  const bool leaps = estimate.leaps();
   if (last_path_ && !leaps && point.health == last_path_->health &&
       (point.position - last_path_->position).norm() < kPathStep)
     return;

@@ -38,6 +38,9 @@ class LiveFeed
   void add(const SensorImu&, const RecordingHeader&);
   void add(const StateEstimate&);
   void add(const EventMark&);
+
+  /** A part of the map, besides the keyframes of estimates. */
+  void addMap(const Keyframe&);
   void update(const RigAccount&, const FeedProgress&, Clock::time_point now = Clock::now());
   void warn(const std::string&, Clock::time_point now = Clock::now());
   void show(const PlayerStatus&);
