@@ -77,6 +77,11 @@ References readReferences(const SiteArguments& arguments)
                                                       : readPositionFile(path, references.frame.origin);
     const ReferenceNoise noise = file.origin ? kGnssNoise : kTotalStationNoise;
     references.all.push_back({std::move(file.track), lever_arm, noise});
+    const auto& grid = references.frame.grid;
+    if (grid && !file.origin && !references.all.back().track.empty() &&
+        !grid->reaches(references.all.back().track.front().position))
+      throw UsageError(
+          fmt::format("--crs {}: x and y of {} are not in it: its area is elsewhere", arguments.crs, path.string()));
     if (file.origin) references.frame.origin = file.origin;
     local |= !file.origin;
   }

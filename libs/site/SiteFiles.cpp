@@ -235,7 +235,8 @@ SiteMap writeSite(const std::filesystem::path& folder, const Site& site, const s
   std::filesystem::create_directories(folder / kTiles);
   WrittenTiles written = writeTiles(folder / kTiles, site, placed, progress);
   placed.leaveOut(std::move(written.gone_voxels));
-  if (frame.grid) writePointTiles(folder / kTiles, written.tiles, site, placed, frame);
+  const bool in_frame = site.pieces.front().is_in_reference_frame;
+  if (frame.grid && in_frame) writePointTiles(folder / kTiles, written.tiles, site, placed, frame);
   writeGone(folder / kGone, written.gone, names);
 
   for (std::size_t p = 0; p < site.pieces.size(); ++p)
@@ -250,7 +251,7 @@ SiteMap writeSite(const std::filesystem::path& folder, const Site& site, const s
   json["tile_edge"] = kTileEdge;
   json["coordinates_less"] = {placed.offset().x(), placed.offset().y(), placed.offset().z()};
   json["gone"] = written.gone.size();
-  if (const auto& origin = frame.origin)
+  if (const auto& origin = frame.origin; origin && in_frame)
     json["east_north_up_of"] = {
         {"latitude", origin->latitude}, {"longitude", origin->longitude}, {"height", origin->height}};
   writeAtomically(folder / kSummary, [&](std::ostream& file) { file << jsonText(json) << '\n'; });

@@ -40,7 +40,7 @@ std::vector<DrivePiece> piecesOf(std::size_t drive, const Site&, const std::vect
 /** The drive's poses in the frames of its pieces: between two keyframes their corrections are interpolated. */
 Trajectory trajectoryIn(const Site&, const std::vector<SiteDrive>&, std::size_t drive);
 
-/** What the site's coordinates are. */
+/** What the coordinates of a site are whose largest piece is in the references' frame. */
 struct SiteFrame
 {
   std::optional<Geodetic> origin;   // they are east, north and up of it

@@ -40,8 +40,8 @@ TEST_F(SiteVerb, joinsTwoDrivesAndWritesAMapOfBoth)
   const Ended ended = site("monday tuesday");
   ASSERT_EQ(ended.status, 0) << ended.output;
   EXPECT_THAT(ended.output, HasSubstr("9 keyframes, "));
-  for (const char* name :
-       {"keyframes.simplemap", "drives/monday.tum", "drives/tuesday.tum", "loops.csv", "site.png", "site.json"})
+  for (const char* name : {"keyframes.simplemap", "drives/monday.tum", "drives/tuesday.tum", "loops.csv",
+                           "tiles/0_0.bt", "gone.csv", "site.png", "site.json"})
     EXPECT_TRUE(has(name)) << name;
   EXPECT_FALSE(has("pieces"));
 }
@@ -78,6 +78,9 @@ TEST_F(SiteVerb, refusesWhatCannotBeMeant)
   EXPECT_THAT(site("monday ./monday").output, HasSubstr("is given twice"));
   EXPECT_THAT(site("monday --lever-arm '0 0 2' --reference station.csv --reference gnss.csv").output,
               HasSubstr("different frames"));
+  EXPECT_THAT(site("monday --crs EPSG:3067").output, HasSubstr("without --reference nothing says where"));
+  EXPECT_THAT(site("monday --lever-arm '0 0 2' --reference station.csv --crs EPSG:3067").output,
+              HasSubstr("x and y of station.csv are not in it"));
   const Ended no_drive = site(".");
   EXPECT_EQ(no_drive.status, 1);
   EXPECT_THAT(no_drive.output, HasSubstr("has no keyframes.simplemap"));

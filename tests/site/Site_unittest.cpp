@@ -281,7 +281,11 @@ TEST_F(SiteOfStems, pointsAreInTheCoordinatesOfACountry)
   add({straight(-10, 0, 6)});
   SiteFrame frame{Geodetic{62.0833, 27, 100}, std::nullopt};
   frame.grid.emplace("EPSG:3067");
-  writeSite(folder.path(), site(), drives, frame, [](double) {});
+  Site made = site();
+  writeSite(folder.path(), made, drives, frame, [](double) {});
+  ASSERT_FALSE(std::filesystem::exists(folder / "tiles" / "0_0.las")) << "no reference says where it is";
+  made.pieces[0].is_in_reference_frame = true;
+  writeSite(folder.path(), made, drives, frame, [](double) {});
   std::ifstream las(folder / "tiles" / "0_0.las", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(las), {}};
   const auto at = [&](std::size_t place)

@@ -65,13 +65,14 @@ Geodetic geodeticOf(const Eigen::Vector3d& enu, const Geodetic& origin)
 struct CountryGrid::Proj
 {
   Context context = silentContext();
-  Object from_geodetic;
+  Object grid, from_geodetic;
 };
 
 CountryGrid::CountryGrid(const std::string& name) : proj_(std::make_unique<Proj>())
 {
   PJ_CONTEXT* context = proj_->context.get();
-  const Object wgs84 = owned(proj_create(context, "EPSG:4979")), grid = owned(proj_create(context, name.c_str()));
+  const Object wgs84 = owned(proj_create(context, "EPSG:4979"));
+  const Object& grid = proj_->grid = owned(proj_create(context, name.c_str()));
   if (!grid || !proj_is_crs(grid.get()))
     throw UsageError(fmt::format("--crs {}: PROJ knows no such coordinate reference system", name));
   if (!hasMetres(context, grid.get()))
@@ -101,5 +102,17 @@ Eigen::Vector3d CountryGrid::of(const Geodetic& at) const
     throw std::runtime_error(fmt::format(
         "latitude {}, longitude {}: the coordinate reference system does not reach there", at.latitude, at.longitude));
   return {found.xyz.x, found.xyz.y, found.xyz.z};
+}
+
+bool CountryGrid::reaches(const Eigen::Vector3d& at) const
+{
+  double west = 0, south = 0, east = 0, north = 0;
+  if (proj_get_area_of_use(proj_->context.get(), proj_->grid.get(), &west, &south, &east, &north, nullptr) == 0 ||
+      west < -180)
+    return true;
+  const PJ_COORD found = proj_trans(proj_->from_geodetic.get(), PJ_INV, proj_coord(at.x(), at.y(), at.z(), 0));
+  const double longitude = found.lpz.lam, latitude = found.lpz.phi;
+  const bool between = west <= east ? longitude >= west && longitude <= east : longitude >= west || longitude <= east;
+  return between && latitude >= south && latitude <= north;
 }
 }  // namespace scanloom

@@ -34,6 +34,9 @@ class CountryGrid
   /** East, north and height, m. Throws std::runtime_error where the grid does not reach. */
   Eigen::Vector3d of(const Geodetic&) const;
 
+  /** Whether these coordinates are in the area for which the grid is made; true where PROJ does not know it. */
+  bool reaches(const Eigen::Vector3d& east_north_height) const;
+
   /** As LAS files name it: WKT of OGC 01-009. */
   const std::string& wkt() const { return wkt_; }
 

@@ -62,6 +62,14 @@ TEST(CountryGrid, hasEastAndNorthOfTheCountry)
   EXPECT_THAT(finland.wkt(), testing::AllOf(testing::StartsWith("PROJCS["), testing::HasSubstr("3067")));
 }
 
+TEST(CountryGrid, knowsWhereItReaches)
+{
+  const CountryGrid finland("EPSG:3067");
+  EXPECT_TRUE(finland.reaches({433000, 6902000, 120}));
+  EXPECT_FALSE(finland.reaches({512.3, -87.1, 44.2})) << "of a station in a frame of its own";
+  EXPECT_FALSE(finland.reaches({6902000, 433000, 120})) << "x is east";
+}
+
 TEST(CountryGrid, refusesWhatIsNoGridOrNotExact)
 {
   EXPECT_THAT(messageOf([] { CountryGrid("EPSG:1"); }), testing::HasSubstr("knows no such"));
