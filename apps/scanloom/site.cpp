@@ -40,6 +40,17 @@ SlamSettings settingsFor(const SiteArguments& arguments)
   return load<SlamSettings>(configuration).settings;
 }
 
+/** What is gone is what a later drive does not see. Clocks that begin with the sensor tell no day. */
+void requireOldestFirst(const SiteDrive& before, const SiteDrive& after)
+{
+  constexpr Timestamp kOfASensor{1'000'000'000s};  // 2001
+  if (before.keyframes().empty() || after.keyframes().empty()) return;
+  const Timestamp first = before.keyframes().front().stamp, second = after.keyframes().front().stamp;
+  if (second < first && second > kOfASensor)
+    throw UsageError(fmt::format("{} was driven before {}: give the oldest drive first", after.folder().string(),
+                                 before.folder().string()));
+}
+
 std::vector<SiteDrive> readDrives(const std::vector<std::filesystem::path>& folders)
 {
   std::vector<SiteDrive> drives;
@@ -49,6 +60,7 @@ std::vector<SiteDrive> readDrives(const std::vector<std::filesystem::path>& fold
       if (std::filesystem::equivalent(folders[i], folders[k]))
         throw UsageError(fmt::format("{} is given twice", folders[i].string()));
     drives.emplace_back(folders[i]);
+    if (i > 0) requireOldestFirst(drives[i - 1], drives[i]);
   }
   return drives;
 }

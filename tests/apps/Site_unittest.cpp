@@ -78,6 +78,9 @@ TEST_F(SiteVerb, refusesWhatCannotBeMeant)
   EXPECT_THAT(site("monday ./monday").output, HasSubstr("is given twice"));
   EXPECT_THAT(site("monday --lever-arm '0 0 2' --reference station.csv --reference gnss.csv").output,
               HasSubstr("different frames"));
+  DriveOfStems{straight(-10, 0, 1), Timestamp{1'750'100'000s}}.write(folder / "later", StandOfStems());
+  DriveOfStems{straight(-10, 0, 1), Timestamp{1'750'000'000s}}.write(folder / "earlier", StandOfStems());
+  EXPECT_THAT(site("later earlier").output, HasSubstr("earlier was driven before later"));
   EXPECT_THAT(site("monday --crs EPSG:3067").output, HasSubstr("without --reference nothing says where"));
   EXPECT_THAT(site("monday --lever-arm '0 0 2' --reference station.csv --crs EPSG:3067").output,
               HasSubstr("x and y of station.csv are not in it"));
