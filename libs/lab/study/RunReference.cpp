@@ -1,7 +1,7 @@
 #include "lab/study/RunReference.h"
 
-#include "base/positions/TotalStation.h"
 #include "base/formats/TrajectoryReader.h"
+#include "base/positions/TotalStation.h"
 #include "input/rig/Extrinsics.h"
 #include "input/rig/FileKind.h"
 
