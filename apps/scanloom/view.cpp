@@ -206,8 +206,7 @@ std::function<int()> addViewOptions(CLI::App& app)
   auto arguments = std::make_shared<ViewArguments>();
   addOption(app, "file", arguments->file,
             "a capture, bag, rawlog or folder of clouds to play; a folder of `site`; a map (.simplemap, .bt, .ot), a "
-            "cloud (.ply, .pcd, .bin of "
-            "KITTI) or a trajectory (.tum) to show")
+            "cloud (.ply, .pcd, .bin of KITTI) or a trajectory (.tum) to show")
       .required();
   addOption(app, "--png", arguments->png, "draw into this picture instead of a window; needs no display")
       .typeName("FILE");

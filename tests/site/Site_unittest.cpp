@@ -268,7 +268,6 @@ TEST_F(SiteOfStems, tilesTogetherHaveAllThatIsKnown)
   OctoMapBuilder whole(octoMapPreset("preview"), {Rigid::fromXyzYawPitchRoll(0, 0, 3, 0, 0, 0)});
   const SimpleMapReader reader(folder / "keyframes.simplemap");
   for (std::size_t i = 0; i < reader.size(); ++i) whole.add(reader.keyframe(i));
-  whole.tree();
   std::uint64_t in_tiles = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder / "tiles"))
     in_tiles += occupiedVoxels(*readOctoMap(file.path()));

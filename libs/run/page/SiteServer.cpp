@@ -1,5 +1,6 @@
 #include "run/page/SiteServer.h"
 
+#include "base/formats/LittleEndianBuffer.h"
 #include "mrpt/maps/OctoMapFile.h"
 
 #include <fmt/format.h>
@@ -7,10 +8,11 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace scanloom
@@ -44,15 +46,7 @@ catch (const nlohmann::json::exception& error)
   throw std::runtime_error(fmt::format("{}: {}", (folder / kSummary).string(), error.what()));
 }
 
-template <typename T>
-void appendRaw(std::string& bytes, T value)
-{
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), &value, sizeof(T));
-  bytes.append(raw.begin(), raw.end());
-}
-
-/** `name`: "3_-2", the number of the tile's corner. */
+/** The file's name, as "3_-2.bt", has the number of the tile's corner; `edge` is in m. */
 std::string tileBytes(const std::filesystem::path& file, double edge)
 {
   int east = 0, north = 0;
@@ -62,16 +56,18 @@ std::string tileBytes(const std::filesystem::path& file, double edge)
   std::vector<octomap::point3d> voxels;
   forEachOccupiedVoxel(*tree, [&](const octomap::point3d& at) { voxels.push_back(at); });
   const double x = east * edge, y = north * edge, z = voxels.empty() ? 0 : voxels.front().z();
-  std::string bytes;
-  for (const double coordinate : {x, y, z}) appendRaw(bytes, coordinate);
+  LittleEndianBuffer buffer;
+  for (const double coordinate : {x, y, z}) buffer.put(coordinate);
   for (const octomap::point3d& at : voxels)
   {
     constexpr double kPerMetre = 100, kMost = std::numeric_limits<std::int16_t>::max();
     const std::array<double, 3> cm{kPerMetre * (at.x() - x), kPerMetre * (at.y() - y), kPerMetre * (at.z() - z)};
     if (std::abs(cm[2]) > kMost) continue;  // 327 m above or below the rest of its tile
-    for (const double coordinate : cm) appendRaw(bytes, static_cast<std::int16_t>(std::lround(coordinate)));
+    for (const double coordinate : cm) buffer.put(static_cast<std::int16_t>(std::lround(coordinate)));
   }
-  return bytes;
+  std::ostringstream bytes;
+  buffer.writeTo(bytes);
+  return bytes.str();
 }
 
 const std::string& numbered(const std::vector<std::string>& names, const HttpRequest& request)

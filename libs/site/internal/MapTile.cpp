@@ -159,11 +159,7 @@ MapTile tileOf(const MapArea& area, const std::vector<std::size_t>& drives, cons
       if (group.size() < kLeastVoxels || thing.height < kLeastHeight || shareGone(group, voxels) < kLeastShare)
         continue;
       tile.gone.push_back(thing);
-      for (const Key& key : group)
-      {
-        tile.gone_voxels.push_back(toOctomap(key));
-        tile.voxels_gone_by.push_back(drive);
-      }
+      for (const Key& key : group) tile.gone_voxels.push_back({toOctomap(key), drive});
       forget(group, *tile.tree);
     }
   }

@@ -18,12 +18,18 @@ OctoMapOptions tileOptions();
 /** m: 8 blocks of 32 voxels, as OctoMapBuilder needs it. */
 constexpr double kTileEdge = 51.2;
 
+/** Where points of drives before `gone_by` are no longer true. */
+struct GoneVoxel
+{
+  octomap::OcTreeKey key;
+  std::size_t gone_by;
+};
+
 struct MapTile
 {
   std::unique_ptr<octomap::OcTree> tree;  // without what is gone; null: nothing is known of it
   std::vector<GoneThing> gone;
-  std::vector<octomap::OcTreeKey> gone_voxels;  // where points of drives before `gone_by` are no longer true
-  std::vector<std::size_t> voxels_gone_by;      // by voxel
+  std::vector<GoneVoxel> gone_voxels;
 };
 
 /** Calls for each keyframe of a drive that may see the tile. */

@@ -159,8 +159,7 @@ WrittenTiles writeTiles(const std::filesystem::path& folder, const Site& site, c
         if (site.keyframes[i].drive == drive) visit(placed.lessOffset(i));
     };
     const MapTile tile = tileOf({cornerOf(number), kTileEdge}, drivesOf(near, site), ofDrive, posesOf(placed.lidars()));
-    for (std::size_t v = 0; v < tile.gone_voxels.size(); ++v)
-      written.gone_voxels.add(tile.gone_voxels[v], tile.voxels_gone_by[v]);
+    for (const GoneVoxel& voxel : tile.gone_voxels) written.gone_voxels.add(voxel.key, voxel.gone_by);
     written.gone.insert(written.gone.end(), tile.gone.begin(), tile.gone.end());
     progress(static_cast<double>(++done) / static_cast<double>(by_tile.size()));
     if (!tile.tree) continue;
