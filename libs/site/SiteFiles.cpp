@@ -40,9 +40,9 @@ std::vector<std::size_t> pieceByKeyframe(const Site& site)
 void writeMap(const std::filesystem::path& file, const SitePiece& piece, const Site& site,
               const PlacedKeyframes& placed)
 {
-  SimpleMapBuilder map(placed.lidars());
+  SimpleMapWriter map(file, placed.lidars());
   for (const std::size_t i : piece.keyframes) map.add({placed.at(i), site.keyframes[i].covariance});
-  map.write(file);
+  map.close();
 }
 
 /** Pictures hold no coordinates of a country. */

@@ -151,6 +151,13 @@ TEST(GyroScale, onARoadThatShakesTheImuLittleIsExplained)
   EXPECT_LT(gyroScale(samples)->explained, 0.3);
 }
 
+TEST(GyroScale, turnsDuringASilenceAreNotMeasured)
+{
+  std::vector<ImuSample> samples = swayingImu({}, 60);
+  samples.erase(samples.begin() + 20 * 200, samples.begin() + 40 * 200);
+  EXPECT_NEAR(gyroScale(samples)->scale, 1, 0.15);
+}
+
 TEST(GyroScale, needsFiveSeconds) { EXPECT_FALSE(gyroScale(swayingImu({}, 4))); }
 
 TEST(GyroAgreement, leavesTurnsUnexplainedThatAreNoise)

@@ -1,6 +1,7 @@
 #!/bin/sh
-# A sweep as a job array, on a Slurm cluster of one node that lives on the loopback for this test, gives the rows of the
-# same sweep on local cores, one failed run among them. Skips (77) where Slurm is not installed.
+# On a Slurm cluster of one node that lives on the loopback for this test, a sweep as a job array gives the rows of the
+# same sweep on local cores, one failed run among them, and the jobs of doc/site.md give the bits of a site on local
+# cores. Skips (77) where Slurm is not installed.
 #   slurm_engine.sh SCANLOOM SOURCE_DIR
 set -eu
 scanloom=$1
@@ -74,3 +75,21 @@ diff "$dir/slurm.csv" "$dir/local.csv"
 [ "$(wc -l <"$dir/slurm.csv")" = 3 ]
 grep -q ",\(OK\|DEGENERATE\)," "$dir/slurm.csv"
 grep -q "slam gave no pose" "$dir/slurm/results.csv"
+
+cd "$dir"
+ln -s "$scanloom" scanloom
+PATH=$dir:$PATH
+for day in monday:0 tuesday:1; do
+  scanloom simulate -c "$2/params/simulation/demo.ini" --seed "1${day#*:}" --set simulated_stand.seed=1 \
+    --set simulated_drive.duration=35 --set simulated_drive.speed=1.2 --set simulated_drive.day="${day#*:}" --out-dir "${day%:*}"
+done
+awk '/^```sh$/ { run = 1; next } /^```$/ { run = 0 } run' "$2/doc/site.md" >commands
+sh -eu commands
+for _ in $(seq 120); do
+  [ "$(squeue -h)" ] || break
+  sleep 0.5
+done
+for drive in monday tuesday; do scanloom slam $drive --out-dir ${drive}_local; done
+for drive in monday tuesday; do cmp ${drive}_slam/trajectory.tum ${drive}_local/trajectory.tum; done
+scanloom site monday_slam tuesday_slam --out-dir here
+diff -r here forest

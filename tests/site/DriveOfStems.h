@@ -39,7 +39,7 @@ struct DriveOfStems
     std::filesystem::create_directories(folder);
     Vector6d sigma;
     sigma << 0.01, 0.01, 0.005, 5e-4, 5e-4, 2e-3;
-    SimpleMapBuilder map({{"left", Rigid::fromXyzYawPitchRoll(0, 0, 3, 0, 0, 0)}});
+    SimpleMapWriter map(folder / "keyframes.simplemap", {{"left", Rigid::fromXyzYawPitchRoll(0, 0, 3, 0, 0, 0)}});
     KeyframeTableWriter table(folder / "keyframes.csv");
     Trajectory trajectory;
     const std::vector<Rigid> poses = estimated();
@@ -50,7 +50,7 @@ struct DriveOfStems
       table.add({stampOf(i), i > 0 && i == lost_at, sigma.cwiseAbs2().asDiagonal()});
       trajectory.push_back({stampOf(i), poses[i]});
     }
-    map.write(folder / "keyframes.simplemap");
+    map.close();
     table.close();
     writeTum(folder / "trajectory.tum", trajectory);
   }

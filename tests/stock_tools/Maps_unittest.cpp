@@ -44,14 +44,15 @@ struct StockMaps : testing::Test
     const std::vector<MountedLidar> lidars{{"left", Rigid::fromXyzYawPitchRoll(0, 1, 1, 0, 0, 0)},
                                            {"right", Rigid::fromXyzYawPitchRoll(0, -1, 1, 0, 0, 0)}};
     MapFiles files({folder / "m.bt", folder / "m.ot", folder / "m.3Dscene"}, lidars, octoMapPreset("preview"));
-    SimpleMapBuilder keyframes(lidars, CloudClass::CPointsMapXYZI);  // stock tools of MRPT 2.5 load no plugin
+    SimpleMapWriter keyframes(folder / "m.simplemap", lidars,
+                              CloudClass::CPointsMapXYZI);  // stock tools of MRPT 2.5 load no plugin
     for (int i = 0; i < 3; ++i)
     {
       files.add(someKeyframe(i));
       keyframes.add({someKeyframe(i)});
     }
     files.close();
-    keyframes.write(folder / "m.simplemap");
+    keyframes.close();
   }
   std::string in(const std::string& command) const
   {

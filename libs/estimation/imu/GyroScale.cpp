@@ -20,6 +20,7 @@ constexpr std::size_t kFewestPairs = 18;
 /** Means of one window. */
 struct Window
 {
+  Timestamp begin;
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d turned = Eigen::Vector3d::Zero();  // rad, the integral of the rates since the first sample
   Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();
@@ -29,6 +30,7 @@ struct Window
 Window meanOf(const ImuSample* first, const ImuSample* last, const Eigen::Vector3d* turned)
 {
   Window window;
+  window.begin = first->stamp;
   const auto n = static_cast<double>(last - first + 1);
   for (const ImuSample* sample = first; sample <= last; ++sample, ++turned)
   {
@@ -81,6 +83,7 @@ std::vector<Row3> rowsOf(const std::vector<Window>& windows)
   for (std::size_t k = 0; k + kWindowsApart < windows.size(); ++k)
   {
     const Window &from = windows[k], &to = windows[k + kWindowsApart];
+    if (seconds(to.begin - from.begin) > (kWindowsApart + 1) * kWindow) continue;  // nobody saw it turn meanwhile
     Row3 row;
     row.regressors << -(to.turned - from.turned).cross(0.5 * (from.force + to.force)),
         skew(to.angular_acceleration - from.angular_acceleration);

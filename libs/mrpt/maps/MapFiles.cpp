@@ -84,16 +84,12 @@ class MapFiles::Cloud : public File
 class MapFiles::SimpleMap : public File
 {
  public:
-  SimpleMap(std::filesystem::path path, const std::vector<MountedLidar>& lidars)
-    : path_(std::move(path)), builder_(lidars)
-  {
-  }
-  void add(const Keyframe& keyframe) override { builder_.add({keyframe}); }
-  void close() override { builder_.write(path_); }
+  SimpleMap(const std::filesystem::path& path, const std::vector<MountedLidar>& lidars) : writer_(path, lidars) {}
+  void add(const Keyframe& keyframe) override { writer_.add({keyframe}); }
+  void close() override { writer_.close(); }
 
  private:
-  std::filesystem::path path_;
-  SimpleMapBuilder builder_;
+  SimpleMapWriter writer_;
 };
 
 class MapFiles::Scene : public File

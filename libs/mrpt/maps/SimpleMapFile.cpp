@@ -2,11 +2,12 @@
 
 #include "input/rawlogs/Conversions.h"
 #include "mrpt/maps/internal/PoseCovariance.h"
-#include "mrpt/observations/GzipArchive.h"
 #include "mrpt/observations/readByAll.h"
 
 #include <fmt/format.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
+
+#include <fcntl.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -38,17 +39,60 @@ Scan scanOf(const Keyframe& keyframe, std::size_t lidar, const Rigid& sensor_T_b
   }
   return scan;
 }
+using Bytes = std::vector<std::uint8_t>;
+
+/** A CSimpleMap that says how many keyframes follow, and holds none of them. */
+class SimpleMapWithout : public SimpleMapReadByAll
+{
+ public:
+  explicit SimpleMapWithout(std::uint32_t keyframes) : keyframes_(keyframes) {}
+
+ protected:
+  void serializeTo(mrpt::serialization::CArchive& out) const override { out << keyframes_; }
+
+ private:
+  std::uint32_t keyframes_;
+};
+
+/** What is written before the keyframes, and behind them the last byte. */
+Bytes withoutKeyframes(std::uint32_t count)
+{
+  const SimpleMapWithout map(count);
+  Bytes bytes;
+  mrpt::serialization::ObjectToOctetVector(&map, bytes);
+  return bytes;
+}
+
+/** Stored without compression, it is as long for any number of keyframes. */
+void writeHead(const std::filesystem::path& path, std::uint32_t keyframes)
+{
+  constexpr int kStored = 0;
+  GzipArchive head(::open(path.c_str(), O_WRONLY | O_CLOEXEC), path, kStored);
+  const Bytes bytes = withoutKeyframes(keyframes);
+  head.WriteBuffer(bytes.data(), bytes.size() - 1);
+  head.close();
+}
+
+std::filesystem::path withHead(const std::filesystem::path& path)
+{
+  writeHead(path, 0);
+  return path;
+}
+
+constexpr int kFast = 1;
 }  // namespace
 
-SimpleMapBuilder::SimpleMapBuilder(std::vector<MountedLidar> lidars, CloudClass cloud_class)
-  : lidars_(std::move(lidars)), cloud_class_(cloud_class), map_(std::make_unique<SimpleMapReadByAll>())
+SimpleMapWriter::SimpleMapWriter(const std::filesystem::path& path, std::vector<MountedLidar> lidars,
+                                 CloudClass cloud_class)
+  : lidars_(std::move(lidars)),
+    cloud_class_(cloud_class),
+    file_(path),
+    archive_(::open(withHead(file_.temporary()).c_str(), O_WRONLY | O_APPEND | O_CLOEXEC), path, kFast)
 {
   toObservation(Scan{}, cloud_class);  // throws here instead of at the first keyframe
 }
 
-SimpleMapBuilder::~SimpleMapBuilder() = default;
-
-void SimpleMapBuilder::add(const MeasuredKeyframe& measured)
+void SimpleMapWriter::add(const MeasuredKeyframe& measured)
 {
   const Keyframe& keyframe = measured.keyframe;
   for (const std::uint8_t sensor_id : keyframe.points.sensor_id)
@@ -56,21 +100,27 @@ void SimpleMapBuilder::add(const MeasuredKeyframe& measured)
       throw std::invalid_argument(fmt::format(
           "keyframes.simplemap: a point has sensor_id = {}, but there are {} lidars", sensor_id, lidars_.size()));
 
-  const auto frame = mrpt::obs::CSensoryFrame::Create();
-  if (measured.imu) frame->insert(toObservation(measured.imu->sample, measured.imu->body_T_imu));
+  mrpt::obs::CSensoryFrame frame;
+  if (measured.imu) frame.insert(toObservation(measured.imu->sample, measured.imu->body_T_imu));
   for (std::size_t lidar = 0; lidar < lidars_.size(); ++lidar)
   {
     const Scan scan = scanOf(keyframe, lidar, lidars_[lidar].body_T_sensor.inverse());
     if (scan.points.empty()) continue;
     const auto observation = toObservation(scan, cloud_class_, lidars_[lidar].name);
     observation->sensorPose = toMrpt(lidars_[lidar].body_T_sensor);
-    frame->insert(observation);
+    frame.insert(observation);
   }
-  map_->insert(
-      mrpt::poses::CPose3DPDFGaussian::Create(
-          toMrpt(keyframe.map_T_body), mrpt::math::CMatrixDouble66(ofAngles(keyframe.map_T_body, measured.covariance))),
-      frame);
+  const mrpt::poses::CPose3DPDFGaussian pose(
+      toMrpt(keyframe.map_T_body), mrpt::math::CMatrixDouble66(ofAngles(keyframe.map_T_body, measured.covariance)));
+  archive_ << pose << frame;
+  ++keyframes_;
 }
 
-void SimpleMapBuilder::write(const std::filesystem::path& path) const { writeGzip(path, *map_); }
+void SimpleMapWriter::close()
+{
+  archive_ << withoutKeyframes(0).back();
+  archive_.close();
+  writeHead(file_.temporary(), keyframes_);
+  file_.commit();
+}
 }  // namespace scanloom

@@ -8,19 +8,16 @@
 #pragma once
 #include "base/core/Keyframe.h"
 #include "base/core/MountedLidar.h"
+#include "base/core/OutputFile.h"
 #include "input/rawlogs/ImuObservation.h"
+#include "mrpt/observations/GzipArchive.h"
 #include "mrpt/observations/Observations.h"
 
+#include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-namespace mrpt::maps
-{
-class CSimpleMap;
-}
 
 namespace scanloom
 {
@@ -33,22 +30,30 @@ struct MeasuredKeyframe
   std::optional<RecordedImu> imu{};  // at its stamp
 };
 
-class SimpleMapBuilder
+/** Keyframes go to the file as they come: no more than one of them is in memory. */
+class SimpleMapWriter
 {
  public:
-  /** Lidars by sensor id. Throws std::invalid_argument for a class that this MRPT does not have. */
-  explicit SimpleMapBuilder(std::vector<MountedLidar>, CloudClass = CloudClass::CGenericPointsMap);
-  ~SimpleMapBuilder();
+  /**
+   * Lidars by sensor id. Throws std::invalid_argument for a class that this MRPT does not have, std::runtime_error if
+   * the folder cannot be written.
+   */
+  SimpleMapWriter(const std::filesystem::path&, std::vector<MountedLidar>, CloudClass = CloudClass::CGenericPointsMap);
 
-  /** Throws std::invalid_argument if a point's sensor_id has no lidar. A lidar without points gives no observation. */
+  /**
+   * Throws std::invalid_argument if a point's sensor_id has no lidar, std::runtime_error if the keyframe cannot be
+   * written. A lidar without points gives no observation.
+   */
   void add(const MeasuredKeyframe&);
 
-  /** Gzipped; the same bytes for the same keyframes. Throws std::runtime_error if it cannot be written. */
-  void write(const std::filesystem::path&) const;
+  /** The file gets its name. Gzipped; the same bytes for the same keyframes. Throws std::runtime_error. */
+  void close();
 
  private:
   std::vector<MountedLidar> lidars_;
   CloudClass cloud_class_;
-  std::unique_ptr<mrpt::maps::CSimpleMap> map_;
+  OutputFile file_;
+  GzipArchive archive_;  // of file_
+  std::uint32_t keyframes_ = 0;
 };
 }  // namespace scanloom

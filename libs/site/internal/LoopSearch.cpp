@@ -10,6 +10,7 @@ namespace scanloom
 namespace
 {
 constexpr double kSeenTogether = 6;  // m of way: as far as the keyframes reach that are searched with one
+constexpr std::size_t kEvery = 3;    // keyframes, 12 m: drives that cross are near each other on so much way
 constexpr double kSight = 14;        // m of way: keyframes farther off see little of what is searched
 
 Matrix6d withCommonErrors(Matrix6d covariance)
@@ -72,9 +73,19 @@ std::optional<FoundKeyframe> LoopSearch::findAnywhere(const std::vector<SiteKeyf
                                                       const std::vector<std::size_t>& of) const
 {
   PlaceSearch search(mapOf(keyframes, in), settings_, rig_.lidars());
-  for (const std::size_t i : of)
-    if (const SearchedPlace found = search.add(inSite(keyframes, i)); found.outcome == PlaceOutcome::Found)
-      return FoundKeyframe{i, found.place->map_T_body};
+  bool waits_for_second = false;
+  for (std::size_t i = 0; i < of.size(); ++i)
+  {
+    const Keyframe keyframe = inSite(keyframes, of[i]);
+    if (!waits_for_second && (i + 1) % kEvery != 0 && i + 1 < of.size())
+    {
+      search.see(keyframe);
+      continue;
+    }
+    const SearchedPlace found = search.add(keyframe);
+    if (found.outcome == PlaceOutcome::Found) return FoundKeyframe{of[i], found.place->map_T_body};
+    waits_for_second = found.outcome == PlaceOutcome::Unconfirmed;
+  }
   return std::nullopt;
 }
 }  // namespace scanloom

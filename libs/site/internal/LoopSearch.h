@@ -30,7 +30,10 @@ class LoopSearch
   Loop search(const std::vector<SiteKeyframe>&, std::size_t from, std::size_t to, const Rigid& guess,
               double reach) const;
 
-  /** Keyframes `of`, one after the other, anywhere in the map of those `in`: the first that is found. */
+  /**
+   * Keyframes `of`, every third with the two before it, anywhere in the map of those `in`: the first that is found, and
+   * confirmed by the next one.
+   */
   std::optional<FoundKeyframe> findAnywhere(const std::vector<SiteKeyframe>&, const std::vector<std::size_t>& in,
                                             const std::vector<std::size_t>& of) const;
 

@@ -50,9 +50,9 @@ MrptScene::Ptr someScene()
 
 std::filesystem::path writeSimpleMap(const std::filesystem::path& path)
 {
-  SimpleMapBuilder builder(lidarsOfHeader(), CloudClass::CPointsMapXYZI);
-  builder.add({someKeyframe()});
-  builder.write(path);
+  SimpleMapWriter writer(path, lidarsOfHeader(), CloudClass::CPointsMapXYZI);
+  writer.add({someKeyframe()});
+  writer.close();
   return path;
 }
 

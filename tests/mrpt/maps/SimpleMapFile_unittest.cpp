@@ -1,14 +1,18 @@
 #include "mrpt/maps/SimpleMapFile.h"
 
 #include "input/rawlogs/Conversions.h"
+#include "mrpt/maps/SimpleMapReader.h"
 #include "mrpt/observations/CGenericPointsMap.h"
 #include "mrpt/observations/registerClasses.h"
 #include "support/TemporaryFolder.h"
+#include "support/peakMemory.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/maps/CPointsMapXYZI.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+
+#include <cmath>
 
 namespace scanloom::simple_map_file_unittest
 {
@@ -29,12 +33,12 @@ Keyframe onePointOfEach()
   return keyframe;
 }
 
-TEST(SimpleMapBuilder, writesWhatMrptReadsBack)
+TEST(SimpleMapWriter, writesWhatMrptReadsBack)
 {
   const TemporaryFolder folder;
-  SimpleMapBuilder builder(twoLidars(), CloudClass::CPointsMapXYZI);
-  builder.add({onePointOfEach()});
-  builder.write(folder / "keyframes.simplemap");
+  SimpleMapWriter writer(folder / "keyframes.simplemap", twoLidars(), CloudClass::CPointsMapXYZI);
+  writer.add({onePointOfEach()});
+  writer.close();
 
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile((folder / "keyframes.simplemap").string()));
@@ -55,13 +59,13 @@ TEST(SimpleMapBuilder, writesWhatMrptReadsBack)
   EXPECT_LT((fromMrpt(right->sensorPose) * p - Eigen::Vector3d(5, 0, 0)).norm(), 1e-6) << "sensorPose * point is body";
 }
 
-TEST(SimpleMapBuilder, writesTheClassWithAllFieldsUnlessAskedForTheOther)
+TEST(SimpleMapWriter, writesTheClassWithAllFieldsUnlessAskedForTheOther)
 {
   const TemporaryFolder folder;
   registerClasses();
-  SimpleMapBuilder builder(twoLidars());
-  builder.add({onePointOfEach()});
-  builder.write(folder / "keyframes.simplemap");
+  SimpleMapWriter writer(folder / "keyframes.simplemap", twoLidars());
+  writer.add({onePointOfEach()});
+  writer.close();
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile((folder / "keyframes.simplemap").string()));
   const auto right = map.begin()->sf->getObservationByIndexAs<mrpt::obs::CObservationPointCloud::Ptr>(1);
@@ -72,15 +76,15 @@ TEST(SimpleMapBuilder, writesTheClassWithAllFieldsUnlessAskedForTheOther)
   EXPECT_EQ(cloud->getPointsBufferRef_float_field("t")->at(0), 0) << "deskewed";
 }
 
-TEST(SimpleMapBuilder, givesTheErrorOfThePoseAlongTheMapsAxesAndInItsAngles)
+TEST(SimpleMapWriter, givesTheErrorOfThePoseAlongTheMapsAxesAndInItsAngles)
 {
   const TemporaryFolder folder;
-  SimpleMapBuilder builder(twoLidars(), CloudClass::CPointsMapXYZI);
+  SimpleMapWriter writer(folder / "keyframes.simplemap", twoLidars(), CloudClass::CPointsMapXYZI);
   MeasuredKeyframe measured{onePointOfEach()};
   measured.keyframe.map_T_body = Rigid::fromXyzYawPitchRoll(7, 8, 9, M_PI / 2, 0, 0);
   measured.covariance.diagonal() << 0.04, 0.01, 0.09, 1e-4, 4e-4, 9e-4;  // ahead, left, up, about them
-  builder.add(measured);
-  builder.write(folder / "keyframes.simplemap");
+  writer.add(measured);
+  writer.close();
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile((folder / "keyframes.simplemap").string()));
   const auto covariance = map.begin()->pose->getCovariance();
@@ -92,15 +96,15 @@ TEST(SimpleMapBuilder, givesTheErrorOfThePoseAlongTheMapsAxesAndInItsAngles)
   EXPECT_NEAR(covariance(5, 5), 1e-4, 1e-9) << "roll";
 }
 
-TEST(SimpleMapBuilder, addsTheReadingOfTheImu)
+TEST(SimpleMapWriter, addsTheReadingOfTheImu)
 {
   const TemporaryFolder folder;
-  SimpleMapBuilder builder(twoLidars(), CloudClass::CPointsMapXYZI);
+  SimpleMapWriter writer(folder / "keyframes.simplemap", twoLidars(), CloudClass::CPointsMapXYZI);
   MeasuredKeyframe measured{onePointOfEach()};
   const ImuSample sample{measured.keyframe.stamp, {0.1, 0.2, 0.3}, {0, 0, 9.81}};
   measured.imu = RecordedImu{sample, Rigid::fromXyzYawPitchRoll(0.2, 0, 0, 0, 0, 0), "imu"};
-  builder.add(measured);
-  builder.write(folder / "keyframes.simplemap");
+  writer.add(measured);
+  writer.close();
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile((folder / "keyframes.simplemap").string()));
   const auto imu = map.begin()->sf->getObservationByClass<mrpt::obs::CObservationIMU>();
@@ -112,22 +116,40 @@ TEST(SimpleMapBuilder, addsTheReadingOfTheImu)
   EXPECT_EQ(map.begin()->sf->size(), 3U);
 }
 
-TEST(SimpleMapBuilder, writesTheSameBytesForTheSameKeyframes)
+TEST(SimpleMapWriter, writesTheSameBytesForTheSameKeyframes)
 {
   const TemporaryFolder folder;
   for (const char* name : {"a", "b"})
   {
-    SimpleMapBuilder builder(twoLidars());
-    builder.add({onePointOfEach()});
-    builder.write(folder / name);
+    SimpleMapWriter writer(folder / name, twoLidars());
+    writer.add({onePointOfEach()});
+    writer.close();
   }
   EXPECT_EQ(contentOf(folder / "a"), contentOf(folder / "b"));
 }
 
-TEST(SimpleMapBuilder, refusesAPointOfAnUnknownLidar)
+TEST(SimpleMapWriter, holdsNoKeyframeThatItHasWritten)
 {
-  SimpleMapBuilder builder({twoLidars().front()});
-  EXPECT_THROW(builder.add({onePointOfEach()}), std::invalid_argument);
+  const TemporaryFolder folder;
+  MeasuredKeyframe measured{onePointOfEach()};
+  measured.keyframe.points.resize(50'000);  // more than 1 MB
+  for (std::size_t i = 0; i < measured.keyframe.points.size(); ++i)
+    measured.keyframe.points.x[i] = std::sin(static_cast<float>(i));
+  SimpleMapWriter writer(folder / "keyframes.simplemap", twoLidars());
+  constexpr std::uint32_t kKeyframes = 60;
+  for (int i = 0; i < 10; ++i) writer.add(measured);
+  const long before = peakMegabytes();
+  for (std::uint32_t i = 10; i < kKeyframes; ++i) writer.add(measured);
+  writer.close();
+  EXPECT_LT(peakMegabytes() - before, 20);
+  EXPECT_EQ(SimpleMapReader(folder / "keyframes.simplemap").size(), kKeyframes);
+}
+
+TEST(SimpleMapWriter, refusesAPointOfAnUnknownLidar)
+{
+  const TemporaryFolder folder;
+  SimpleMapWriter writer(folder / "keyframes.simplemap", {twoLidars().front()});
+  EXPECT_THROW(writer.add({onePointOfEach()}), std::invalid_argument);
 }
 }  // namespace
 }  // namespace scanloom::simple_map_file_unittest

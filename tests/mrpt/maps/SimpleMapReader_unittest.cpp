@@ -49,7 +49,7 @@ TEST(SimpleMapReader, readsWhatAnotherProgramWrote)
   EXPECT_LT((keyframe.map_T_body * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(7, 9, 9)).norm(), 1e-9);
 }
 
-TEST(SimpleMapReader, givesBackWhatTheBuilderWasGiven)
+TEST(SimpleMapReader, givesBackWhatTheWriterWasGiven)
 {
   const TemporaryFolder folder;
   const std::vector<MountedLidar> lidars{{"left", Rigid::fromXyzYawPitchRoll(1.5, 1.2, 2.5, 0.5, 0.2, -0.4)},
@@ -59,9 +59,9 @@ TEST(SimpleMapReader, givesBackWhatTheBuilderWasGiven)
   written.points.x = {4, 5, 6};
   written.points.intensity = {51, 255, 0};
   written.points.sensor_id = {0, 1, 1};
-  SimpleMapBuilder builder(lidars);
-  builder.add({written});
-  builder.write(folder / "keyframes.simplemap");
+  SimpleMapWriter writer(folder / "keyframes.simplemap", lidars);
+  writer.add({written});
+  writer.close();
 
   const SimpleMapReader reader(folder / "keyframes.simplemap");
   ASSERT_EQ(reader.lidars().size(), 2U);
@@ -200,9 +200,9 @@ std::string ownMap(const TemporaryFolder& folder)
   Keyframe keyframe{fromNanoseconds(1'750'000'000'000'000'100), Rigid::fromXyzYawPitchRoll(7, 8, 9, 1, 0, 0), {}};
   keyframe.points.resize(2);
   keyframe.points.sensor_id = {0, 1};
-  SimpleMapBuilder builder({{"left", {}}, {"right", {}}});
-  builder.add({keyframe});
-  builder.write(folder / "own.simplemap");
+  SimpleMapWriter writer(folder / "own.simplemap", {{"left", {}}, {"right", {}}});
+  writer.add({keyframe});
+  writer.close();
   return uncompressed(folder / "own.simplemap");
 }
 

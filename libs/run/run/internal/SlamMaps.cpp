@@ -25,7 +25,7 @@ SlamMaps::SlamMaps(const std::filesystem::path& folder, const std::vector<Record
   : folder_(folder),
     ply_(folder / "map.ply"),
     table_(folder / "keyframes.csv"),
-    simple_map_(mountedLidars(lidars), of_keyframes),
+    simple_map_(folder / kSimpleMap, mountedLidars(lidars), of_keyframes),
     octomap_(std::in_place, octomap, posesOf(mountedLidars(lidars))),
     picture_(MapPictureOptions{}),
     queue_(kMostWaitingMaps),
@@ -88,7 +88,7 @@ void SlamMaps::writeAll(const Trajectory& path)
 {
   attempt(kPly, [&] { ply_.close(); });
   attempt(kSimpleMap, [&] { table_.close(); });
-  attempt(kSimpleMap, [&] { simple_map_.write(folder_ / kSimpleMap); });
+  attempt(kSimpleMap, [&] { simple_map_.close(); });
   attempt(kOctoMaps, [&] { std::move(*octomap_).write(folder_ / "map.bt", folder_ / "map.ot"); });
   if (path.empty()) return;
   attempt(kPicture, [&] { picture_.write(folder_ / kPicture, {path}, "map at breast height"); });

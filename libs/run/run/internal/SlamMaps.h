@@ -60,7 +60,7 @@ class SlamMaps
   std::filesystem::path folder_;
   CloudWriter ply_;
   KeyframeTableWriter table_;
-  SimpleMapBuilder simple_map_;
+  SimpleMapWriter simple_map_;
   std::optional<OctoMapBuilder> octomap_;  // none once it is given up, for its memory
   MapPicture picture_;
   StageTimes times_;                             // of the thread
