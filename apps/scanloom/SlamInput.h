@@ -1,7 +1,6 @@
 /** What `slam` reads: its settings, and its sensors. */
 #pragma once
 #include "Arguments.h"
-#include "mrpt/maps/OctoMapExport.h"
 #include "mrpt/observations/openInput.h"
 #include "run/run/OutputOptions.h"
 #include "run/run/SlamRun.h"
@@ -16,14 +15,12 @@ namespace scanloom
 struct SlamVerbSettings : SlamSettings
 {
   OutputOptions output;
-  OctoMapOptions octomap;
 
   template <typename Self, typename Visitor>
   static void sections(Self& s, Visitor&& visit)
   {
     SlamSettings::sections(s, visit);
     visit(s.output, Section{"output", "the files that 'slam' writes"});
-    visit(s.octomap, Section{"octomap", "the occupancy map (OctoMap)"});
   }
 };
 

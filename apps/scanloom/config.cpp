@@ -70,7 +70,7 @@ std::string tableOfFirstKeys(const Schema& known)
       {"lidars", "scan_rate"},  {"lidars", "deadline_ms"},
       {"slam", "imu"},          {"crop", "min_x"},
       {"crop", "max_range"},    {"map_cells", "cell_size"},
-      {"output", "maps"},       {"octomap", "resolution"},
+      {"output", "maps"},       {"output", "dense_map"},
   };
   std::string table = "| key | default | unit | meaning |\n|---|---|---|---|\n";
   for (const auto& [section, key] : kFirst)

@@ -178,7 +178,7 @@ int process(const SlamInput& input, const SlamArguments& arguments, const Loaded
   const SlamVerbSettings& settings = loaded.settings;
   OutputFolder folder(arguments.output.folder);
   writeAtomically(folder.running() / kConfigurationFile, [&](std::ostream& file) { file << toIni(loaded); });
-  SlamFiles files(folder.running(), input.sensors->setup().header.lidars, settings.output, settings.octomap);
+  SlamFiles files(folder.running(), input.sensors->setup().header.lidars, settings.output);
   const GivenMap map = givenMap(arguments, settings);
   if (arguments.grow) files.grow(keyframesOf(arguments.map), map.map->lidars());
   SlamRunResult result =

@@ -185,10 +185,10 @@ TEST(ExperimentVerb, refusesAParameterThatNoVerbHas)
   const TemporaryFolder folder;
 
   const Ended ended =
-      experiment(folder, "--set experiment.axis1_name=octomap.resolutoin --set experiment.axis1_values=1");
+      experiment(folder, "--set experiment.axis1_name=map_cells.cell_sise --set experiment.axis1_values=1");
 
   EXPECT_EQ(ended.status, 2);
-  EXPECT_THAT(ended.output, HasSubstr("did you mean 'resolution'"));
+  EXPECT_THAT(ended.output, HasSubstr("did you mean 'cell_size'"));
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

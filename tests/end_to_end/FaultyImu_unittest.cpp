@@ -138,7 +138,7 @@ LeftBehind localise(const Fault& fault, const std::vector<int>& imus = {SensorIm
 {
   const TemporaryFolder folder;
   FaultyInput input(fault, imus);
-  SlamFiles files(folder.path(), input.setup().header.lidars, OutputOptions{false, "", 0}, {});
+  SlamFiles files(folder.path(), input.setup().header.lidars, OutputOptions{false, "", 0});
   LeftBehind outcome;
   const SlamRunResult result = runSlam(
       input, harvesterSettings(), [&](const StateEstimate& estimate) { files.add(estimate); },

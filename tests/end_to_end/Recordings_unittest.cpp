@@ -21,10 +21,7 @@ namespace
 RunSummary localise(SensorInput& input, const std::filesystem::path& folder,
                     const SlamSettings& settings = harvesterSettings())
 {
-  OctoMapOptions coarse;  // not what is looked at here
-  coarse.resolution = 1;
-  coarse.max_range = 5;
-  SlamFiles files(folder, input.setup().header.lidars, {}, coarse);
+  SlamFiles files(folder, input.setup().header.lidars, {});
   SlamRunResult result = runSlam(
       input, settings, [&](const StateEstimate& estimate) { files.add(estimate); },
       [](const RunProgress&) { return true; }, [](const std::string& warning) { ADD_FAILURE() << warning; });
@@ -86,8 +83,7 @@ TEST(Recordings, everyScanGetsAPoseAtItsEndAndASecondRunGivesTheSameBytes)
   const Trajectory trajectory = readTum(first / "trajectory.tum");
   EXPECT_EQ(trajectory.size(), summary.counts.at("scans"));
   for (std::size_t i = 1; i < trajectory.size(); ++i) EXPECT_EQ(trajectory[i].stamp - trajectory[i - 1].stamp, 100ms);
-  for (const char* name :
-       {"trajectory.tum", "trajectory_imu.tum", "trajectory.csv", "map.ply", "map.ot", "keyframes.simplemap"})
+  for (const char* name : {"trajectory.tum", "trajectory_imu.tum", "trajectory.csv", "map.ply", "keyframes.simplemap"})
     EXPECT_EQ(contentOf(first / name), contentOf(second / name)) << name;
 }
 

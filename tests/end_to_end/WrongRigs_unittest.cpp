@@ -60,7 +60,7 @@ struct Told
 Told localise(SensorInput& input, const std::filesystem::path& folder)
 {
   Told told;
-  SlamFiles files(folder, input.setup().header.lidars, OutputOptions{false, "", 0}, {});
+  SlamFiles files(folder, input.setup().header.lidars, OutputOptions{false, "", 0});
   const SlamRunResult result = runSlam(
       input, harvesterSettings(), [&](const StateEstimate& estimate) { files.add(estimate); },
       [](const RunProgress&) { return true; }, [&](const std::string& warning) { told.warnings.push_back(warning); });

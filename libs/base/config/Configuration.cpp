@@ -16,7 +16,6 @@ namespace scanloom
 namespace
 {
 constexpr const char* kCommandLine = "--set";
-constexpr const char* kRemoved = " is a constant now, no key: leave it out";
 
 /** The section of rawlog-grabber's own keys, in files that both programs read. */
 constexpr std::string_view kGrabberSection = "global";
@@ -179,8 +178,9 @@ std::vector<std::string> Configuration::unknownKeys(const std::string& section, 
     if (std::any_of(names.begin(), names.end(), [&](const std::string& name) { return sameName(name, key); })) continue;
     const std::string where = fmt::format("{}: [{}] {}", toString(place(section, key)), section, key);
     const std::string earlier_key = elementOf(known.list, key) ? key.substr(key.find('_', known.list.size()) + 1) : key;
-    problems.push_back(isConstantNow(earlier_section, earlier_key) ? where + kRemoved
-                                                                   : unknown(where + " is an unknown key", key, names));
+    const std::string_view removed = adviceOnRemoved(earlier_section, earlier_key);
+    problems.push_back(removed.empty() ? unknown(where + " is an unknown key", key, names)
+                                       : fmt::format("{} {}", where, removed));
   }
   return problems;
 }
@@ -203,8 +203,9 @@ void Configuration::refuseUnknown(const Schema& known) const
     std::vector<std::string> names;
     for (const SectionDescription& each : known) names.push_back(each.section.name);
     const std::string where = fmt::format("{}: [{}]", toString(keys.entries.begin()->second.place), keys.name);
-    problems.push_back(isConstantNow(keys.name) ? where + kRemoved
-                                                : unknown(where + " is an unknown section", keys.name, names));
+    const std::string_view removed = adviceOnRemoved(keys.name);
+    problems.push_back(removed.empty() ? unknown(where + " is an unknown section", keys.name, names)
+                                       : fmt::format("{} {}", where, removed));
   }
   refuse(problems);
 }

@@ -3,7 +3,6 @@
  * and the line from the lidar that measured it as free. Lines from one common origin would mark parts of stems as free.
  */
 #pragma once
-#include "base/core/Field.h"
 #include "base/core/Keyframe.h"
 
 #include <cstdint>
@@ -22,23 +21,8 @@ namespace scanloom
 {
 struct OctoMapOptions
 {
-  double resolution = 0.1;
-  double max_range = 20.0;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.resolution, Field{"resolution", "m", "edge of a voxel", between(0.005, 10)});
-    visit(o.max_range,
-          Field{"max_range", "m", "a farther point marks only the first part of its line, up to this range, as free",
-                between(0.1, 500)});
-  }
-
-  template <typename Self, typename Visitor>
-  static void order(const Self& o, Visitor&& visit)
-  {
-    visit("resolution", o.resolution, "max_range", o.max_range);
-  }
+  double resolution = 0.1;  // m, edge of a voxel
+  double max_range = 20.0;  // m: a farther point marks only the first part of its line, up to this range, as free
 };
 
 /** preview 0.2 m / 30 m, inventory 0.1 m / 20 m, fine 0.05 m / 15 m; throws std::invalid_argument on another name. */

@@ -16,8 +16,7 @@ struct OutputOptions
   template <typename Self, typename Visitor>
   static void fields(Self& o, Visitor&& visit)
   {
-    visit(o.maps,
-          Field{"maps", "", "false: write trajectories and summary only, no keyframes, clouds, occupancy or picture"});
+    visit(o.maps, Field{"maps", "", "false: write trajectories and summary only, no keyframes, clouds or picture"});
     visit(o.keyframe_class,
           Field{"keyframe_class", "",
                 "of the clouds in keyframes.simplemap: CGenericPointsMap (MRPT from 2.15.3 on; older ones with the "

@@ -66,8 +66,8 @@ std::vector<std::string> SlamFiles::names(const OutputOptions& output)
 }
 
 SlamFiles::SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>& lidars,
-                     const OutputOptions& output, const OctoMapOptions& octomap)
-  : folder_(created(folder)), lidars_(lidars), output_(output), octomap_(octomap), csv_(folder / "trajectory.csv")
+                     const OutputOptions& output)
+  : folder_(created(folder)), lidars_(lidars), output_(output), csv_(folder / "trajectory.csv")
 {
   csv_.stream() << "stamp_ns,health,registration,overlap,score,iterations,points,keyframe,scan_complete,imu_complete,"
                    "surprise,trusted,recovered,sigma_x,sigma_y,sigma_z,sigma_rx,sigma_ry,sigma_rz,correction_m,"
@@ -82,8 +82,7 @@ void SlamFiles::begin()
   trajectory_.reset(), trajectory_imu_.reset(), maps_.reset(), dense_map_.reset();
   trajectory_.emplace(folder_ / "trajectory.tum");
   trajectory_imu_.emplace(folder_ / "trajectory_imu.tum");
-  if (output_.maps)
-    maps_.emplace(folder_, lidars_, octomap_, cloudClassFromName(output_.keyframe_class, "keyframe_class"));
+  if (output_.maps) maps_.emplace(folder_, lidars_, cloudClassFromName(output_.keyframe_class, "keyframe_class"));
   if (!output_.dense_map.empty()) dense_map_.emplace(folder_, output_);
 }
 
@@ -94,7 +93,7 @@ void SlamFiles::grow(const std::filesystem::path& keyframes, const std::vector<M
   earlier_ = earlier;
 }
 
-/** At the end: an occupancy map takes seconds for a keyframe, which live lidars do not wait for. */
+/** At the end: live lidars do not wait for a map to be read. */
 void SlamFiles::addEarlierKeyframes()
 {
   const SimpleMapReader reader(earlier_->file);

@@ -29,8 +29,7 @@ class SlamFiles
   static std::vector<std::string> names(const OutputOptions&);
 
   /** Creates the folder. Throws std::runtime_error on failure, and as DenseMap does. */
-  SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OutputOptions&,
-            const OctoMapOptions&);
+  SlamFiles(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OutputOptions&);
 
   /**
    * The maps hold the keyframes of an earlier run, too, if the drive is found in its map. `lidars`: that run's, by the
@@ -68,7 +67,6 @@ class SlamFiles
   std::filesystem::path folder_;
   std::vector<RecordedLidar> lidars_;
   OutputOptions output_;
-  OctoMapOptions octomap_;
   std::optional<TumWriter> trajectory_, trajectory_imu_;  // there always is one
   OutputFile csv_;
   bool in_map_ = false;  // the frame of the files is that of an earlier run's map

@@ -46,20 +46,26 @@ constexpr Keys kKeys[] = {
     {"simulated_total_station", " rate noise angle_noise x y height "},
 };
 
+constexpr std::string_view kIsConstant = "is a constant now, no key: leave it out";
+constexpr std::string_view kOctomap =
+    "was removed: `scanloom map -i keyframes.simplemap -o map.bt` writes the occupancy map, by --preset";
 }  // namespace
 
-bool isConstantNow(std::string_view section, std::string_view key)
+std::string_view adviceOnRemoved(std::string_view section, std::string_view key)
 {
-  return std::any_of(std::begin(kKeys), std::end(kKeys),
-                     [&](const Keys& gone) {
-                       return sameName(section, gone.section) &&
-                              gone.keys.find(fmt::format(" {} ", key)) != std::string_view::npos;
-                     });
+  const bool is_gone = std::any_of(std::begin(kKeys), std::end(kKeys),
+                                   [&](const Keys& gone) {
+                                     return sameName(section, gone.section) &&
+                                            gone.keys.find(fmt::format(" {} ", key)) != std::string_view::npos;
+                                   });
+  return is_gone ? kIsConstant : "";
 }
 
-bool isConstantNow(std::string_view section)
+std::string_view adviceOnRemoved(std::string_view section)
 {
-  return std::any_of(std::begin(kSections), std::end(kSections),
-                     [&](std::string_view gone) { return sameName(section, gone); });
+  if (sameName(section, "octomap")) return kOctomap;
+  const bool is_gone = std::any_of(std::begin(kSections), std::end(kSections),
+                                   [&](std::string_view gone) { return sameName(section, gone); });
+  return is_gone ? kIsConstant : "";
 }
 }  // namespace scanloom

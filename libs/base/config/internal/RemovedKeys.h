@@ -4,9 +4,10 @@
 
 namespace scanloom
 {
-/** Whether an earlier version had this key; that of a list without its prefix lidarN_. */
-bool isConstantNow(std::string_view section, std::string_view key);
+/** What to do about a key that an earlier version had, that of a list without its prefix lidarN_; empty: none had it.
+ */
+std::string_view adviceOnRemoved(std::string_view section, std::string_view key);
 
-/** The same of all keys of a section. */
-bool isConstantNow(std::string_view section);
+/** The same of a section. */
+std::string_view adviceOnRemoved(std::string_view section);
 }  // namespace scanloom

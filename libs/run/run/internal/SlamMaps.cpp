@@ -11,22 +11,17 @@ namespace scanloom
 namespace
 {
 constexpr std::size_t kMostWaitingMaps = 8;
-constexpr const char *kPly = "map.ply", *kSimpleMap = "keyframes.simplemap", *kOctoMaps = "map.bt, map.ot",
-                     *kPicture = "map.png";
+constexpr const char *kPly = "map.ply", *kSimpleMap = "keyframes.simplemap", *kPicture = "map.png";
 }  // namespace
 
-std::vector<std::string> SlamMaps::names()
-{
-  return {"keyframes.simplemap", "keyframes.csv", "map.ply", "map.bt", "map.ot", "map.png"};
-}
+std::vector<std::string> SlamMaps::names() { return {"keyframes.simplemap", "keyframes.csv", "map.ply", "map.png"}; }
 
 SlamMaps::SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>& lidars,
-                   const OctoMapOptions& octomap, CloudClass of_keyframes)
+                   CloudClass of_keyframes)
   : folder_(folder),
     ply_(folder / "map.ply"),
     table_(folder / "keyframes.csv"),
     simple_map_(folder / kSimpleMap, mountedLidars(lidars), of_keyframes),
-    octomap_(std::in_place, octomap, posesOf(mountedLidars(lidars))),
     picture_(MapPictureOptions{}),
     queue_(kMostWaitingMaps),
     drawn_(std::async(std::launch::async, [this] { draw(); }))
@@ -79,8 +74,6 @@ void SlamMaps::addToAll(const MeasuredKeyframe& measured)
   { attempt(files, [&] { times_.measure(stage, step); }); };
   add("output.ply", kPly, [&] { ply_.add(keyframe.points, keyframe.stamp, keyframe.map_T_body); });
   add("output.simplemap", kSimpleMap, [&] { simple_map_.add(measured); });
-  add("output.octomap", kOctoMaps, [&] { octomap_->add(keyframe); });
-  if (failures_.count(kOctoMaps) > 0) octomap_.reset();
   add("output.picture", kPicture, [&] { picture_.add(keyframe); });
 }
 
@@ -89,7 +82,6 @@ void SlamMaps::writeAll(const Trajectory& path)
   attempt(kPly, [&] { ply_.close(); });
   attempt(kSimpleMap, [&] { table_.close(); });
   attempt(kSimpleMap, [&] { simple_map_.close(); });
-  attempt(kOctoMaps, [&] { std::move(*octomap_).write(folder_ / "map.bt", folder_ / "map.ot"); });
   if (path.empty()) return;
   attempt(kPicture, [&] { picture_.write(folder_ / kPicture, {path}, "map at breast height"); });
 }

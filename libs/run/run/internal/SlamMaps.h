@@ -6,7 +6,6 @@
 #include "input/rig/RecordingHeader.h"
 #include "mrpt/maps/KeyframeTable.h"
 #include "mrpt/maps/MapPicture.h"
-#include "mrpt/maps/OctoMapExport.h"
 #include "mrpt/maps/SimpleMapFile.h"
 #include "run/run/internal/RunSummary.h"
 
@@ -20,7 +19,7 @@
 
 namespace scanloom
 {
-/** keyframes.simplemap and keyframes.csv, map.ply, map.bt, map.ot and map.png, all in the map frame. */
+/** keyframes.simplemap and keyframes.csv, map.ply and map.png, all in the map frame. */
 class SlamMaps
 {
  public:
@@ -28,15 +27,14 @@ class SlamMaps
   static std::vector<std::string> names();
 
   /** Throws std::runtime_error if the folder cannot be written. */
-  SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, const OctoMapOptions&,
-           CloudClass of_keyframes);
+  SlamMaps(const std::filesystem::path& folder, const std::vector<RecordedLidar>&, CloudClass of_keyframes);
   SlamMaps(const SlamMaps&) = delete;
   SlamMaps& operator=(const SlamMaps&) = delete;
   ~SlamMaps();
 
   /**
-   * Keyframes are drawn by a thread of their own, in order, because an occupancy map takes seconds for one. Waits while
-   * eight of them wait.
+   * Keyframes are written by a thread of their own, in order: a scan does not wait for a disk. Waits while eight of
+   * them wait.
    */
   void add(MeasuredKeyframe, const KeyframeRow&);
 
@@ -45,7 +43,7 @@ class SlamMaps
 
   /**
    * Waits for the last keyframe, renames every file to its name, and adds map points and stages to the summary. A map
-   * that could not be drawn or written, for want of memory for example, is left out and named in the summary's error.
+   * that could not be written, because the disk is full for example, is left out and named in the summary's error.
    */
   void close(const Trajectory&, RunSummary&);
 
@@ -61,7 +59,6 @@ class SlamMaps
   CloudWriter ply_;
   KeyframeTableWriter table_;
   SimpleMapWriter simple_map_;
-  std::optional<OctoMapBuilder> octomap_;  // none once it is given up, for its memory
   MapPicture picture_;
   StageTimes times_;                             // of the thread
   std::map<std::string, std::string> failures_;  // by files

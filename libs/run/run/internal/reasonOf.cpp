@@ -9,7 +9,7 @@ namespace scanloom
 std::string reasonOf(const std::exception& error)
 {
   if (dynamic_cast<const std::bad_alloc*>(&error))
-    return "not enough memory: use coarser voxels ([octomap] resolution), or no maps ([output] maps = false)";
+    return "not enough memory: write no maps ([output] maps = false, no dense_map)";
   return messageIn(error.what());
 }
 }  // namespace scanloom
