@@ -69,6 +69,8 @@ class SiteBuilder
   Site made() &&
   {
     std::vector<SitePiece> all = pieces();
+    for (const SitePiece& piece : all)
+      measured_.keyframes = withCovariances(measured_, piece.keyframes, drives_, layout_);
     return {std::move(measured_.keyframes), std::move(measured_.loops), std::move(measured_.references),
             std::move(all)};
   }

@@ -159,12 +159,27 @@ class Problem
   {
     SolvedPoseGraph result;
     for (const PoseBlock& block : blocks_) result.map_T_body.push_back(poseOf(block.data()));
-    result.covariances = covariances();
+    rootOfInformation();  // throws where nothing holds the graph
     result.loops_used = loop_weights_.used();
     result.positions_used = position_weights_.used();
     for (const double square : squaresOfLoops()) result.loop_distances.push_back(std::sqrt(square));
     for (const double square : squaresOfPositions()) result.position_distances.push_back(std::sqrt(square));
     return result;
+  }
+
+  /** Blocks on the diagonal of the inverse of the information. */
+  std::vector<Matrix6d> covariances()
+  {
+    const std::unique_ptr<const Root> root = rootOfInformation();
+    const auto poses = static_cast<Eigen::Index>(6 * blocks_.size());
+    std::vector<Matrix6d> covariances;
+    for (Eigen::Index at = 0; at < poses; at += 6)
+    {
+      Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(root->cols(), 6);
+      unit.block<6, 6>(at, 0).setIdentity();
+      covariances.push_back(root->solve(unit).block<6, 6>(at, 0));
+    }
+    return covariances;
   }
 
  private:
@@ -248,21 +263,14 @@ class Problem
     return by_columns.transpose() * by_columns;
   }
 
-  /** Blocks on the diagonal of the inverse of the information. */
-  std::vector<Matrix6d> covariances()
+  using Root = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>;
+
+  std::unique_ptr<const Root> rootOfInformation()
   {
-    const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> root(information());
-    if (root.info() != Eigen::Success)
+    auto root = std::make_unique<const Root>(information());
+    if (root->info() != Eigen::Success)
       throw UnheldPoseGraph("pose graph: nothing holds some of its poses in their place");
-    const auto poses = static_cast<Eigen::Index>(6 * blocks_.size());
-    std::vector<Matrix6d> covariances;
-    for (Eigen::Index at = 0; at < poses; at += 6)
-    {
-      Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(root.cols(), 6);
-      unit.block<6, 6>(at, 0).setIdentity();
-      covariances.push_back(root.solve(unit).block<6, 6>(at, 0));
-    }
-    return covariances;
+    return root;
   }
 
   const PoseGraph& graph_;
@@ -285,5 +293,11 @@ SolvedPoseGraph solved(const PoseGraph& graph)
   Problem problem(graph);
   problem.solve();
   return problem.result();
+}
+
+std::vector<Matrix6d> covariancesOf(const PoseGraph& graph)
+{
+  requireSound(graph);
+  return Problem(graph).covariances();
 }
 }  // namespace scanloom

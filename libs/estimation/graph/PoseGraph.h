@@ -62,7 +62,6 @@ struct PoseGraph
 struct SolvedPoseGraph
 {
   std::vector<Rigid> map_T_body;
-  std::vector<Matrix6d> covariances;  // of boxMinus(truth, map_T_body); of `fixed`, zero but for the tilt
   std::vector<bool> loops_used, positions_used;
   std::vector<double> loop_distances, position_distances;  // in standard deviations, of all, used or not
 };
@@ -78,4 +77,10 @@ struct UnheldPoseGraph : std::runtime_error
  * covariance that is not positive definite, and UnheldPoseGraph.
  */
 SolvedPoseGraph solved(const PoseGraph&);
+
+/**
+ * Of boxMinus(truth, map_T_body) for each pose of a solved graph, in which all loops and positions count; of `fixed`,
+ * zero but for the tilt. The time grows with the square of the number of poses. Throws as solved().
+ */
+std::vector<Matrix6d> covariancesOf(const PoseGraph&);
 }  // namespace scanloom

@@ -16,8 +16,41 @@ namespace
 class PieceGraph
 {
  public:
-  explicit PieceGraph(const std::vector<std::size_t>& piece) : piece_(piece) {}
+  PieceGraph(const SiteMeasurements& measured, const std::vector<std::size_t>& piece,
+             const std::vector<SiteDrive>& drives, const SiteLayout& layout)
+    : piece_(piece)
+  {
+    addPoses(measured.keyframes);
+    for (std::size_t d = 0; d < drives.size(); ++d) addDrive(drives[d].keyframes(), layout.firstOf(d));
+    addLoops(measured.loops);
+    addReferences(measured.references);
+    if (references_.empty()) graph_.fixed = 0;
+  }
 
+  SiteMeasurements solved(SiteMeasurements measurements) const
+  {
+    const SolvedPoseGraph result = scanloom::solved(graph_);
+    for (std::size_t n = 0; n < piece_.size(); ++n)
+      measurements.keyframes[piece_[n]].site_T_body = result.map_T_body[n];
+    for (std::size_t n = 0; n < loops_.size(); ++n)
+    {
+      Loop& loop = measurements.loops[loops_[n]];
+      loop.distance = result.loop_distances[n];
+      if (!result.loops_used[n]) loop.decision = LoopDecision::Contradicts;
+    }
+    for (std::size_t n = 0; n < references_.size(); ++n)
+      measurements.references[references_[n]].used = result.positions_used[n];
+    return measurements;
+  }
+
+  std::vector<SiteKeyframe> withCovariances(std::vector<SiteKeyframe> keyframes) const
+  {
+    const std::vector<Matrix6d> covariances = covariancesOf(graph_);
+    for (std::size_t n = 0; n < piece_.size(); ++n) keyframes[piece_[n]].covariance = covariances[n];
+    return keyframes;
+  }
+
+ private:
   void addPoses(const std::vector<SiteKeyframe>& keyframes)
   {
     for (const std::size_t i : piece_) graph_.map_T_body.push_back(keyframes[i].site_T_body);
@@ -55,28 +88,6 @@ class PieceGraph
       }
   }
 
-  SiteMeasurements solved(SiteMeasurements measurements)
-  {
-    if (references_.empty()) graph_.fixed = 0;
-    const SolvedPoseGraph result = scanloom::solved(graph_);
-    for (std::size_t n = 0; n < piece_.size(); ++n)
-    {
-      SiteKeyframe& keyframe = measurements.keyframes[piece_[n]];
-      keyframe.site_T_body = result.map_T_body[n];
-      keyframe.covariance = result.covariances[n];
-    }
-    for (std::size_t n = 0; n < loops_.size(); ++n)
-    {
-      Loop& loop = measurements.loops[loops_[n]];
-      loop.distance = result.loop_distances[n];
-      if (!result.loops_used[n]) loop.decision = LoopDecision::Contradicts;
-    }
-    for (std::size_t n = 0; n < references_.size(); ++n)
-      measurements.references[references_[n]].used = result.positions_used[n];
-    return measurements;
-  }
-
- private:
   std::optional<std::size_t> numberOf(std::size_t keyframe) const
   {
     const auto at = std::lower_bound(piece_.begin(), piece_.end(), keyframe);
@@ -106,17 +117,6 @@ bool isIn(const std::vector<std::size_t>& piece, const ReferencePosition& refere
 {
   return std::binary_search(piece.begin(), piece.end(), reference.keyframe);
 }
-
-SiteMeasurements solvedOnce(SiteMeasurements measurements, const std::vector<std::size_t>& piece,
-                            const std::vector<SiteDrive>& drives, const SiteLayout& layout)
-{
-  PieceGraph graph(piece);
-  graph.addPoses(measurements.keyframes);
-  for (std::size_t d = 0; d < drives.size(); ++d) graph.addDrive(drives[d].keyframes(), layout.firstOf(d));
-  graph.addLoops(measurements.loops);
-  graph.addReferences(measurements.references);
-  return graph.solved(std::move(measurements));
-}
 }  // namespace
 
 SiteMeasurements solvedPiece(SiteMeasurements measurements, const std::vector<std::size_t>& piece,
@@ -124,18 +124,24 @@ SiteMeasurements solvedPiece(SiteMeasurements measurements, const std::vector<st
 {
   try
   {
-    measurements = solvedOnce(measurements, piece, drives, layout);
+    measurements = PieceGraph(measurements, piece, drives, layout).solved(measurements);
   }
   catch (const UnheldPoseGraph&)  // all its positions are refused
   {
     for (ReferencePosition& reference : measurements.references)
       if (isIn(piece, reference)) reference.used = false;
-    measurements = solvedOnce(std::move(measurements), piece, drives, layout);
+    measurements = PieceGraph(measurements, piece, drives, layout).solved(measurements);
   }
   for (ReferencePosition& reference : measurements.references)
     if (isIn(piece, reference))
       reference.residual =
           measurements.keyframes[reference.keyframe].site_T_body * reference.keyframe_p_point - reference.measured;
   return measurements;
+}
+
+std::vector<SiteKeyframe> withCovariances(const SiteMeasurements& measured, const std::vector<std::size_t>& piece,
+                                          const std::vector<SiteDrive>& drives, const SiteLayout& layout)
+{
+  return PieceGraph(measured, piece, drives, layout).withCovariances(measured.keyframes);
 }
 }  // namespace scanloom

@@ -23,4 +23,8 @@ struct SiteMeasurements
  */
 SiteMeasurements solvedPiece(SiteMeasurements, const std::vector<std::size_t>& piece, const std::vector<SiteDrive>&,
                              const SiteLayout&);
+
+/** The keyframes of a solved piece with their covariances. */
+std::vector<SiteKeyframe> withCovariances(const SiteMeasurements&, const std::vector<std::size_t>& piece,
+                                          const std::vector<SiteDrive>&, const SiteLayout&);
 }  // namespace scanloom
