@@ -74,9 +74,11 @@ struct References
 /** Files of GNSS share an origin. Throws UsageError where they do not share a frame. */
 References readReferences(const SiteArguments& arguments)
 {
-  if (arguments.references.empty() && !arguments.crs.empty())
+  if (arguments.references.empty())
+  {
+    if (arguments.crs.empty()) return {};
     throw UsageError("--crs: without --reference nothing says where in these coordinates the site is");
-  if (arguments.references.empty()) return {};
+  }
   if (arguments.lever_arm.empty())
     throw UsageError("--reference: say where prism or antenna is on the body, --lever-arm \"x y z\" in m");
   const Eigen::Vector3d lever_arm = leverArmOf(arguments.lever_arm);

@@ -236,7 +236,7 @@ SiteMap writeSite(const std::filesystem::path& folder, const Site& site, const s
   WrittenTiles written = writeTiles(folder / kTiles, site, placed, progress);
   placed.leaveOut(std::move(written.gone_voxels));
   const bool in_frame = site.pieces.front().is_in_reference_frame;
-  if (frame.grid && in_frame) writePointTiles(folder / kTiles, written.tiles, site, placed, frame);
+  if (frame.grid && in_frame) writePointTiles(folder / kTiles, written.tiles, placed, frame);
   writeGone(folder / kGone, written.gone, names);
 
   for (std::size_t p = 0; p < site.pieces.size(); ++p)
@@ -247,7 +247,7 @@ SiteMap writeSite(const std::filesystem::path& folder, const Site& site, const s
     if (p == 0) writePicture(folder / kPicture, site, drives, placed);
   }
   nlohmann::json json = toJson(site, drives, names);
-  for (const TileNumber& tile : written.tiles) json["tiles"].push_back(nameOf(tile));
+  for (const auto& [tile, near] : written.tiles) json["tiles"].push_back(nameOf(tile));
   json["tile_edge"] = kTileEdge;
   json["coordinates_less"] = {placed.offset().x(), placed.offset().y(), placed.offset().z()};
   json["gone"] = written.gone.size();

@@ -14,6 +14,7 @@
 #include "MemoryFile.h"
 #include "base/formats/SecondsText.h"
 #include "base/formats/TrajectoryReader.h"
+#include "wordsOf.h"
 
 using namespace scanloom;
 using namespace std::chrono_literals;
@@ -24,7 +25,8 @@ const std::array<std::string, 4> kBeginnings{"", "1750000000.5 1 2 3 0 0 0 1\n",
                                              "1403636579763555584,1,2,3,0.70710678,0,0,0.70710678,0.5\n",
                                              "1 0 0 1 0 1 0 2 0 0 1 3\n"};
 
-const std::array<std::string, 32> kWords{" ",
+const std::array<std::string, 33> kWords{std::string(1, '\0'),
+                                         " ",
                                          ",",
                                          "\n",
                                          "\r\n",
@@ -57,14 +59,6 @@ const std::array<std::string, 32> kWords{" ",
                                          "0 1 0 1 1 0 0 2 0 0 1 3",
                                          "\t"};
 
-std::string wordsOf(const std::string& bytes)
-{
-  std::string text;
-  for (const char byte : bytes)
-    text += byte == '\0' ? std::string(1, byte) : kWords[static_cast<unsigned char>(byte) % kWords.size()];
-  return text;
-}
-
 std::string aStampPerLine(const std::string& poses)
 {
   std::string text;
@@ -94,7 +88,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const MemoryFile poses(folder, "poses.txt"), times(folder, "poses_times.txt");
   if (size == 0) return 0;
   const std::string rest(data + 1, data + size);
-  const std::string text = kBeginnings[data[0] % kBeginnings.size()] + (data[0] & 4 ? wordsOf(rest) : rest);
+  const std::string text = kBeginnings[data[0] % kBeginnings.size()] + (data[0] & 4 ? wordsOf(rest, kWords) : rest);
   const std::size_t end = std::min(text.find('\0'), text.size());
   const std::string text_of_poses = text.substr(0, end);
   times.holding(end < text.size() ? text.substr(end + 1) : aStampPerLine(text_of_poses));

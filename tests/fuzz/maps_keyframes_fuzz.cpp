@@ -12,6 +12,7 @@
 
 #include "MemoryFile.h"
 #include "mrpt/maps/KeyframeTable.h"
+#include "wordsOf.h"
 
 using namespace scanloom;
 
@@ -21,13 +22,6 @@ const std::string kRow = "1750000000000000000,0,1,0,1,0,0,1,0,0,0,1,0,0,0,0,1,0,
 
 const std::array<std::string, 16> kWords{",", "\n",    "0",     "1", "-",  "1e-9", "nan",      "inf",
                                          "e", "1e308", "stamp", ".", kRow, "0,0,", "1,0,1,0,", kRow + "\n"};
-
-std::string wordsOf(const std::string& bytes)
-{
-  std::string text;
-  for (const char byte : bytes) text += kWords[static_cast<unsigned char>(byte) % kWords.size()];
-  return text;
-}
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
@@ -36,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const MemoryFile table(folder, "keyframes.csv");
   if (size == 0) return 0;
   const std::string rest(data + 1, data + size);
-  const std::string text = "stamp_ns,begins_map,c00\n" + (data[0] & 1 ? wordsOf(rest) : rest);
+  const std::string text = "stamp_ns,begins_map,c00\n" + (data[0] & 1 ? wordsOf(rest, kWords) : rest);
   mayThrow<std::runtime_error>(
       [&]
       {

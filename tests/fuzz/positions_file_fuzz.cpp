@@ -11,6 +11,7 @@
 
 #include "MemoryFile.h"
 #include "base/positions/TotalStation.h"
+#include "wordsOf.h"
 
 using namespace scanloom;
 
@@ -58,13 +59,6 @@ const std::array<std::string, 32> kWords{",",
                                          "P1",
                                          "\""};
 
-std::string wordsOf(const std::string& bytes)
-{
-  std::string text;
-  for (const char byte : bytes) text += kWords[static_cast<unsigned char>(byte) % kWords.size()];
-  return text;
-}
-
 void use(const PositionFile& file)
 {
   for (std::size_t i = 0; i < file.track.size(); ++i)
@@ -83,7 +77,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const MemoryFile positions(folder, "positions.csv");
   if (size == 0) return 0;
   const std::string rest(data + 1, data + size);
-  const std::string text = kHeaders[data[0] % kHeaders.size()] + (data[0] & 8 ? wordsOf(rest) : rest);
+  const std::string text = kHeaders[data[0] % kHeaders.size()] + (data[0] & 8 ? wordsOf(rest, kWords) : rest);
   mayThrow<std::invalid_argument>([&] { use(readPositionFile(positions.holding(text))); });
   return 0;
 }

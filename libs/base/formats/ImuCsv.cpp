@@ -2,6 +2,7 @@
 
 #include "base/core/Statistics.h"
 #include "base/core/Text.h"
+#include "base/core/parseWhole.h"
 #include "base/formats/SecondsText.h"
 #include "base/formats/StampUnit.h"
 
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -25,15 +25,6 @@ namespace
 constexpr std::string_view kHeading =
     "#timestamp [ns],w_RS_S_x [rad s^-1],w_RS_S_y [rad s^-1],w_RS_S_z [rad s^-1],"
     "a_RS_S_x [m s^-2],a_RS_S_y [m s^-2],a_RS_S_z [m s^-2]";
-
-template <typename Number>
-std::optional<Number> parse(std::string_view text)
-{
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 std::vector<std::string_view> cellsOf(std::string_view line)
 {
@@ -126,7 +117,7 @@ struct RawStamp
 
 std::optional<RawStamp> stampFrom(std::string_view text)
 {
-  if (const auto integer = parse<std::int64_t>(text))
+  if (const auto integer = parseWhole<std::int64_t>(text))
   {
     const bool is_far = *integer < -kFarthestStamp.count() || *integer > kFarthestStamp.count();
     return is_far ? std::nullopt : std::optional(RawStamp{*integer, std::nullopt});
@@ -150,7 +141,8 @@ std::optional<RawSample> sampleFrom(const std::vector<std::string_view>& cells, 
   RawSample raw{*stamp, {}, 0};
   for (std::size_t axis = 0; axis < 3; ++axis)
   {
-    const auto gyro = parse<double>(cells[columns.gyro[axis]]), accel = parse<double>(cells[columns.accel[axis]]);
+    const auto gyro = parseWhole<double>(cells[columns.gyro[axis]]),
+               accel = parseWhole<double>(cells[columns.accel[axis]]);
     if (!gyro || !accel || !std::isfinite(*gyro) || !std::isfinite(*accel)) return std::nullopt;
     raw.sample.gyro[static_cast<Eigen::Index>(axis)] = *gyro * columns.gyro_scale;
     raw.sample.accel[static_cast<Eigen::Index>(axis)] = *accel * columns.accel_scale;
@@ -199,7 +191,7 @@ Table readTable(const std::filesystem::path& path)
     const auto cells = cellsOf(text);
     if (const auto named = heading_may_come ? columnsOf(cells) : std::nullopt) table.columns = *named;
     if (isSkipped(text)) continue;
-    const bool is_heading = heading_may_come && !parse<double>(cells.front());
+    const bool is_heading = heading_may_come && !parseWhole<double>(cells.front());
     heading_may_come = false;
     if (is_heading) continue;
     const auto sample = sampleFrom(cells, table.columns);
@@ -234,7 +226,7 @@ bool beginsLikeImuCsv(std::string_view text)
     const std::string_view line = trimmed(text.substr(0, text.find('\n')));
     const auto cells = cellsOf(line);
     if (columnsOf(cells)) return true;
-    if (!isSkipped(line) && parse<double>(cells.front())) return isLineOfImu(cells);
+    if (!isSkipped(line) && parseWhole<double>(cells.front())) return isLineOfImu(cells);
     if (!isSkipped(line)) return false;
     text.remove_prefix(std::min(text.size(), std::min(text.find('\n'), text.size() - 1) + 1));
   }

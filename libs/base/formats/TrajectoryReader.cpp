@@ -1,5 +1,6 @@
 #include "base/formats/TrajectoryReader.h"
 
+#include "base/core/parseWhole.h"
 #include "base/formats/SecondsText.h"
 #include "base/formats/StampUnit.h"
 
@@ -7,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <fstream>
 #include <functional>
 #include <optional>
@@ -142,10 +142,8 @@ std::size_t wordsOf(const std::string& line)
 /** In which an integer stamp is a date; nothing for seconds, and for a number that is a date in no unit. */
 std::optional<StampUnit> unitOfInteger(const std::string& stamp)
 {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(stamp.data(), stamp.data() + stamp.size(), number);
-  if (error != std::errc() || end != stamp.data() + stamp.size()) return std::nullopt;
-  const std::optional<StampUnit> unit = unitByDate(number);
+  const auto number = parseWhole<std::int64_t>(stamp);
+  const std::optional<StampUnit> unit = number ? unitByDate(*number) : std::nullopt;
   return unit && unit->nanoseconds < 1'000'000'000 ? unit : std::nullopt;
 }
 

@@ -2,10 +2,10 @@
 
 #include "base/config/Values.h"
 #include "base/core/Decompositions.h"
+#include "base/core/parseWhole.h"
 
 #include <fmt/ostream.h>
 
-#include <charconv>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -26,21 +26,13 @@ std::vector<std::string> fieldsOf(const std::string& line)
   return fields;
 }
 
-std::optional<Timestamp> stampOf(const std::string& text)
-{
-  std::int64_t nanoseconds = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), nanoseconds);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return Timestamp{Duration{nanoseconds}};
-}
-
 std::optional<KeyframeRow> rowOf(const std::string& line)
 {
   const std::vector<std::string> fields = fieldsOf(line);
   if (fields.size() != 2 + kNumbers) return std::nullopt;
-  const auto stamp = stampOf(fields[0]);
+  const auto stamp = parseWhole<std::int64_t>(fields[0]);
   if (!stamp || (fields[1] != "0" && fields[1] != "1")) return std::nullopt;
-  KeyframeRow row{*stamp, fields[1] == "1"};
+  KeyframeRow row{fromNanoseconds(*stamp), fields[1] == "1"};
   std::size_t at = 2;
   for (Eigen::Index i = 0; i < 6; ++i)
     for (Eigen::Index j = 0; j <= i; ++j)

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 namespace scanloom
@@ -26,11 +25,10 @@ double distanceOf(const Eigen::Vector3d& place, const TileNumber& tile)
   return (p - p.cwiseMax(least).cwiseMin(most)).norm();
 }
 
-/** The keyframes that may see each tile, in their order. */
-std::map<TileNumber, std::vector<std::size_t>> keyframesByTile(const Site& site, const PlacedKeyframes& placed)
+KeyframesByTile keyframesByTile(const Site& site, const PlacedKeyframes& placed)
 {
   const double sight = tileOptions().max_range;
-  std::map<TileNumber, std::vector<std::size_t>> by_tile;
+  KeyframesByTile by_tile;
   for (const std::size_t i : site.pieces.front().keyframes)
   {
     const Eigen::Vector3d at = site.keyframes[i].site_T_body.translation - placed.offset();
@@ -149,7 +147,7 @@ WrittenTiles writeTiles(const std::filesystem::path& folder, const Site& site, c
                         const SiteProgress& progress)
 {
   WrittenTiles written;
-  const auto by_tile = keyframesByTile(site, placed);
+  const KeyframesByTile by_tile = keyframesByTile(site, placed);
   std::size_t done = 0;
   for (const auto& [number, near] : by_tile)
   {
@@ -164,7 +162,7 @@ WrittenTiles writeTiles(const std::filesystem::path& folder, const Site& site, c
     progress(static_cast<double>(++done) / static_cast<double>(by_tile.size()));
     if (!tile.tree) continue;
     writeBinaryOctoMap(folder / (nameOf(number) + ".bt"), *tile.tree);
-    written.tiles.push_back(number);
+    written.tiles.emplace(number, near);
   }
   written.gone = joined(written.gone);
   for (GoneThing& thing : written.gone) thing.foot += placed.offset();
@@ -172,11 +170,10 @@ WrittenTiles writeTiles(const std::filesystem::path& folder, const Site& site, c
   return written;
 }
 
-void writePointTiles(const std::filesystem::path& folder, const std::vector<TileNumber>& tiles, const Site& site,
-                     const PlacedKeyframes& placed, const SiteFrame& frame)
+void writePointTiles(const std::filesystem::path& folder, const KeyframesByTile& tiles, const PlacedKeyframes& placed,
+                     const SiteFrame& frame)
 {
-  const auto by_tile = keyframesByTile(site, placed);
-  for (const TileNumber& tile : tiles)
+  for (const auto& [tile, near] : tiles)
   {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     middle.head<2>() = cornerOf(tile).array() + kTileEdge / 2;
@@ -187,7 +184,7 @@ void writePointTiles(const std::filesystem::path& folder, const std::vector<Tile
     const Eigen::Affine3d file_T_tile =
         Eigen::Translation3d(-offset) * grid_T_site * Eigen::Translation3d(placed.offset());
     CloudWriter file(folder / (nameOf(tile) + ".las"), offset, frame.grid->wkt());
-    for (const std::size_t i : by_tile.at(tile))
+    for (const std::size_t i : near)
     {
       const Keyframe keyframe = placed.lessOffset(i);
       file.add(pointsIn(tile, keyframe, file_T_tile), keyframe.stamp, {Eigen::Quaterniond::Identity(), offset});

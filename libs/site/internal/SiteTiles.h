@@ -6,6 +6,7 @@
 #include "site/internal/PlacedKeyframes.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,9 +24,12 @@ struct TileNumber
 /** Of its files: "3_-2". */
 std::string nameOf(const TileNumber&);
 
+/** Keyframes that may see each tile, in their order. */
+using KeyframesByTile = std::map<TileNumber, std::vector<std::size_t>>;
+
 struct WrittenTiles
 {
-  std::vector<TileNumber> tiles;  // of which something is known
+  KeyframesByTile tiles;  // of which something is known
   std::vector<GoneThing> gone;
   GoneVoxels gone_voxels;
 };
@@ -34,6 +38,6 @@ struct WrittenTiles
 WrittenTiles writeTiles(const std::filesystem::path& folder, const Site&, const PlacedKeyframes&, const SiteProgress&);
 
 /** `folder`/NAME.las: its points, from which what is gone has been left out, in the coordinates of the grid. */
-void writePointTiles(const std::filesystem::path& folder, const std::vector<TileNumber>&, const Site&,
-                     const PlacedKeyframes&, const SiteFrame&);
+void writePointTiles(const std::filesystem::path& folder, const KeyframesByTile&, const PlacedKeyframes&,
+                     const SiteFrame&);
 }  // namespace scanloom

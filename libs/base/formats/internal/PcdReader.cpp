@@ -1,5 +1,6 @@
 #include "base/formats/internal/PcdReader.h"
 
+#include "base/core/parseWhole.h"
 #include "base/formats/internal/CloudText.h"
 
 #include <fmt/format.h>
@@ -52,11 +53,9 @@ constexpr std::size_t kLargestField = 1 << 20;  // bytes or elements: sums and p
 
 std::size_t parseCount(const std::string& keyword, const std::string& word, std::size_t largest)
 {
-  std::size_t count = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), count);
-  if (error != std::errc() || end != word.data() + word.size() || count > largest)
-    throw std::invalid_argument(fmt::format("{} '{}'", keyword, word));
-  return count;
+  const auto count = parseWhole<std::size_t>(word);
+  if (!count || *count > largest) throw std::invalid_argument(fmt::format("{} '{}'", keyword, word));
+  return *count;
 }
 
 /** Reads a header line with one word per field. */

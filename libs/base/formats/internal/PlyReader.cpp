@@ -1,12 +1,12 @@
 #include "base/formats/internal/PlyReader.h"
 
+#include "base/core/parseWhole.h"
 #include "base/formats/internal/CloudText.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <optional>
 #include <sstream>
@@ -95,11 +95,9 @@ Encoding encodingOf(const std::string& format)
 
 std::size_t vertexCount(const std::string& text)
 {
-  std::size_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc{} || end != text.data() + text.size())
-    throw std::invalid_argument("its number of vertices is '" + text + "'");
-  return count;
+  const auto count = parseWhole<std::size_t>(text);
+  if (!count) throw std::invalid_argument("its number of vertices is '" + text + "'");
+  return *count;
 }
 
 /** Reads up to and including "end_header". */

@@ -1,9 +1,9 @@
 #include "lab/study/internal/AxisValues.h"
 
 #include "base/core/Text.h"
+#include "base/core/parseWhole.h"
 
 #include <algorithm>
-#include <charconv>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -15,10 +15,8 @@ namespace
 template <typename Number>
 std::optional<Number> positive(const std::string& text)
 {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 1) return std::nullopt;
-  return value;
+  const auto value = parseWhole<Number>(text);
+  return value && *value >= 1 ? value : std::nullopt;
 }
 }  // namespace
 
