@@ -246,6 +246,7 @@ class Problem
     options.num_threads = 1;
     options.max_num_iterations = 50;
     options.function_tolerance = 1e-9;
+    options.initial_trust_region_radius = 1e10;  // Gauss-Newton: damping would shorten each step of a long chain
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, problem().get(), &summary);
