@@ -13,7 +13,7 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kVoxel = 0.1;  // m
+constexpr double kVoxel = 0.1;  // m, height, and width unless widened
 constexpr int kVoxelsPerGroundCell = 10;
 constexpr double kSliceBottom = 1.0;  // m above ground, around breast height (1.3 m)
 constexpr double kSliceTop = 1.6;
@@ -43,7 +43,14 @@ Voxel voxelOf(std::uint64_t key)
   return {part(0), part(1), part(2)};
 }
 
-/** Elevation of the ground in cells of 1 m: the lowest voxel of each, smoothed over its neighbours. */
+Voxel widened(const Voxel& voxel, int times)
+{
+  const int by = 1 << times;
+  const auto divided = [&](int a) { return a >= 0 ? a / by : -((-a + by - 1) / by); };
+  return {divided(voxel.x()), divided(voxel.y()), voxel.z()};
+}
+
+/** Elevation of the ground in cells of ten voxels: the lowest voxel of each, smoothed over its neighbours. */
 class Ground
 {
  public:
@@ -86,19 +93,21 @@ struct View
 {
   Eigen::Vector2d lower, upper;  // m, what is shown
   double scale;                  // pixels per metre
+  double voxel;                  // m, width
   int left, top, width, height;  // pixels
 
   Eigen::Vector2d pixel(double x, double y) const
   {
     return {left + scale * (x - lower.x()), top + scale * (upper.y() - y)};
   }
+  Eigen::Vector2d lowerCornerOf(const Voxel& at) const { return voxel * at.head<2>().cast<double>().matrix(); }
   bool shows(const Eigen::Vector2d& p) const
   {
     return (p.array() >= lower.array()).all() && (p.array() < upper.array()).all();
   }
 };
 
-View viewAround(const std::vector<Trajectory>& paths, const MapPictureOptions& options)
+View viewAround(const std::vector<Trajectory>& paths, const MapPictureOptions& options, double voxel)
 {
   Eigen::AlignedBox2d box;
   for (const Trajectory& path : paths)
@@ -112,6 +121,7 @@ View viewAround(const std::vector<Trajectory>& paths, const MapPictureOptions& o
   return {box.min() - margin,
           box.max() + margin,
           scale,
+          voxel,
           std::max(kBorder, (kLeastWidth - width) / 2),
           kTitleHeight,
           width,
@@ -120,10 +130,10 @@ View viewAround(const std::vector<Trajectory>& paths, const MapPictureOptions& o
 
 void paintCell(Canvas& canvas, const View& view, const Voxel& voxel, const Color& color, float opacity)
 {
-  const Eigen::Vector2d lower = kVoxel * voxel.head<2>().cast<double>().matrix();
+  const Eigen::Vector2d lower = view.lowerCornerOf(voxel);
   if (!view.shows(lower)) return;
-  const Eigen::Vector2d from = view.pixel(lower.x(), lower.y() + kVoxel),
-                        to = view.pixel(lower.x() + kVoxel, lower.y());
+  const Eigen::Vector2d from = view.pixel(lower.x(), lower.y() + view.voxel),
+                        to = view.pixel(lower.x() + view.voxel, lower.y());
   for (int y = std::max(view.top, static_cast<int>(from.y())); y < std::ceil(to.y()) && y < view.top + view.height; ++y)
     for (int x = static_cast<int>(from.x()); x < std::ceil(to.x()) && x < view.left + view.width; ++x)
       canvas.blend(x, y, color, opacity);
@@ -134,7 +144,7 @@ void paintMap(Canvas& canvas, const View& view, const std::vector<Voxel>& voxels
   const Ground ground(voxels);
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const Voxel& voxel : voxels)
-    if (view.shows(kVoxel * voxel.head<2>().cast<double>().matrix()))
+    if (view.shows(view.lowerCornerOf(voxel)))
     {
       lowest = std::min(lowest, ground.elevation(voxel));
       highest = std::max(highest, ground.elevation(voxel));
@@ -236,8 +246,18 @@ void MapPicture::add(const Keyframe& keyframe)
   for (std::size_t i = 0; i < keyframe.points.size(); ++i)
   {
     const Eigen::Vector3d position = keyframe.map_T_body * keyframe.points.position(i).cast<double>().eval();
-    voxels_.insert(pictureKey((position / kVoxel).array().floor().cast<int>()));
+    voxels_.insert(pictureKey(widened((position / kVoxel).array().floor().cast<int>(), widened_)));
   }
+  while (voxels_.size() > options_.most_voxels) widen();
+}
+
+/** The keyframes' order does not matter: what is left is what all of them, widened so often, have. */
+void MapPicture::widen()
+{
+  ++widened_;
+  std::unordered_set<std::uint64_t> wider;
+  for (const std::uint64_t key : voxels_) wider.insert(pictureKey(widened(voxelOf(key), 1)));
+  voxels_ = std::move(wider);
 }
 
 void MapPicture::write(const std::filesystem::path& file, const std::vector<Trajectory>& paths,
@@ -248,7 +268,7 @@ void MapPicture::write(const std::filesystem::path& file, const std::vector<Traj
   std::vector<Voxel> voxels;
   std::transform(keys.begin(), keys.end(), std::back_inserter(voxels), voxelOf);
 
-  const View view = viewAround(paths, options_);
+  const View view = viewAround(paths, options_, std::ldexp(kVoxel, widened_));
   Canvas canvas(2 * view.left + view.width, kTitleHeight + view.height + kLegendHeight, kPaper);
   canvas.text(kBorder, 12, title, Canvas::Font::Large, kInk);
   paintMap(canvas, view, voxels);

@@ -1,6 +1,5 @@
 /** A picture of the map from above: what stands at breast height, and the paths through it. */
 #pragma once
-#include "base/core/Field.h"
 #include "base/core/Keyframe.h"
 #include "base/formats/Trajectory.h"
 
@@ -14,15 +13,9 @@ namespace scanloom
 {
 struct MapPictureOptions
 {
-  double margin = 20.0;
-  int longest_side = 1600;
-
-  template <typename Self, typename Visitor>
-  static void fields(Self& o, Visitor&& visit)
-  {
-    visit(o.margin, Field{"margin", "m", "margin around the trajectory", above(0)});
-    visit(o.longest_side, Field{"longest_side", "px", "width or height of the picture", between(400, 10000)});
-  }
+  double margin = 20.0;                 // m, around the trajectory
+  int longest_side = 1600;              // px, width or height
+  std::size_t most_voxels = 8'000'000;  // 300 MB: of half a kilometre through a dense stand
 };
 
 /** A line between two places of the map. */
@@ -33,7 +26,8 @@ struct MapLink
 };
 
 /**
- * Collects the points of the keyframes as voxels of 0.1 m (memory grows with the map, not with time) and draws a PNG
+ * Collects the points of the keyframes as voxels of 0.1 m, which become twice as wide, 0.2 m, 0.4 m and so on, whenever
+ * they are too many: those of a longer drive are smaller than a pixel. Draws a PNG
  * with the map's y axis up: ground coloured by elevation, vegetation pale, points 1.0 to 1.6 m above the ground dark,
  * paths and links on top, a scale bar and a legend.
  */
@@ -49,7 +43,10 @@ class MapPicture
              const std::vector<MapLink>& links = {}) const;
 
  private:
+  void widen();
+
   MapPictureOptions options_;
+  int widened_ = 0;  // how often
   std::unordered_set<std::uint64_t> voxels_;
 };
 }  // namespace scanloom

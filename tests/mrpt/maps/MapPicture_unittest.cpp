@@ -33,10 +33,14 @@ Keyframe floorWithStem()
   return keyframe;
 }
 
-TEST(MapPicture, showsTheStemWhereItStands)
+using PictureOfVoxels = testing::TestWithParam<std::size_t>;
+INSTANTIATE_TEST_SUITE_P(All, PictureOfVoxels, testing::Values(1'000'000));
+INSTANTIATE_TEST_SUITE_P(FourTimesAsWide, PictureOfVoxels, testing::Values(9'000));
+
+TEST_P(PictureOfVoxels, showsTheStemWhereItStands)
 {
   const TemporaryFolder folder;
-  MapPicture picture({10.0, 1000});
+  MapPicture picture({10.0, 1000, GetParam()});
   picture.add(floorWithStem());
   const Trajectory path{{Timestamp{}, Rigid::identity()}, {Timestamp{1s}, Rigid{{1, 0, 0, 0}, {0, -4, 0}}}};
   picture.write(folder / "map.png", {path}, "a test");
@@ -56,7 +60,7 @@ TEST(MapPicture, showsTheStemWhereItStands)
   EXPECT_GT(brightness(kStemX - 3.3, kStemY + 1.3), 180) << "bare ground";
 }
 
-TEST(MapPicture, isTheSameForKeyframesInAnyOrder)
+TEST_P(PictureOfVoxels, isTheSameForKeyframesInAnyOrder)
 {
   const TemporaryFolder folder;
   const Trajectory path{{Timestamp{}, Rigid::identity()}};
@@ -64,7 +68,7 @@ TEST(MapPicture, isTheSameForKeyframesInAnyOrder)
   other.map_T_body.translation = {7, 0, 0.3};
   for (const bool other_first : {true, false})
   {
-    MapPicture picture({10.0, 600});
+    MapPicture picture({10.0, 600, GetParam()});
     picture.add(other_first ? other : floorWithStem());
     picture.add(other_first ? floorWithStem() : other);
     picture.write(folder / (other_first ? "a.png" : "b.png"), {path}, "a test");
