@@ -43,11 +43,12 @@ Voxel voxelOf(std::uint64_t key)
   return {part(0), part(1), part(2)};
 }
 
+int floorDivide(int a, int by) { return a / by - (a % by < 0 ? 1 : 0); }
+
 Voxel widened(const Voxel& voxel, int times)
 {
   const int by = 1 << times;
-  const auto divided = [&](int a) { return a >= 0 ? a / by : -((-a + by - 1) / by); };
-  return {divided(voxel.x()), divided(voxel.y()), voxel.z()};
+  return {floorDivide(voxel.x(), by), floorDivide(voxel.y(), by), voxel.z()};
 }
 
 /** Elevation of the ground in cells of ten voxels: the lowest voxel of each, smoothed over its neighbours. */
@@ -70,8 +71,10 @@ class Ground
  private:
   using Cell = std::pair<int, int>;
 
-  static int floorDivide(int a) { return a / kVoxelsPerGroundCell - (a % kVoxelsPerGroundCell < 0 ? 1 : 0); }
-  static Cell cellOf(const Voxel& voxel) { return {floorDivide(voxel.x()), floorDivide(voxel.y())}; }
+  static Cell cellOf(const Voxel& voxel)
+  {
+    return {floorDivide(voxel.x(), kVoxelsPerGroundCell), floorDivide(voxel.y(), kVoxelsPerGroundCell)};
+  }
 
   // Robust against an outlier below the ground, and against a cell where only a crown was seen.
   int lowerQuartileAround(const Cell& cell) const

@@ -109,10 +109,7 @@ class PieceGraph
   PoseGraph graph_;
   std::vector<std::size_t> loops_, references_;  // which of all are in the graph
 };
-}  // namespace
 
-namespace
-{
 bool isIn(const std::vector<std::size_t>& piece, const ReferencePosition& reference)
 {
   return std::binary_search(piece.begin(), piece.end(), reference.keyframe);
