@@ -123,7 +123,7 @@ class Problem
     {
       odometry_.push_back(
           std::make_unique<DriftingMotionFactor>(edge.from_T_to, edge.from_up, inverseOfPositive(edge.covariance)));
-      scales_.try_emplace(edge.stretch, Eigen::Vector2d::Zero());
+      scales_.try_emplace(edge.drive, Eigen::Vector2d::Zero());
     }
     for (const RelativePose& edge : graph.loops)
       loops_.push_back(
@@ -218,12 +218,12 @@ class Problem
     auto problem = std::make_unique<ceres::Problem>(options);
     const auto block = [&](std::size_t i) { return blocks_[i].data(); };
     for (PoseBlock& b : blocks_) problem->AddParameterBlock(b.data(), 7, &manifold_);
-    for (auto& [stretch, scale] : scales_) problem->AddResidualBlock(scale_prior_.get(), nullptr, scale.data());
+    for (auto& [drive, scale] : scales_) problem->AddResidualBlock(scale_prior_.get(), nullptr, scale.data());
     for (std::size_t i = 0; i < odometry_.size(); ++i)
     {
       const OdometryPose& edge = graph_.odometry[i];
       problem->AddResidualBlock(odometry_[i].get(), nullptr, block(edge.from), block(edge.to),
-                                scales_.at(edge.stretch).data());
+                                scales_.at(edge.drive).data());
     }
     for (std::size_t i = 0; i < ups_.size(); ++i)
       problem->AddResidualBlock(ups_[i].get(), nullptr, block(graph_.ups[i].pose));
@@ -277,7 +277,7 @@ class Problem
   const PoseGraph& graph_;
   std::vector<PoseBlock> blocks_;
   PoseManifold manifold_;
-  std::map<std::size_t, Eigen::Vector2d> scales_;  // by stretch
+  std::map<std::size_t, Eigen::Vector2d> scales_;  // by drive
   std::unique_ptr<ceres::NormalPrior> scale_prior_;
   std::vector<std::unique_ptr<DriftingMotionFactor>> odometry_;
   std::vector<std::unique_ptr<RelativePoseFactor>> loops_;

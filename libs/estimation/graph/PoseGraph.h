@@ -21,12 +21,12 @@ struct RelativePose
 };
 
 /**
- * By an odometry that errs alike for a while: on a stretch of the way all motions are too short by a share of their
- * length, and lead down by another share. Both are estimated for each stretch.
+ * By an odometry that errs alike through a drive: all motions are too short by a share of their length, and lead down
+ * by another share. Both are estimated for each drive.
  */
 struct OdometryPose : RelativePose
 {
-  std::size_t stretch = 0;
+  std::size_t drive = 0;
   Eigen::Vector3d from_up;  // which way is up in the frame `from`
 };
 

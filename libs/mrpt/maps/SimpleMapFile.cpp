@@ -2,9 +2,9 @@
 
 #include "input/rawlogs/Conversions.h"
 #include "mrpt/maps/internal/PoseCovariance.h"
-#include "mrpt/observations/readByAll.h"
 
 #include <fmt/format.h>
+#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
 #include <fcntl.h>
@@ -41,13 +41,17 @@ Scan scanOf(const Keyframe& keyframe, std::size_t lidar, const Rigid& sensor_T_b
 }
 using Bytes = std::vector<std::uint8_t>;
 
-/** A CSimpleMap that says how many keyframes follow, and holds none of them. */
-class SimpleMapWithout : public SimpleMapReadByAll
+/**
+ * A CSimpleMap that says how many keyframes follow, and holds none of them. Since 2.11.11 MRPT writes version 2, with
+ * velocities; every MRPT from 2.5 on reads version 1.
+ */
+class SimpleMapWithout : public mrpt::maps::CSimpleMap
 {
  public:
   explicit SimpleMapWithout(std::uint32_t keyframes) : keyframes_(keyframes) {}
 
  protected:
+  std::uint8_t serializeGetVersion() const override { return 1; }
   void serializeTo(mrpt::serialization::CArchive& out) const override { out << keyframes_; }
 
  private:

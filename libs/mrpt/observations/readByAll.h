@@ -5,7 +5,6 @@
 #pragma once
 #include "mrpt/observations/internal/XyziReadByAll.h"
 
-#include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/serialization/CArchive.h>
@@ -50,16 +49,4 @@ inline void writeForAll(const mrpt::obs::CObservation& observation, mrpt::serial
   else
     out << observation;
 }
-
-/** Since 2.11.11 MRPT writes version 2, which adds the velocities of keyframes. */
-class SimpleMapReadByAll : public mrpt::maps::CSimpleMap
-{
- protected:
-  std::uint8_t serializeGetVersion() const override { return 1; }
-  void serializeTo(mrpt::serialization::CArchive& out) const override
-  {
-    out.WriteAs<std::uint32_t>(size());
-    for (const auto& keyframe : *this) out << *keyframe.pose << *keyframe.sf;
-  }
-};
 }  // namespace scanloom

@@ -10,7 +10,6 @@ namespace scanloom
 namespace
 {
 constexpr std::size_t kAlignedTo = 3;           // keyframes; two simulated stands
-constexpr std::size_t kStretch = 25;            // keyframes, 100 m: what is seen there errs alike
 constexpr double kKeyframesOfOneTilt = 10;      // through which an error of the tilt lasts: slam's gravity, 40 m
 constexpr double kDriftOfAlignment = 3.0 / 14;  // of an alignment's variance, per keyframe: by the edges of odometryOf
 }  // namespace
@@ -28,7 +27,7 @@ std::vector<OdometryPose> odometryOf(const std::vector<DriveKeyframe>& keyframes
       const std::size_t from = to - back;
       edges.push_back({{first + from, first + to, keyframes[from].drive_T_body.inverse() * keyframes[to].drive_T_body,
                         static_cast<double>(count) * keyframes[to].covariance},
-                       first + to - to % kStretch,
+                       first,
                        keyframes[from].body_up});
     }
   }

@@ -11,8 +11,7 @@ namespace scanloom
  * Edges of a pose graph from each keyframe to the three before it, each with three times the covariance with which it
  * was aligned to the local map: so errors of keyframes average, as they do in that map, and grow as a random walk. With
  * more edges the graph would claim less drift than simulated drives have (doc/study/site.md). None goes across the
- * beginning of a part. Stretches of like errors are 25 keyframes long. `first`: number of the drive's first keyframe in
- * the graph.
+ * beginning of a part. `first`: number of the drive's first keyframe in the graph.
  */
 std::vector<OdometryPose> odometryOf(const std::vector<DriveKeyframe>&, std::size_t first);
 
