@@ -23,7 +23,8 @@ Finding ownPartsFinding(const LidarExamination& seen)
   if (!seen.own_parts.known)
     return {seen.name, "own parts", Verdict::NotMeasured, "only seen while the machine drives"};
   return {seen.name, "own parts", Verdict::Ok,
-          fmt::format("{:.1f} % of the points are on the machine itself", 100 * seen.own_parts.share)};
+          fmt::format("{:.1f} % of the points stay in place while the machine drives, as its parts do",
+                      100 * seen.own_parts.share)};
 }
 
 Finding groundsFinding(const LidarExamination& seen, const LidarExamination& first)

@@ -145,13 +145,14 @@ std::string cropKeys(const Eigen::AlignedBox3d& box, const char* separator)
 Finding cropFinding(const SelfReturns& parts)
 {
   if (!parts.known) return {"rig", "crop", Verdict::NotMeasured, "what is on the machine is only seen while it drives"};
-  Finding finding{
-      "rig", "crop", Verdict::Ok,
-      fmt::format("{:.1f} % of the points are on the machine and not removed by [crop]", 100 * parts.uncropped)};
+  Finding finding{"rig", "crop", Verdict::Ok,
+                  fmt::format("{:.1f} % of the points stay in place while the machine drives, and pass [crop]",
+                              100 * parts.uncropped)};
   if (parts.uncropped < kMuch || parts.box.isEmpty()) return finding;
   finding.verdict = Verdict::Warning;
-  finding.mend = fmt::format("they are in the map again with every keyframe; to remove them set [crop] {}",
-                             cropKeys(parts.box, " "));
+  finding.mend =
+      fmt::format("if they are the machine, not a ceiling or walls along the way, keep them out of the map: [crop] {}",
+                  cropKeys(parts.box, " "));
   return finding;
 }
 }  // namespace scanloom
