@@ -19,7 +19,7 @@ constexpr int kTriples = 2000;       // misses a plane with a fifth of the point
 constexpr int kRefinements = 4;
 constexpr std::size_t kFewestPoints = 100;
 constexpr double kLeastShare = 0.1;
-const double kLevel = std::cos(35 * M_PI / 180);
+const double kLevel = std::cos(35 * M_PI / 180), kUpright = std::cos(75 * M_PI / 180);
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -79,7 +79,7 @@ Found search(const Points& points, const Eigen::Vector3d& sensor)
   {
     const Eigen::Vector3d a = draw(), b = draw(), c = draw();
     std::optional<Plane> plane = through(a, b, c);
-    if (!plane) continue;
+    if (!plane || std::abs(plane->distance(sensor)) < kThickness) continue;  // a level beam draws a plane of its own
     plane->points = pointsOn(*plane, points);
     if (plane->points > found.any.points) found.any = *plane;
     if (std::abs(plane->normal.z()) < kLevel) continue;
@@ -89,12 +89,16 @@ Found search(const Points& points, const Eigen::Vector3d& sensor)
   return found;
 }
 
+bool isGround(const Plane& plane, std::size_t points)
+{
+  return plane.points >= kFewestPoints &&
+         static_cast<double>(plane.points) >= kLeastShare * static_cast<double>(points);
+}
+
 /** Under a ceiling the ground is the plane below the sensor, even if fewer points are on it. */
 const Plane& groundAmong(const Found& found, std::size_t points)
 {
-  const std::size_t enough =
-      std::max(kFewestPoints, static_cast<std::size_t>(kLeastShare * static_cast<double>(points)));
-  const Plane& level = found.below.points >= enough ? found.below : found.above;
+  const Plane& level = isGround(found.below, points) ? found.below : found.above;
   return found.any.points > 2 * std::max(found.below.points, found.above.points) ? found.any : level;
 }
 
@@ -124,13 +128,16 @@ std::optional<GroundPlane> groundPlane(const std::vector<const PointCloud*>& poi
 {
   const Points points = pointsAround(points_in_body, sensor_in_body);
   if (points.size() < kFewestPoints) return std::nullopt;
-  Plane plane = groundAmong(search(points, sensor_in_body), points.size());
+  const Found found = search(points, sensor_in_body);
+  Plane plane = groundAmong(found, points.size());
   if (plane.points < kFewestPoints) return std::nullopt;
   for (int i = 0; i < kRefinements; ++i) plane = refined(plane, points);
+  if (!isGround(plane, points.size())) return std::nullopt;
 
   GroundPlane ground;
   ground.share = static_cast<double>(plane.points) / static_cast<double>(points.size());
-  if (ground.share < kLeastShare) return std::nullopt;
+  ground.may_be_a_wall = std::abs(plane.normal.z()) < kUpright &&
+                         (isGround(found.below, points.size()) || isGround(found.above, points.size()));
   const double side = plane.distance(sensor_in_body) < 0 ? -1 : 1;
   ground.up = side * plane.normal;
   ground.sensor_height = side * plane.distance(sensor_in_body);

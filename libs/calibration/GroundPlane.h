@@ -11,10 +11,11 @@ namespace scanloom
 {
 struct GroundPlane
 {
-  Eigen::Vector3d up;        // unit normal towards the sensor, in the body frame
-  double sensor_height = 0;  // m above the plane
-  double body_height = 0;    // m of the body's origin above the plane
-  double share = 0;          // of the points used: within 0.15 m of the plane
+  Eigen::Vector3d up;          // unit normal towards the sensor, in the body frame
+  double sensor_height = 0;    // m above the plane
+  double body_height = 0;      // m of the body's origin above the plane
+  double share = 0;            // of the points used: within 0.15 m of the plane
+  bool may_be_a_wall = false;  // it stands upright in the body frame, and a level plane has a tenth of the points, too
 
   /** Height above the plane (m) of a point in the body frame. */
   double heightOf(const Eigen::Vector3d& p) const { return up.dot(p) + body_height; }

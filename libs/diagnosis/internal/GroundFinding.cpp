@@ -27,9 +27,10 @@ Finding groundFinding(const MountedLidar& lidar, const std::optional<GroundPlane
   Finding finding{lidar.name, "ground", grade(tilt, limits::kGroundTiltWarningDeg, limits::kGroundTiltNotFitDeg),
                   fmt::format("{}{:.1f} deg off the body's z; the body's origin {:.2f} m above it",
                               groundInWords(*ground), tilt, ground->body_height)};
-  // Where the ground is hidden or too far, a ceiling looks like it. An IMU knows better (upFinding).
+  // Where the ground is hidden or too far, a ceiling looks like it, and on stairs a wall. An IMU knows better
+  // (upFinding).
   const bool is_overhead = tilt > kOverheadDeg;
-  if (is_overhead) finding.verdict = Verdict::Warning;
+  if (is_overhead || ground->may_be_a_wall) finding.verdict = Verdict::Warning;
   if (finding.verdict == Verdict::NotFit)
     finding.says += fmt::format(": up is along {} of the body", nearestAxis(ground->up));
   if (const auto radians = mendOfRadians(lidar.body_T_sensor, ground->up))
@@ -40,6 +41,7 @@ Finding groundFinding(const MountedLidar& lidar, const std::optional<GroundPlane
   else if (finding.verdict != Verdict::Ok)
     finding.mend = fmt::format("the lidar's pose is wrong by {}{}", turnUpwards(ground->up),
                                is_overhead                           ? ", unless that plane is a ceiling"
+                               : ground->may_be_a_wall               ? ", unless that plane is a wall"
                                : finding.verdict == Verdict::Warning ? ", or it stood before a slope"
                                                                      : "");
   return finding;

@@ -114,9 +114,10 @@ Finding upFinding(const std::string& imu, const ImuSoundness& sound, const Rigid
 
 Finding gyroFinding(const std::string& imu, const ImuSoundness& sound)
 {
-  constexpr double kImpossibleTilt = 0.1;      // rad/s: the machine would lie on its side after 16 s
-  constexpr double kImpossibleRate = M_PI;     // rad/s: half a turn a second for 5 s
-  constexpr double kSure = 0.2, kVague = 0.5;  // standard deviation over scale
+  constexpr double kImpossibleTilt = 0.1;   // rad/s: the machine would lie on its side after 16 s
+  constexpr double kImpossibleRate = M_PI;  // rad/s: half a turn a second for 5 s
+  constexpr double kSure = 0.2;             // standard deviation over scale
+  constexpr double kVague = 0.5;  // the same; and standard deviation: on the level floor of a car park it is 1.1
   // Of 0.5 in forests; on a street at 8 m/s it is 0.13, and the shaking falsifies the scale by a factor of 5.
   constexpr double kExplained = 0.3;
   Finding finding{imu, "gyro units", Verdict::NotMeasured, "not enough rotation to tell"};
@@ -132,13 +133,14 @@ Finding gyroFinding(const std::string& imu, const ImuSoundness& sound)
   const double share = g.sigma / std::abs(g.scale);
   const auto unit = share < kSure ? mendOfTurnRates(1 / g.scale, kAnotherUnit) : std::nullopt;
   const bool tips_over = g.tilt_rate > kImpossibleTilt;
-  if (!unit && !tips_over && share > kVague && g.sigma > 0.1) return finding;
+  const bool low = g.sigma < kVague && g.scale + 3 * g.sigma < 1 / limits::kGyroScaleFactor;
+  const bool high = share < kSure && g.explained > kExplained && g.scale - 3 * g.sigma > limits::kGyroScaleFactor;
+  const bool is_wrong = unit || tips_over || low || high;
+  if (!is_wrong && (g.sigma > kVague || (share > kVague && g.sigma > 0.1))) return finding;
   finding.verdict = Verdict::Ok;
   finding.says = fmt::format("rad/s: gravity turns {:.2f} times as much as measured (standard deviation {:.2f})",
                              g.scale, g.sigma);
-  const bool low = g.scale + 3 * g.sigma < 1 / limits::kGyroScaleFactor;
-  const bool high = share < kSure && g.explained > kExplained && g.scale - 3 * g.sigma > limits::kGyroScaleFactor;
-  if (!unit && !tips_over && !low && !high) return finding;
+  if (!is_wrong) return finding;
   finding.verdict = Verdict::NotFit;
   finding.says =
       fmt::format("gravity turns {:.4f} times as much as measured (standard deviation {:.4f})", g.scale, g.sigma);
