@@ -46,6 +46,47 @@ TEST(GroundFinding, aPlaneOverheadMayBeACeiling)
   EXPECT_NE(finding.mend.find("unless that plane is a ceiling"), std::string::npos) << finding.mend;
 }
 
+namespace
+{
+/** A wall of 20 m x 4 m, 1.4 m to the left, and this many metres of a path along it, 1.4 m below the sensor. */
+PointCloud besideAWall(float path)
+{
+  std::vector<Eigen::Vector3f> points;
+  for (float x = -10; x < 10; x += 0.25F)
+  {
+    for (float z = -1.4F; z < 2.6F; z += 0.25F) points.emplace_back(x, 1.4F, z);
+    for (float y = -0.6F; y < 1.4F; y += 0.25F)
+      if (std::abs(x) < path / 2) points.emplace_back(x, y, -1.4F);
+  }
+  PointCloud cloud;
+  cloud.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    cloud.x[i] = points[i].x(), cloud.y[i] = points[i].y(), cloud.z[i] = points[i].z();
+  return cloud;
+}
+}  // namespace
+
+TEST(GroundPlane, thatIsUprightMayBeAWallIfALevelOneIsSeenToo)
+{
+  const PointCloud with_path = besideAWall(8), without = besideAWall(0);
+  const auto ground = groundPlane({&with_path}, Eigen::Vector3d::Zero());
+  ASSERT_TRUE(ground);
+  EXPECT_TRUE(ground->may_be_a_wall);
+  const Finding finding = groundFinding({"top", {}}, ground);
+  EXPECT_EQ(finding.verdict, Verdict::Warning);
+  EXPECT_NE(finding.mend.find("unless that plane is a wall"), std::string::npos) << finding.mend;
+  EXPECT_EQ(groundFinding({"top", {}}, groundPlane({&without}, Eigen::Vector3d::Zero())).verdict, Verdict::NotFit);
+}
+
+TEST(GroundPlane, isNotThatOfALevelBeam)
+{
+  PointCloud ring;
+  ring.resize(400);
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    ring.x[i] = 8 * std::cos(static_cast<float>(i)), ring.y[i] = 8 * std::sin(static_cast<float>(i));
+  EXPECT_FALSE(groundPlane({&ring}, Eigen::Vector3d::Zero()));
+}
+
 TEST(GroundPlane, isNotFoundInACrown)
 {
   std::mt19937 random(1);

@@ -7,6 +7,7 @@
 #include "base/core/Angle.h"
 #include "base/core/So3.h"
 #include "diagnosis/ImuComparison.h"
+#include "diagnosis/internal/ImuSoundness.h"
 #include "diagnosis/internal/ImuTiming.h"
 #include "estimation/imu/GyroAgreement.h"
 #include "estimation/imu/GyroScale.h"
@@ -149,6 +150,13 @@ TEST(GyroScale, onARoadThatShakesTheImuLittleIsExplained)
     for (std::size_t k = i; k < std::min(i + 20, samples.size()); ++k) samples[k].accel += push;
   }
   EXPECT_LT(gyroScale(samples)->explained, 0.3);
+}
+
+TEST(GyroScale, onALevelFloorTellsNoUnit)
+{
+  ImuSoundness hardly_turned;
+  hardly_turned.gyro_scale = GyroScale{-3.0, 1.1};
+  EXPECT_EQ(gyroFinding("imu", hardly_turned).verdict, Verdict::NotMeasured);
 }
 
 TEST(GyroScale, turnsDuringASilenceAreNotMeasured)
