@@ -183,16 +183,19 @@ class Problem
   }
 
  private:
+  static double squaredDistance(const ceres::CostFunction& factor, const std::vector<const double*>& blocks)
+  {
+    Eigen::VectorXd residual(factor.num_residuals());
+    factor.Evaluate(blocks.data(), residual.data(), nullptr);
+    return residual.squaredNorm();
+  }
+
   std::vector<double> squaresOfLoops() const
   {
     std::vector<double> squares;
     for (std::size_t i = 0; i < loops_.size(); ++i)
-    {
-      Vector6d residual;
-      const double* blocks[] = {blocks_[graph_.loops[i].from].data(), blocks_[graph_.loops[i].to].data()};
-      loops_[i]->Evaluate(blocks, residual.data(), nullptr);
-      squares.push_back(residual.squaredNorm());
-    }
+      squares.push_back(
+          squaredDistance(*loops_[i], {blocks_[graph_.loops[i].from].data(), blocks_[graph_.loops[i].to].data()}));
     return squares;
   }
 
@@ -200,12 +203,7 @@ class Problem
   {
     std::vector<double> squares;
     for (std::size_t i = 0; i < positions_.size(); ++i)
-    {
-      Eigen::Vector3d residual;
-      const double* blocks[] = {blocks_[graph_.positions[i].pose].data()};
-      positions_[i]->Evaluate(blocks, residual.data(), nullptr);
-      squares.push_back(residual.squaredNorm());
-    }
+      squares.push_back(squaredDistance(*positions_[i], {blocks_[graph_.positions[i].pose].data()}));
     return squares;
   }
 

@@ -239,11 +239,10 @@ class SlamRun
 
   std::string jumpsOfMap() const
   {
-    return fmt::format("the map was levelled anew {} times, by up to {:.1f} m at once: {}", counts_.map_jumps,
-                       counts_.largest_shift,
-                       motion_ ? "without an IMU, accelerations of the machine were taken for a tilt; --set "
-                                 "slam.relative=false keeps the attitude of the start"
-                               : "what the IMU measures contradicts what the lidars see");
+    return fmt::format(
+        "the map was levelled anew {} times, by up to {:.1f} m at once: what the IMU measures contradicts what the "
+        "lidars see",
+        counts_.map_jumps, counts_.largest_shift);
   }
 
   bool mayGoWithoutImu() const

@@ -43,7 +43,7 @@ struct SlamOptions
                 "streets and halls"});
     visit(o.relative, Field{"relative", "",
                             "true: a registration is a pose relative to the first keyframe, whose attitude may still "
-                            "be corrected by gravity; false: a pose in the map, as in the paper"});
+                            "be corrected by gravity; false, and without an IMU: a pose in the map, as in the paper"});
   }
 };
 

@@ -21,6 +21,6 @@ SmootherWindow windowFrom(const NavEstimate& start, const MountedImu& imu, const
   const Matrix15d covariance = isPositiveDefinite(start.covariance)
                                    ? start.covariance
                                    : Matrix15d(start.covariance.diagonal().cwiseAbs().asDiagonal());
-  return {{start.state, covariance, imu.body_T_imu, imu.noise, options}};
+  return {{start.state, covariance, imu.body_T_imu, imu.noise, options}, imu.assumed};
 }
 }  // namespace scanloom

@@ -9,6 +9,7 @@ namespace scanloom
 struct SmootherWindow
 {
   FixedLagSmoother smoother;
+  bool imu_is_assumed = false;           // MountedImu::assumed
   Rigid map_T_local_without_anchor{};    // until a keyframe is the anchor
   Rigid local_T_anchor{};                // the body at the smoother's anchor
   MeasurementCorrelation correlation{};  // of the registrations in it
@@ -18,7 +19,7 @@ struct SmootherWindow
 
   Rigid map_T_local() const;
   NavEstimate newest() const { return {smoother.newest(), smoother.newestCovariance()}; }
-  MountedImu imu() const { return {smoother.body_T_imu(), smoother.noise()}; }
+  MountedImu imu() const { return {smoother.body_T_imu(), smoother.noise(), imu_is_assumed}; }
 
   /** Registrations from now on are relative to the newest body, which is there in the local map. */
   void anchorAt(const Rigid& local_T_body);

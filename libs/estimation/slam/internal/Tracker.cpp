@@ -273,8 +273,9 @@ UpdatedMap Tracker::withKeyframe(UpdatedMap map, const DeskewedScan& seen, const
     map.window.before += drift;
   map.keyframe_covariance = pose.covariance;
   map.keyframe = Keyframe{seen.stamp, map_T_local * pose.local_T_body, seen.cloud};
-  // The map of an earlier drive does not move: registrations in it are poses, not relative to a keyframe.
-  const bool is_relative = settings_.slam.relative && !map.local_map.isInPriorMap();
+  // The map of an earlier drive does not move: registrations in it are poses, not relative to a keyframe. Nor does one
+  // without an IMU: an assumed gravity would tilt it when a car brakes.
+  const bool is_relative = settings_.slam.relative && !map.local_map.isInPriorMap() && !map.window.imu_is_assumed;
   if (is_relative && !map.window.smoother.hasAnchor()) map.window.anchorAt(local_T_body);
   return map;
 }
@@ -314,10 +315,11 @@ TrackerState Tracker::changeImu(TrackerState state, const ImuChange& change) con
   const Rigid map_T_local = before.map_T_local();
   const NavEstimate start = continuedBy(change, before.newest(), before.smoother.body_T_imu());
   SmootherWindow window = windowFrom(start, change.imu, settings_.smoother);
-  window.map_T_local_without_anchor = before.map_T_local_without_anchor;
+  window.map_T_local_without_anchor = map_T_local;
   window.correlation = before.correlation;
   window.before = before.before;
-  if (before.smoother.hasAnchor()) window.anchorAt(map_T_local.inverse() * before.smoother.newestBody());
+  if (before.smoother.hasAnchor() && !change.imu.assumed)
+    window.anchorAt(map_T_local.inverse() * before.smoother.newestBody());
   state.window = std::move(window);
   state.relocalisation.changeBias(start.state.bias);
   return state;
