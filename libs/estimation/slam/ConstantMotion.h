@@ -27,7 +27,7 @@ class ConstantMotion
 
  private:
   std::optional<StampedPose> latest_;                    // of the body in the map
-  Eigen::Vector3d turn_rate_ = Eigen::Vector3d::Zero();  // rad/s, in the body's frame
+  Eigen::Vector3d turn_rate_ = Eigen::Vector3d::Zero();  // rad/s, in the body's frame; fading mean of all
   Timestamp start_;
   std::optional<Timestamp> given_;  // stamp of the last sample
 };

@@ -32,17 +32,24 @@ TEST(ConstantMotion, aWrongYearTakesNoMoreSamplesThanAHundredSeconds)
   EXPECT_LE(ConstantMotion(Timestamp{1s}).samplesUntil(Timestamp{std::chrono::hours{24 * 365}}).size(), 10'002U);
 }
 
-TEST(ConstantMotion, samplesHaveTheTurnBetweenTheLastEstimatesAndALevelBodysForce)
+TEST(ConstantMotion, samplesHaveAFadingMeanOfTheTurnRatesAndALevelBodysForce)
 {
-  const Rigid first = Rigid::fromXyzYawPitchRoll(1, 2, 3, 0.3, 0.2, 0.1);
+  Rigid body = Rigid::fromXyzYawPitchRoll(1, 2, 3, 0.3, 0.2, 0.1);
   const Eigen::Vector3d turn(0.03, -0.02, 0.05);  // rad in 0.1 s
-  ConstantMotion motion(Timestamp{1s});
-  motion.update(estimateAt(Timestamp{900ms}, first));
-  motion.update(estimateAt(Timestamp{1s}, {first.rotation * expSo3(turn), first.translation}));
-  for (const ImuSample& sample : motion.samplesUntil(Timestamp{1100ms}))
+  ConstantMotion motion(Timestamp{0s});
+  motion.update(estimateAt(Timestamp{0s}, body));
+  double missing = 1;  // of the turn rate
+  for (int i = 1; i <= 5; ++i)
   {
-    EXPECT_LT((sample.gyro - 10 * turn).norm(), 1e-9);
-    EXPECT_LT((sample.accel - Eigen::Vector3d(0, 0, 9.80665)).norm(), 1e-9);
+    const Timestamp now{i * 100ms};
+    body.rotation = body.rotation * expSo3(turn);
+    motion.update(estimateAt(now, body));
+    missing /= 2;
+    for (const ImuSample& sample : motion.samplesUntil(now + 100ms))
+    {
+      EXPECT_LT((sample.gyro - (1 - missing) * 10 * turn).norm(), 1e-9);
+      EXPECT_LT((sample.accel - Eigen::Vector3d(0, 0, 9.80665)).norm(), 1e-9);
+    }
   }
 }
 }  // namespace
