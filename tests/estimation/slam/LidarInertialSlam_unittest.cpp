@@ -713,6 +713,35 @@ TEST(LidarInertialSlam, isNotSearchedWhereItsScansFitButLeaveADirectionOpen)
   EXPECT_LT(largestError(run, machine), 0.5);
 }
 
+TEST(LidarInertialSlam, aCorridorIsDegenerateAndTheImuCarriesOn)
+{
+  // Two walls, even ground and, until 6 s, stems between them: behind those nothing tells how far the body drives.
+  const Machine machine = gentleMachine(3s);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> along(-20, 20), up(0, 4);
+  const Driven run = runFor(machine, 12s, {},
+                            [&](Scan& scan)
+                            {
+                              PointCloud& points = scan.points;
+                              for (std::size_t i = 0; i < points.size(); ++i)
+                              {
+                                const Rigid map_T_body = machine.bodyAt(scan.start + Duration{points.t[i]});
+                                Eigen::Vector3d p = map_T_body * points.position(i).cast<double>();
+                                const bool is_stem = p.z() > 0.6;
+                                if (is_stem && i % 2) p = {along(random), p.y() > 0 ? 4.0 : -4.0, up(random)};
+                                if (!is_stem) p = {along(random), p.y() / 8, 0};
+                                if (is_stem && i % 2 == 0 && scan.start >= Timestamp{6s}) p = map_T_body.translation;
+                                const Eigen::Vector3d seen = map_T_body.inverse() * p;
+                                points.x[i] = static_cast<float>(seen.x());
+                                points.y[i] = static_cast<float>(seen.y());
+                                points.z[i] = static_cast<float>(seen.z());
+                              }
+                            });
+  ASSERT_EQ(run.at(11s).registration->outcome, Outcome::Degenerate);
+  EXPECT_EQ(run.at(11s).health, Health::Degenerate);
+  EXPECT_LT(largestError(run, machine), 0.5);
+}
+
 TEST(LidarInertialSlam, aLostBodyIsSearchedOnceAScan)
 {
   // Put down elsewhere, turned around, with a gyroscope that is wrong: nothing of what is tried fits.

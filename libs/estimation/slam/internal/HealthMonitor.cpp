@@ -23,6 +23,13 @@ bool isWhereItIsSaidToBe(const Continued& scan)
          3 * largestDeviation(scan.body.covariance) < 2;  // m: from there an alignment finds the pose
 }
 
+/** The IMU carries the body on, and nothing contradicts it: through a corridor, for example. */
+bool isCarriedOn(const Continued& scan)
+{
+  return scan.assessment.health == Health::Lost && !scan.assessment.contradicted && isWhereItIsSaidToBe(scan) &&
+         scan.registration.mahalanobis < fitted::kUsualDistance;
+}
+
 bool isBlind(const Continued& scan)
 {
   return scan.assessment.health == Health::Lost && !scan.assessment.contradicted && !isWhereItIsSaidToBe(scan);
@@ -117,6 +124,7 @@ Continued HealthMonitor::assessed(Continued scan, const DeskewedScan& seen, bool
   const bool opens_map = map_is_empty && !seen.cloud.empty();
   const GatedRegistration& registered = scan.registration;
   scan.assessment = scanloom::assess(seen.stamp, opens_map || registered.trusted, scan.trust, trust_);
+  if (isCarriedOn(scan)) scan.assessment.health = Health::Degenerate;
   scan.trust.lost = scan.assessment.health == Health::Lost;
   scan.trust.last_trusted = scan.assessment.last_trusted;
   if (registered.trusted && scan.trust.divergence.level() == Divergence::None)
