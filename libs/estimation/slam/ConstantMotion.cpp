@@ -12,7 +12,8 @@ void ConstantMotion::update(const StateEstimate& estimate)
   const StampedPose now{estimate.stamp, estimate.map_T_body};
   if (latest_)
   {
-    // A scan that is deskewed by a wrong rate gives a wrong attitude, and so the next rate: half of it ends that.
+    // A scan that is deskewed by a wrong rate gives a wrong attitude, and so the next wrong rate: by halves such a
+    // swing dies out.
     const Eigen::Vector3d turn = logSo3(latest_->map_T_body.rotation.conjugate() * now.map_T_body.rotation);
     turn_rate_ += 0.5 * (turn / seconds(now.stamp - latest_->stamp) - turn_rate_);
   }
