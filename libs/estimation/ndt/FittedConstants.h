@@ -88,7 +88,7 @@ constexpr double kSameStep            = 0.5;     // m      pushes of 5 to 30 m/s
 constexpr double kSameStepRadians     = 0.1;     // rad    the same                                          #imu-faults
 
 // A map that is levelled anew (StateEstimate::mapJumped)
-constexpr double kMapJump             = 0.25;    // m      sound drives 0.08, cars without an IMU from 1 on  #real-sequences
+constexpr double kMapJump             = 0.25;    // m      sound drives 0.08, maps tilted by cars 1 and more #real-sequences
 
 // Another IMU takes over (SmootherReset): deviations
 constexpr double kTiltOfChange        = 0.005;   // rad    runs in which an IMU fails                        #imu-faults

@@ -1,5 +1,5 @@
 /** Where there is no IMU: the samples that one in the body's origin would measure at constant velocity and turn rate,
- * if the body stood level: what it does on average, and what keeps the map level. */
+ * if the body stood level: what it does on average. They level no map (Tracker::withKeyframe). */
 #pragma once
 #include "base/core/ImuSample.h"
 #include "estimation/slam/StateEstimate.h"

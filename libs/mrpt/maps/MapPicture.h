@@ -27,9 +27,9 @@ struct MapLink
 
 /**
  * Collects the points of the keyframes as voxels of 0.1 m, which become twice as wide, 0.2 m, 0.4 m and so on, whenever
- * they are too many: those of a longer drive are smaller than a pixel. Draws a PNG
- * with the map's y axis up: ground coloured by elevation, vegetation pale, points 1.0 to 1.6 m above the ground dark,
- * paths and links on top, a scale bar and a legend.
+ * they are too many: those of a longer drive are smaller than a pixel. Draws a PNG with the map's y axis up: ground
+ * coloured by elevation, vegetation pale, points 1.0 to 1.6 m above the ground dark, paths and links on top, a scale
+ * bar and a legend.
  */
 class MapPicture
 {

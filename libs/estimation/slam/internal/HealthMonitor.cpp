@@ -23,17 +23,20 @@ bool isWhereItIsSaidToBe(const Continued& scan)
          3 * largestDeviation(scan.body.covariance) < 2;  // m: from there an alignment finds the pose
 }
 
+/** No registration was trusted for seconds, though none contradicts the IMU for as long. */
+bool isWithoutTrust(const Assessment& assessment)
+{
+  return assessment.health == Health::Lost && !assessment.contradicted;
+}
+
 /** The IMU carries the body on, and nothing contradicts it: through a corridor, for example. */
 bool isCarriedOn(const Continued& scan)
 {
-  return scan.assessment.health == Health::Lost && !scan.assessment.contradicted && isWhereItIsSaidToBe(scan) &&
+  return isWithoutTrust(scan.assessment) && isWhereItIsSaidToBe(scan) &&
          scan.registration.mahalanobis < fitted::kUsualDistance;
 }
 
-bool isBlind(const Continued& scan)
-{
-  return scan.assessment.health == Health::Lost && !scan.assessment.contradicted && !isWhereItIsSaidToBe(scan);
-}
+bool isBlind(const Continued& scan) { return isWithoutTrust(scan.assessment) && !isWhereItIsSaidToBe(scan); }
 
 /**
  * Where IMU and lidar err by much, the estimate between both is near neither. A registration beyond the gate counts if
