@@ -1,8 +1,14 @@
 #include "lab/simulation/internal/Drive.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
+#include "support/messageOf.h"
 #include "support/with.h"
+
+using testing::HasSubstr;
 
 namespace scanloom::drive_unittest
 {
@@ -173,6 +179,14 @@ TEST(Drive, ofAWindingRouteNeverReturns)
   }
   EXPECT_GT(before, 300);
   EXPECT_LT(drive.path().size(), 1500U);
+}
+
+TEST(Drive, ofMoreForestThanFitsIntoAMachineIsRefused)
+{
+  DriveOptions options;
+  options.duration = 1e5;
+  const Drive drive(Route(options, {}, 1), options, {}, Ground(GroundOptions{}));
+  EXPECT_THAT(messageOf<std::invalid_argument>([&] { drive.path(); }), HasSubstr("82 km"));
 }
 
 TEST(Drive, hasAPathThatIsNeverFarFromTheMachineHoweverLongItWorks)

@@ -2,7 +2,10 @@
 
 #include "base/core/Angle.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 namespace scanloom
@@ -105,7 +108,13 @@ Motion Drive::at(double t) const
 std::vector<Eigen::Vector2d> Drive::path() const
 {
   // Steps of equal length, not of equal time: a machine at rest adds no points. The path is longer than its x.
-  const double step = 0.25 / std::hypot(1, curve_ * curve_rate_);
+  const double stretch = std::hypot(1, curve_ * curve_rate_), step = 0.25 / stretch;
+  const double length = route_.farthest() * stretch;
+  constexpr double kLongest = 15e3;  // m: so much forest grows in 10 s and takes 1 to 2 GB
+  if (length > kLongest)
+    throw std::invalid_argument(fmt::format(
+        "[simulated_drive] start, duration and speed lead through {:.0f} km of forest: at most {:.0f} km can be grown",
+        1e-3 * length, 1e-3 * kLongest));
   std::vector<Eigen::Vector2d> path;
   for (double x = -kBehindStart; x < 0; x += step) path.emplace_back(x, 0);
   for (double x = 0; x < route_.farthest() + step; x += step) path.emplace_back(x, lateral(x).value);

@@ -54,7 +54,10 @@ class Drive
   const Ground& ground() const { return ground_; }
   const Route& route() const { return route_; }
 
-  /** Middle of the machine's lane: points (x, y) at most 0.25 m apart, from 15 m behind the axis' origin on. */
+  /**
+   * Middle of the machine's lane: points (x, y) at most 0.25 m apart, from 15 m behind the axis' origin on. Throws
+   * std::invalid_argument beyond 15 km.
+   */
   std::vector<Eigen::Vector2d> path() const;
 
   /** How far the path is left of its axis, m. */
