@@ -19,6 +19,8 @@ namespace scanloom
 {
 namespace
 {
+constexpr double kOpen = 10;  // m: the deviation along what is not measured
+
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
@@ -292,6 +294,12 @@ std::vector<Vector6d> degenerateAmong(const Evidence& evidence, const CellCorres
   }
   return directions;
 }
+
+Matrix6d inMetres(const Matrix6d& covariance)
+{
+  const Vector6d metres = stepOfMetres().cwiseInverse();
+  return metres.asDiagonal() * covariance * metres.asDiagonal();
+}
 }  // namespace
 
 Vector6d stepOfMetres()
@@ -301,11 +309,14 @@ Vector6d stepOfMetres()
   return scale;
 }
 
-double largestDeviation(const Matrix6d& covariance)
+double largestDeviation(const Matrix6d& covariance) { return std::sqrt(eigensystem(inMetres(covariance)).values[5]); }
+
+std::vector<Vector6d> unmeasuredDirections(const Matrix6d& covariance)
 {
-  const Matrix6d metres =
-      stepOfMetres().cwiseInverse().asDiagonal() * covariance * stepOfMetres().cwiseInverse().asDiagonal();
-  return std::sqrt(eigensystem(metres).values[5]);
+  const Eigensystem6 of_metres = eigensystem(inMetres(covariance));
+  std::vector<Vector6d> directions;
+  for (int i = 5; i >= 0 && of_metres.values[i] > kOpen * kOpen; --i) directions.push_back(of_metres.vectors.col(i));
+  return directions;
 }
 
 double scorePerInformation(double d2) { return d2 / fitted::kIndependentPoints; }
@@ -339,8 +350,7 @@ LidarInformation lidarInformation(const CellCorrespondences& all, const Rigid& t
 
   const Matrix6d stiff = congruent(withLeastCurvature(curvature, evidence.gauss_newton), target_of_step);
   information.viewpoint_bias = -(safeInverse(stiff) * (target_of_step.transpose() * wrench)).head<3>();
-  for (const Vector6d& direction : information.degenerate)
-    metres += 10.0 * 10.0 * direction * direction.transpose();  // m: not measured
+  for (const Vector6d& direction : information.degenerate) metres += kOpen * kOpen * direction * direction.transpose();
   const Matrix6d symmetric = (metres + metres.transpose()) / 2;
   information.covariance = stepOfMetres().asDiagonal() * symmetric * stepOfMetres().asDiagonal();
   return information;

@@ -15,6 +15,9 @@ Vector6d stepOfMetres();
 /** Square root of a covariance's largest eigenvalue, in metres (see stepOfMetres). */
 double largestDeviation(const Matrix6d& covariance);
 
+/** Orthonormal steps in metres along which a covariance is larger than that of degenerate directions. */
+std::vector<Vector6d> unmeasuredDirections(const Matrix6d& covariance);
+
 /** Factor from information to the units of the score's curvature, as it is while each cell matches one that agrees. */
 double scorePerInformation(double d2);
 

@@ -22,6 +22,8 @@ class PosePrior
   PosePrior() = default;
   explicit PosePrior(const PoseGuess&);
 
+  bool isGiven() const { return !information_.isZero(0); }
+
   NormalEquations addedTo(NormalEquations, const Rigid& target_T_source, double d2) const;
 
  private:

@@ -107,7 +107,9 @@ Aligned alignLevel(const RegistrationLevel& level, const Rigid& start, bool wide
   early.tolerance = 10 * options.tolerance;
   LevelSearch search(level, prior, options.neighbours);
   Minimum minimum = search.amongCommon(start, widely, early, {});
-  const LidarInformation lidar = lidarInformation(search.correspondences(), minimum.target_T_source, options.d2);
+  LidarInformation lidar = lidarInformation(search.correspondences(), minimum.target_T_source, options.d2);
+  // Where two minima meet, the scan measures nothing, and the prior knows better.
+  if (prior.isGiven() && lidar.degenerate.empty()) lidar.degenerate = unmeasuredDirections(lidar.covariance);
   if (!lidar.degenerate.empty())  // motion along such a direction was noise: again without it
     return {after(minimum, search.amongCommon(start, widely, options, lidar.degenerate)), lidar};
   Rigid& pose = minimum.target_T_source;

@@ -38,9 +38,9 @@ struct SlamRunResult
    */
   RunSummary summary;
   /**
-   * False if no pose was measured, if the map jumped (StateEstimate::mapJumped), if the state was LOST at the end or
-   * for more than 5 % of the poses, if the local map was started anew (the trajectory has a break), if it was not found
-   * in the map given, if a lidar is in no scan, or if a lidar or the IMU is at fault (RigCheck).
+   * False if no pose was measured, if the map jumped (StateEstimate::mapJumped), if the state was LOST at the end, if
+   * more than 5 % of the poses are DEGENERATE or LOST, if the local map was started anew (the trajectory has a break),
+   * if it was not found in the map given, if a lidar is in no scan, or if a lidar or the IMU is at fault (RigCheck).
    */
   bool passed = true;
   bool with_imu = false;  // else constant velocity and turn rate were assumed

@@ -13,7 +13,30 @@ StateEstimate registeredWithShift(double metres)
   estimate.map_shift = metres;
   return estimate;
 }
+
+RunCounts withDegenerate(int degenerate, int sound)
+{
+  RunCounts counts;
+  StateEstimate estimate = registeredWithShift(0);
+  estimate.health = Health::Degenerate;
+  for (int i = 0; i < degenerate; ++i) counts.add(estimate);
+  estimate.health = Health::Ok;
+  for (int i = 0; i < sound; ++i) counts.add(estimate);
+  return counts;
+}
 }  // namespace
+
+TEST(RunCounts, aTwentiethOfThePosesMayBeBridgedByTheImu)
+{
+  EXPECT_TRUE(withDegenerate(1, 19).passed());
+  EXPECT_EQ(withDegenerate(1, 19).outcome(), "DEGENERATE");
+}
+
+TEST(RunCounts, aDriveThatTheImuBridgesForLongerIsNoGoodResult)
+{
+  EXPECT_FALSE(withDegenerate(2, 19).passed());
+  EXPECT_EQ(withDegenerate(2, 19).outcome(), "DEGENERATE");
+}
 
 TEST(RunCounts, aMapThatShiftsByCentimetresIsLevelledByGravity)
 {

@@ -25,7 +25,7 @@ std::string RunCounts::outcome() const
 {
   if (registered == 0) return "NOTHING";
   if (map_jumps > 0) return "MAP JUMPED";
-  if (!passed()) return "LOST";
+  if (isLost()) return "LOST";
   if (last == Health::Initialising) return "INITIALISING";
   return degenerate + lost > 0 ? "DEGENERATE" : "OK";
 }

@@ -25,8 +25,12 @@ struct RunCounts
 
   double recorded() const { return first ? seconds(newest - *first) : 0; }  // s
 
-  /** A pose was measured, at most 5 % are LOST, the last one is not, and the map never jumped. */
-  bool passed() const { return registered > 0 && last != Health::Lost && 20 * lost <= poses && map_jumps == 0; }
+  /** At the end, or for more than 5 % of the poses. */
+  bool isLost() const { return last == Health::Lost || 20 * lost > poses; }
+
+  /** A pose was measured, the body is not lost, at most 5 % of the poses are not to be relied on, and the map never
+   * jumped. */
+  bool passed() const { return registered > 0 && !isLost() && 20 * (lost + degenerate) <= poses && map_jumps == 0; }
 
   std::string outcome() const;
   void addTo(std::map<std::string, std::uint64_t>& counts) const;
