@@ -5,7 +5,7 @@
 
 namespace scanloom
 {
-OpenedInput openInput(const InputArguments& arguments, ImuSamples imu_samples)
+OpenedInput openInput(const InputArguments& arguments)
 {
   OpenedInput opened;
   const Messages messages{[&](const std::string& text) { opened.warnings.push_back(text); },
@@ -14,9 +14,7 @@ OpenedInput openInput(const InputArguments& arguments, ImuSamples imu_samples)
   if (!arguments.recording.empty()) files = filesOf({arguments.recording, arguments.metadata}, Clouds::Taken, messages);
   const ConfigurationArguments configured{arguments.configurations, arguments.assignments};
   const auto loaded = load<SlamVerbSettings>(configured, files, Poses::Needed, messages);
-  InputSource source = sourceForSlam(files, loaded.configuration, loaded.settings, arguments.lidars);
-  if (imu_samples == ImuSamples::InTimeOrder) source.rig.body_imu_ahead = {};
-  opened.input = openForSlam(source, loaded.configuration);
+  opened.input = openForSlam(sourceOf(files, loaded.configuration, arguments.lidars), loaded.configuration);
   opened.settings = loaded.settings;
   opened.sensors_not_used = loaded.sensors.not_used;
   return opened;

@@ -19,12 +19,6 @@ struct InputArguments
   std::vector<std::string> assignments, lidars;
 };
 
-enum class ImuSamples
-{
-  InTimeOrder,  // among the scans
-  Ahead,        // those of the body by the time that a start takes: sourceForSlam()
-};
-
 struct OpenedInput
 {
   SlamInput input;
@@ -35,7 +29,7 @@ struct OpenedInput
 };
 
 /** Throws UsageError and ConfigError in the program's words. */
-OpenedInput openInput(const InputArguments&, ImuSamples);
+OpenedInput openInput(const InputArguments&);
 
 /** A stream of Python that opens an input while other threads of Python run, and then warns as the program would. */
 template <typename Stream, typename... Options>

@@ -46,7 +46,7 @@ class PoseStream
 {
  public:
   PoseStream(const InputArguments& arguments, const MapArguments& map, KeptClouds kept)
-    : PoseStream(openInput(arguments, ImuSamples::Ahead), map, kept)
+    : PoseStream(openInput(arguments), map, kept)
   {
   }
   PoseStream(const PoseStream&) = delete;

@@ -56,8 +56,7 @@ py::array imuVectors(const py::object& self, double* (*vectorOf)(SensorImu&))
 class ScanStream
 {
  public:
-  explicit ScanStream(const InputArguments& arguments)
-    : opened_(openInput(arguments, ImuSamples::InTimeOrder)), input_(*opened_.input.sensors)
+  explicit ScanStream(const InputArguments& arguments) : opened_(openInput(arguments)), input_(*opened_.input.sensors)
   {
     say(std::exchange(opened_.warnings, {}));
   }

@@ -28,14 +28,6 @@ std::optional<std::string> imuSection(const Configuration& configuration, const 
 }
 }  // namespace
 
-InputSource sourceForSlam(const RecordingFiles& recording, const Configuration& configuration,
-                          const SlamSettings& settings, const std::vector<std::string>& lidars)
-{
-  InputSource source = sourceOf(recording, configuration, lidars);
-  source.rig.body_imu_ahead = fromSeconds(settings.start.duration);
-  return source;
-}
-
 SlamInput openForSlam(const InputSource& source, const Configuration& configuration)
 {
   SlamInput input{openInput(source), megabytesOf(source.rig.captures), source.isLive()};

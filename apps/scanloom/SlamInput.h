@@ -31,13 +31,6 @@ struct SlamInput
   bool live = false;
 };
 
-/**
- * The recording, else what the configuration describes. The body's IMU samples come ahead by the time that the start
- * takes, so that scans need not wait for it in memory. Throws as sourceOf() does.
- */
-InputSource sourceForSlam(const RecordingFiles&, const Configuration&, const SlamSettings&,
-                          const std::vector<std::string>& lidars);
-
 /** The source, live with the IMU that the configuration describes beside the lidars. */
 SlamInput openForSlam(const InputSource&, const Configuration&);
 

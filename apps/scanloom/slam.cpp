@@ -216,12 +216,8 @@ std::filesystem::path defaultFolder(const RecordingArguments& recording)
 SlamInput inputOf(const RecordingFiles& recording, const SlamArguments& arguments,
                   const Loaded<SlamVerbSettings>& loaded, const Ros2* ros2)
 {
-  InputSource source = sourceForSlam(recording, loaded.configuration, loaded.settings, arguments.lidars);
-  if (ros2)
-  {
-    source.rig.body_imu_ahead = {};  // readers of topics expect samples in the order of time
-    source.rig = ros2->live(std::move(source.rig));
-  }
+  InputSource source = sourceOf(recording, loaded.configuration, arguments.lidars);
+  if (ros2) source.rig = ros2->live(std::move(source.rig));
   return openForSlam(source, loaded.configuration);
 }
 

@@ -53,9 +53,8 @@ void ImuOrder::shift(int sensor, Duration later)
 std::vector<SensorImu> ImuOrder::release(Timestamp horizon)
 {
   released_until_ = std::max(released_until_, horizon);
-  const Timestamp of_body = horizon > Timestamp::max() - body_ahead_ ? Timestamp::max() : horizon + body_ahead_;
   std::vector<SensorImu> body;
-  for (; !body_.empty() && body_.front().stamp < of_body; body_.pop_front())
+  for (; !body_.empty() && body_.front().stamp < horizon; body_.pop_front())
     body.push_back({SensorImu::kBody, body_.front()});
   const auto end = std::partition_point(waiting_.begin(), waiting_.end(),
                                         [horizon](const SensorImu& imu) { return imu.sample.stamp < horizon; });

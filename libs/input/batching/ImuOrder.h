@@ -24,9 +24,6 @@ class ImuOrder
  public:
   static constexpr std::size_t kMostWaiting = 100'000;  // until the first scan; then the oldest is dropped
 
-  /** Samples of the body are given out so much earlier than their place among the columns. */
-  explicit ImuOrder(Duration body_ahead = {}) : body_ahead_(body_ahead) {}
-
   void add(const SensorImu&);
 
   /** Drops what this sensor has stamped later than `latest`; returns how many samples that were. */
@@ -38,14 +35,13 @@ class ImuOrder
   /** Samples of the body's IMU in time order, however far ahead of the packets. */
   void addBody(const std::vector<ImuSample>& samples) { body_.insert(body_.end(), samples.begin(), samples.end()); }
 
-  /** The samples before `horizon`, of the body those before `horizon` + body_ahead, in order. */
+  /** The samples before `horizon`, in order. */
   std::vector<SensorImu> release(Timestamp horizon);
 
   std::uint64_t late() const { return late_; }
   std::uint64_t dropped() const { return dropped_; }
 
  private:
-  Duration body_ahead_;
   std::deque<ImuSample> body_;
   std::deque<SensorImu> waiting_;
   Timestamp released_until_ = Timestamp::min();

@@ -34,7 +34,6 @@ struct Rig
   std::vector<std::filesystem::path> captures;
   std::vector<ImuSample> body_imu;  // as recorded; empty if there is none
   std::string body_imu_topic;       // where they come from, if that is a topic
-  Duration body_imu_ahead{0};       // these samples come so much earlier than scans of the same time
   std::optional<Rigid> body_T_imu;  // none if the body has no IMU of its own
   BatcherOptions batcher;
   LiveOptions live;

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace scanloom
@@ -21,22 +23,38 @@ bool turnAlike(const PlacedGyro& a, const PlacedGyro& b)
   constexpr double kAlike = 0.8;
   return turnCorrelation(a, b).value_or(0) > kAlike;
 }
+
+/**
+ * How much an IMU shakes: the product of both sensors' noise densities ((rad/s)(m/s2)/Hz), by the differences of
+ * successive readings, in which the machine's motion hardly shows. None within the first second.
+ */
+std::optional<double> shaking(const std::deque<ImuSample>& readings)
+{
+  if (readings.empty() || readings.back().stamp - readings.front().stamp < 1s) return std::nullopt;
+  double gyro = 0, accel = 0;
+  for (std::size_t i = 1; i < readings.size(); ++i)
+  {
+    gyro += (readings[i].gyro - readings[i - 1].gyro).squaredNorm();
+    accel += (readings[i].accel - readings[i - 1].accel).squaredNorm();
+  }
+  const double steps = static_cast<double>(readings.size() - 1);
+  return std::sqrt(gyro * accel) * seconds(readings.back().stamp - readings.front().stamp) / (6 * steps * steps);
+}
 }  // namespace
 
 ImuInUse::ImuInUse(const SensorInput& input, const std::string& wanted, Duration delay)
   : input_(input), may_change_(wanted == "auto"), delay_(delay)
 {
-  std::vector<int> sensors;  // the body's first, then by sensor id
   std::vector<std::string> names;
-  for (const auto& [sensor, body_T_imu] : setup().body_T_imu)
+  for (const auto& [sensor, body_T_imu] : setup().body_T_imu)  // the body's first, then by sensor id
   {
-    sensors.push_back(sensor);
+    sensors_.push_back(sensor);
     names.push_back(nameOf(sensor));
   }
   const auto found = may_change_ ? names.begin() : std::find(names.begin(), names.end(), wanted);
   if (found == names.end())
     throw ConfigError(fmt::format("[slam] imu = {}: the input has no such IMU: {}", wanted, suggestion(wanted, names)));
-  sensor_ = previous_ = first_ = sensors[static_cast<std::size_t>(found - names.begin())];
+  sensor_ = previous_ = first_ = sensors_[static_cast<std::size_t>(found - names.begin())];
 }
 
 std::string imuName(const SensorSetup& setup, int sensor)
@@ -80,16 +98,34 @@ bool ImuInUse::receivedWithoutBreak(int sensor) const
 
 Duration ImuInUse::patience(Duration imu_wait) const
 {
-  if (!may_change_ || setup().body_T_imu.size() == 1) return imu_wait;
+  if (!may_change_ || sensors_.size() == 1) return imu_wait;
   return std::max(imu_wait, kImuSilence + std::max(delay_, Duration{0}));
 }
 
 void ImuInUse::change(int sensor) { previous_ = std::exchange(sensor_, sensor); }
 
+bool ImuInUse::changeIfShaken()
+{
+  constexpr double kMuchMore = 10;
+  const auto lasts = [this](int sensor) { return received_.count(sensor) == 0 || shaking(received_[sensor].kept); };
+  if (!may_change_ || compared_ || !shaking(received_[sensor_].kept) ||
+      !std::all_of(sensors_.begin(), sensors_.end(), lasts))
+    return false;
+  compared_ = true;
+  const auto shakes = [this](int sensor)
+  { return shaking(received_[sensor].kept).value_or(std::numeric_limits<double>::infinity()); };
+  const auto calmest =
+      std::min_element(sensors_.begin(), sensors_.end(), [&](int a, int b) { return shakes(a) < shakes(b); });
+  if (kMuchMore * shakes(*calmest) > shakes(sensor_)) return false;
+  std::rotate(sensors_.begin(), calmest, std::next(calmest));
+  change(sensors_.front());
+  return true;
+}
+
 bool ImuInUse::changeIfSilent(Timestamp now)
 {
   if (!may_change_ || !silent(sensor_, now)) return false;
-  for (const auto& [sensor, body_T_imu] : setup().body_T_imu)
+  for (const int sensor : sensors_)
   {
     if (silent(sensor, now)) continue;
     change(sensor);
@@ -101,12 +137,12 @@ bool ImuInUse::changeIfSilent(Timestamp now)
 bool ImuInUse::returnToBetter(Timestamp now)
 {
   if (!may_change_) return false;
-  for (const auto& [sensor, body_T_imu] : setup().body_T_imu)
+  for (const int sensor : sensors_)
   {
     if (sensor == sensor_) return false;
     if (silent(sensor, now) || !receivedWithoutBreak(sensor)) continue;
     const std::vector<ImuSample> better = samplesOf(sensor), in_use = samplesOf(sensor_);
-    if (!turnAlike({better, body_T_imu}, {in_use, this->body_T_imu()})) continue;
+    if (!turnAlike({better, poseOf(sensor)}, {in_use, this->body_T_imu()})) continue;
     change(sensor);
     return true;
   }

@@ -14,7 +14,10 @@ namespace scanloom
 /** "body" or the name of a lidar. */
 std::string imuName(const SensorSetup&, int sensor);
 
-/** The choice among the input's IMUs: the one that localisation uses, and another one while it is silent. */
+/**
+ * The choice among the input's IMUs: the one that localisation uses; another one where it shakes much more, and while
+ * it is silent.
+ */
 class ImuInUse
 {
  public:
@@ -44,6 +47,12 @@ class ImuInUse
    * one in use counts as silent by then.
    */
   Duration patience(Duration imu_wait) const;
+
+  /**
+   * Once, when all IMUs have been received for a second: if the one in use shakes ten times as much as another one,
+   * that one comes before all others from here on, is in use, and the result is true.
+   */
+  bool changeIfShaken();
 
   /**
    * If the IMU in use is silent at `now` and another one is not: that one is in use from here on, and the result is
@@ -80,7 +89,8 @@ class ImuInUse
   std::vector<ImuSample> samplesOf(int sensor) const;
 
   const SensorInput& input_;
-  bool may_change_;
+  bool may_change_, compared_ = false;
+  std::vector<int> sensors_;  // the better ones first
   int first_, previous_, sensor_;
   Duration delay_;                    // of the first
   std::map<int, Received> received_;  // by sensor

@@ -273,7 +273,10 @@ class SlamRun
 
   void chooseImu(Timestamp now)
   {
-    if (imu_->changeIfSilent(now))
+    if (imu_->changeIfShaken())
+      changeImu(fmt::format("the IMU '{}' shakes more than ten times as much as '{}', which is used instead",
+                            imu_->previousName(), imu_->name()));
+    else if (imu_->changeIfSilent(now))
       changeImu(fmt::format("the IMU '{}' is silent: '{}' goes on", imu_->previousName(), imu_->name()));
     else if (imu_->returnToBetter(now))
       changeImu(

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <random>
 #include <set>
 
 namespace scanloom::imu_in_use_unittest
@@ -57,6 +58,44 @@ TEST(ImuInUse, isRefusedWithTheOnesThereAre)
   { return messageOf<ConfigError>([&] { ImuInUse(InputWithImus(imus), wanted, {}); }); };
   EXPECT_THAT(refusalOf({kBody, kRight}, "left"), testing::HasSubstr("imu = left: the input has no such IMU"));
   EXPECT_THAT(refusalOf({}, "auto"), testing::HasSubstr("no such IMU"));
+}
+
+/** A second of readings of the body's IMU and the left lidar's, of noise that is `shaken` times as large in the body's.
+ */
+ImuInUse afterASecond(const InputWithImus& input, const std::string& wanted, double shaken)
+{
+  ImuInUse imu(input, wanted, {});
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0, 0.01);
+  for (Duration t{0}; t <= 1s; t += 10ms)
+    for (const int sensor : {kBody, kLeft})
+    {
+      SensorImu read = sampleAt(sensor, t);
+      const double scale = sensor == kBody ? shaken : 1;
+      read.sample.gyro.x() += scale * noise(random);
+      read.sample.accel = {scale * noise(random), scale * noise(random), 9.8 + scale * noise(random)};
+      imu.take(read);
+    }
+  return imu;
+}
+
+TEST(ImuInUse, givesWayForGoodToOneThatShakesATenthAsMuch)
+{
+  const InputWithImus input({kBody, kLeft});
+  ImuInUse imu = afterASecond(input, "auto", 6);
+  EXPECT_TRUE(imu.changeIfShaken());
+  EXPECT_EQ(imu.name(), "left");
+  EXPECT_FALSE(imu.changeIfShaken());
+  for (Duration t = 1s; t < 8s; t += 10ms)
+    for (const int sensor : {kBody, kLeft}) imu.take(sampleAt(sensor, t));
+  EXPECT_FALSE(imu.returnToBetter(Timestamp{8s}));
+}
+
+TEST(ImuInUse, isKeptWhereItShakesAsTheOthersDoOrWasChosenByName)
+{
+  const InputWithImus input({kBody, kLeft});
+  EXPECT_FALSE(afterASecond(input, "auto", 1).changeIfShaken());
+  EXPECT_FALSE(afterASecond(input, "body", 6).changeIfShaken());
 }
 
 TEST(ImuInUse, givesWayToAnotherAfterAFifthOfASecondOfSilenceWithWhatThatSaidSinceThen)

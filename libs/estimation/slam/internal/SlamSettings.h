@@ -31,8 +31,8 @@ struct SlamOptions
     visit(o.imu,
           Field{"imu", "",
                 "body, the name of a lidar (its own IMU), none (constant velocity and turn rate are assumed), or "
-                "auto: the body's if there is one, else the first lidar's, another one when the one in use falls "
-                "silent, and none where no IMU sends in the first second"});
+                "auto: the body's if there is one, else the first lidar's, another one where that shakes ten times as "
+                "much or falls silent, and none where no IMU sends in the first second"});
     visit(o.imu_delay_ms, Field{"imu_delay_ms", "ms",
                                 "how much later the IMU's stamps are than the lidars' for the same instant; slam "
                                 "reports an estimate at its end",

@@ -19,7 +19,6 @@ RigStream::RigStream(const Rig& rig, ReceiveTimes times)
   : router_(routesOf(rig)),
     batcher_(rig.lidars, rig.batcher),
     imu_patience_(fromSeconds(1e-3 * rig.batcher.deadline_ms)),
-    imu_(rig.body_imu_ahead),
     lidar_imus_(rig.lidars.size()),
     strange_(rig.lidars.size(), 0)
 {
