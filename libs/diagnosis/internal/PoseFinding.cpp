@@ -27,7 +27,8 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
   const CloudAgreement& a = *agreement;
   finding.says = fmt::format("{:.0f} % (+-{:.0f}) of {} common points agree with '{}'", 100 * a.near_share,
                              100 * a.near_sigma, a.common, other);
-  const double at_best = a.near_share + kDeviations * std::max(a.near_sigma, kLeastSigma);
+  const double share_sigma = std::max(a.near_sigma, kLeastSigma);
+  const double at_best = a.near_share + kDeviations * share_sigma;
   finding.verdict = at_best < limits::kNearShareWarning        ? Verdict::NotFit
                     : a.near_share < limits::kNearShareWarning ? Verdict::Warning
                                                                : Verdict::Ok;
@@ -46,7 +47,8 @@ Finding poseFinding(const std::string& lidar, const std::string& other, const st
       std::max(grade(atLeast(c.offset.norm(), c.offset_sigma), limits::kPoseOffsetWarning, limits::kPoseOffsetNotFit),
                grade(atLeast(degrees.norm(), c.rotation_sigma / kDegree), limits::kPoseAngleWarningDeg,
                      limits::kPoseAngleNotFitDeg));
-  if (fit == Verdict::Ok || c.near_share <= a.near_share) return finding;  // a true error hides what is common
+  // A true error hides what is common. Along a street a movement changes little, and the fit is sure of nothing.
+  if (fit == Verdict::Ok || c.near_share <= a.near_share + share_sigma) return finding;
   finding.verdict = std::max(finding.verdict, fit);
   if (c.offset.norm() > kLargestOffset || degrees.norm() > kLargestTurn)
     finding.mend = fmt::format(

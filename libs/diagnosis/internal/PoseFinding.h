@@ -11,7 +11,7 @@ namespace scanloom
 {
 /**
  * About `lidar`, if the pose of `other` is right. Four standard deviations are subtracted from an error before it is
- * compared with the limits, and it counts only if more agrees without it.
+ * compared with the limits, and it counts only if clearly more agrees without it.
  */
 Finding poseFinding(const std::string& lidar, const std::string& other, const std::optional<CloudAgreement>&);
 
