@@ -116,7 +116,7 @@ bool ImuInUse::changeIfShaken()
   { return shaking(received_[sensor].kept).value_or(std::numeric_limits<double>::infinity()); };
   const auto calmest =
       std::min_element(sensors_.begin(), sensors_.end(), [&](int a, int b) { return shakes(a) < shakes(b); });
-  if (kMuchMore * shakes(*calmest) > shakes(sensor_)) return false;
+  if (kMuchMore * shakes(*calmest) >= shakes(sensor_)) return false;
   std::rotate(sensors_.begin(), calmest, std::next(calmest));
   change(sensors_.front());
   return true;
