@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace scanloom
@@ -106,19 +105,22 @@ void ImuInUse::change(int sensor) { previous_ = std::exchange(sensor_, sensor); 
 
 bool ImuInUse::changeIfShaken()
 {
-  constexpr double kMuchMore = 10;
-  const auto lasts = [this](int sensor) { return received_.count(sensor) == 0 || shaking(received_[sensor].kept); };
-  if (!may_change_ || compared_ || !shaking(received_[sensor_].kept) ||
-      !std::all_of(sensors_.begin(), sensors_.end(), lasts))
-    return false;
+  constexpr double kMuchMore = 10;  // sound mounts differ by less: doc/study/localisation.md#an-imu-on-a-bad-mount
+  if (!may_change_ || compared_ || received_.count(sensor_) == 0) return false;
+  std::map<int, double> shakes;
+  for (const auto& [sensor, received] : received_)
+  {
+    const std::optional<double> measured = shaking(received.kept);
+    if (!measured) return false;
+    shakes[sensor] = *measured;
+  }
   compared_ = true;
-  const auto shakes = [this](int sensor)
-  { return shaking(received_[sensor].kept).value_or(std::numeric_limits<double>::infinity()); };
-  const auto calmest =
-      std::min_element(sensors_.begin(), sensors_.end(), [&](int a, int b) { return shakes(a) < shakes(b); });
-  if (kMuchMore * shakes(*calmest) >= shakes(sensor_)) return false;
-  std::rotate(sensors_.begin(), calmest, std::next(calmest));
-  change(sensors_.front());
+  const auto [calmest, least] =
+      *std::min_element(shakes.begin(), shakes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (kMuchMore * least >= shakes.at(sensor_)) return false;
+  const auto found = std::find(sensors_.begin(), sensors_.end(), calmest);
+  std::rotate(sensors_.begin(), found, std::next(found));
+  change(calmest);
   return true;
 }
 

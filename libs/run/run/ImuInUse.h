@@ -49,8 +49,8 @@ class ImuInUse
   Duration patience(Duration imu_wait) const;
 
   /**
-   * Once, when all IMUs have been received for a second: if the one in use shakes ten times as much as another one,
-   * that one comes before all others from here on, is in use, and the result is true.
+   * Once, when all IMUs that send have been received for a second: if the one in use shakes ten times as much as
+   * another one, that one comes before all others from here on, is in use, and the result is true.
    */
   bool changeIfShaken();
 

@@ -47,7 +47,7 @@ TEST(LidarInformation, whereTheScoreIsFlatTheViewpointBiasIsStillLessThanACell)
   for (double x = 0; x < 0.6; x += 0.01) EXPECT_LT(informationAt(x).viewpoint_bias.norm(), 1) << x;
 }
 
-TEST(LidarInformation, whatIsKnownToLessThanTenMetresIsNotMeasured)
+TEST(LidarInformation, whatDeviatesByMoreThanTenMetresIsNotMeasured)
 {
   Vector6d deviations;
   deviations << 0.01, 12, 0.01, 0.001, 3, 0.001;  // m, rad: 3 rad are 15 m at 5 m
