@@ -46,6 +46,7 @@ constexpr std::array kCountedClasses{
     CountedClass{"CObservationOdometry", 1},
     CountedClass{"CPose2D", 0, 0, 0, 1},
     CountedClass{"CPose3D", 0, 0, 0, 2},
+    CountedClass{"CPose3DPDFGaussian", 0, 0, 0, 1},
     CountedClass{"CSimplePointsMap", 12},
     CountedClass{"CPointsMapXYZI", 16},
     CountedClass{"CPointsMapXYZIRT", 12},

@@ -1,6 +1,7 @@
 #include "input/rawlogs/CountedArchive.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
 
 #include <fstream>
@@ -28,6 +29,9 @@ std::string objectNamed(const std::string& name, char version)
 {
   return static_cast<char>(0x80 | name.size()) + name + version;
 }
+
+/** Twelve numbers, as MRPT 2.5 writes a position and a rotation matrix. */
+std::string pose() { return objectNamed("mrpt::poses::CPose3D", 3) + std::string(96, '\0') + '\x88'; }
 
 /** A CObservationRotatingScan up to its image of ranges, as MRPT 2.5 writes it. */
 std::string scanOf(const std::string& label)
@@ -64,5 +68,15 @@ TEST(CountedArchive, aRotatingScanIsRefusedBeforeTheMemoryForWhatCannotFollowIsT
             "is damaged: a CObservationRotatingScan of 4294836225 pixels, but only 0 bytes follow");
   EXPECT_EQ(refusedIn(scanOf(bytesOf(std::uint32_t{0xFFFFFFFF}))).substr(0, 68),
             "is damaged: a CObservationRotatingScan of 4294967295 characters, but");
+}
+
+TEST(CountedArchive, aRobotPoseIsRefusedBeforeTheMemoryForALabelThatCannotFollowIsTaken)
+{
+  mrpt::obs::CObservationRobotPose::Create();
+  const std::string covariance(21 * sizeof(double), '\0');
+  EXPECT_EQ(
+      refusedIn(objectNamed("mrpt::obs::CObservationRobotPose", 1) + objectNamed("mrpt::poses::CPose3DPDFGaussian", 1) +
+                pose() + covariance + '\x88' + bytesOf(std::uint32_t{0xFFFFFFFF})),
+      "is damaged: a CObservationRobotPose of 4294967295 items, but only 0 bytes follow");
 }
 }  // namespace scanloom::counted_archive_unittest
