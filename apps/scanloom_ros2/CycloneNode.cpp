@@ -1,69 +1,27 @@
 /** libscanloom_dds.so: what libs/input/ros2/Ros2Node.h promises, by Cyclone DDS. */
+#include "MessageQueue.h"
+#include "Publishers.h"
 #include "RawMessages.h"
-#include "base/core/Text.h"
+#include "cyclone.h"
 #include "cycloneConfiguration.h"
 #include "input/ros2/Ros2Node.h"
 #include "nodeMessage.h"
 
 #include <dds/dds.h>
-#include <fmt/format.h>
 #include <pthread.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <condition_variable>
-#include <cstring>
 #include <deque>
-#include <map>
 #include <mutex>
-#include <stdexcept>
+#include <set>
 #include <thread>
 
 namespace scanloom
 {
 namespace
 {
-using Qos = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
-using Steady = std::chrono::steady_clock;
-
-constexpr std::size_t kMemory = 256'000'000;  // bytes of messages that wait: two seconds of eight lidars
-constexpr int kKeptByReaders = 4000;          // messages between two looks at a topic: three seconds of its packets
-
-/** Throws std::runtime_error for the codes of Cyclone's errors. */
-dds_entity_t checked(dds_entity_t result, const std::string& what)
-{
-  if (result < 0) throw std::runtime_error(fmt::format("ROS 2 (DDS): {}: {}", what, dds_strretcode(result)));
-  return result;
-}
-
-/** What Cyclone warns of. Any sender of the network can cause a line for each packet: a person sees the first few. */
-void logToPerson(void*, const dds_log_data_t* line)
-{
-  constexpr int kShown = 5;
-  constexpr std::size_t kLongest = 200;  // characters
-  static std::atomic<int> number{0};
-  const int n = ++number;
-  if (n > kShown) return;
-  const std::string_view text(line->message, std::min(line->size, kLongest));
-  fmt::print(stderr, "warning: ROS 2 (DDS): {}{}\n", printable(std::string(trimmed(text))),
-             n == kShown ? " (no more of these are shown)" : "");
-}
-
-Qos newQos() { return {dds_create_qos(), &dds_delete_qos}; }
-
-Qos qosOf(bool reliable, bool for_latecomers, int messages)
-{
-  Qos qos = newQos();
-  dds_qset_reliability(qos.get(), reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
-  dds_qset_durability(qos.get(), for_latecomers ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, messages);
-  if (for_latecomers)
-    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, messages, DDS_LENGTH_UNLIMITED,
-                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
-  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  return qos;
-}
+constexpr int kKeptByReaders = 4000;  // messages between two looks at a topic: three seconds of its packets
 
 class CycloneNode : public Ros2Node
 {
@@ -113,26 +71,13 @@ class CycloneNode : public Ros2Node
   std::vector<Ros2Publication> publications() const override
   {
     const std::lock_guard lock(mutex_);
-    std::vector<Ros2Publication> found;
-    for (const auto& [key, publisher] : publishers_)
-    {
-      const auto same = [&p = publisher](const Ros2Publication& known) { return known.topic == p.topic; };
-      auto known = std::find_if(found.begin(), found.end(), same);
-      if (known == found.end()) known = found.insert(found.end(), {publisher.topic});
-      ++known->publishers;
-      known->reliable &= publisher.reliable;
-      known->kept_for_latecomers &= publisher.for_latecomers;
-    }
-    std::sort(found.begin(), found.end(),
-              [](const Ros2Publication& a, const Ros2Publication& b)
-              { return std::tie(a.topic.name, a.topic.type) < std::tie(b.topic.name, b.topic.type); });
-    return found;
+    return publishers_.publications();
   }
 
   void subscribe(const std::string& topic) override
   {
     const std::lock_guard lock(mutex_);
-    wanted_.push_back(topic);
+    wanted_.insert(topic);
     followPublishers();
   }
 
@@ -142,26 +87,15 @@ class CycloneNode : public Ros2Node
     wanted_.clear();
     while (!readers_.empty()) removeReader(std::prev(readers_.end()));
     introduce();
-    const std::lock_guard queue_lock(queue_mutex_);
     queue_.clear();
-    waiting_ = 0;
   }
 
-  std::optional<Ros2Message> next(Duration patience) override
-  {
-    std::unique_lock lock(queue_mutex_);
-    arrived_.wait_for(lock, patience, [this] { return !queue_.empty(); });
-    if (queue_.empty()) return std::nullopt;
-    std::optional<Ros2Message> message(std::move(queue_.front()));
-    queue_.pop_front();
-    waiting_ -= message->data.size();
-    return message;
-  }
+  std::optional<Ros2Message> next(Duration patience) override { return queue_.next(patience); }
 
   Ros2Losses losses() const override
   {
     const std::lock_guard lock(mutex_);
-    Ros2Losses losses{dropped_, lost_};
+    Ros2Losses losses{queue_.dropped(), lost_};
     for (const Reader& reader : readers_)
     {
       dds_sample_lost_status_t status{};
@@ -191,16 +125,9 @@ class CycloneNode : public Ros2Node
   }
 
  private:
-  struct Publisher
-  {
-    Ros2Topic topic;
-    bool reliable = true, for_latecomers = false;
-  };
-
   struct Reader
   {
-    Ros2Topic topic;
-    bool reliable = true, for_latecomers = false;
+    Ros2Publication of;  // as its publishers were when it was made
     dds_entity_t entity = 0;
   };
 
@@ -275,63 +202,32 @@ class CycloneNode : public Ros2Node
   void discover()
   {
     constexpr std::size_t kAtOnce = 16;
+    dds_guid_t own{};
+    dds_get_guid(participant_, &own);
     const std::lock_guard lock(mutex_);
     std::array<void*, kAtOnce> samples{};
     std::array<dds_sample_info_t, kAtOnce> infos;
     for (int count = 1; count > 0;)
     {
       count = dds_take(discovery_, samples.data(), infos.data(), kAtOnce, kAtOnce);
-      for (int i = 0; i < count; ++i) follow(*static_cast<const dds_builtintopic_endpoint_t*>(samples[i]), infos[i]);
+      for (int i = 0; i < count; ++i)
+        publishers_.follow(*static_cast<const dds_builtintopic_endpoint_t*>(samples[i]), infos[i], own);
       if (count > 0) dds_return_loan(discovery_, samples.data(), count);
     }
     followPublishers();
-  }
-
-  void follow(const dds_builtintopic_endpoint_t& endpoint, const dds_sample_info_t& info)
-  {
-    Guid key;
-    std::copy(std::begin(endpoint.key.v), std::end(endpoint.key.v), key.begin());
-    if (info.instance_state != DDS_ALIVE_INSTANCE_STATE)
-    {
-      publishers_.erase(key);
-      return;
-    }
-    dds_guid_t own{};
-    dds_get_guid(participant_, &own);
-    const auto topic =
-        endpoint.topic_name && endpoint.type_name ? rosTopicOf(endpoint.topic_name, endpoint.type_name) : std::nullopt;
-    constexpr std::size_t kMostPublishers = 10'000;  // an unknown sender may announce without end
-    const bool is_own = std::memcmp(own.v, endpoint.participant_key.v, sizeof own.v) == 0;
-    if (!topic || is_own || publishers_.size() >= kMostPublishers) return;
-    Publisher publisher{*topic};
-    dds_reliability_kind_t reliability = DDS_RELIABILITY_BEST_EFFORT;
-    dds_durability_kind_t durability = DDS_DURABILITY_VOLATILE;
-    dds_duration_t blocking = 0;
-    dds_qget_reliability(endpoint.qos, &reliability, &blocking);
-    dds_qget_durability(endpoint.qos, &durability);
-    publisher.reliable = reliability == DDS_RELIABILITY_RELIABLE;
-    publisher.for_latecomers = durability != DDS_DURABILITY_VOLATILE;
-    publishers_[key] = std::move(publisher);
   }
 
   /** A reader for each type of a wanted topic, which asks for no more than all of its publishers offer. */
   void followPublishers()
   {
     bool changed = false;
-    std::map<std::pair<std::string, std::string>, Publisher> offers;  // by name and type
-    for (const auto& [key, publisher] : publishers_)
+    for (const Ros2Publication& offer : publishers_.publications())
     {
-      if (std::find(wanted_.begin(), wanted_.end(), publisher.topic.name) == wanted_.end()) continue;
-      const auto [offer, first] = offers.emplace(std::pair{publisher.topic.name, publisher.topic.type}, publisher);
-      offer->second.reliable &= publisher.reliable;
-      offer->second.for_latecomers &= publisher.for_latecomers;
-    }
-    for (const auto& [name_and_type, offer] : offers)
-    {
-      const auto reads = [&o = offer](const Reader& reader) { return reader.topic == o.topic; };
+      if (wanted_.count(offer.topic.name) == 0) continue;
+      const auto reads = [&](const Reader& reader) { return reader.of.topic == offer.topic; };
       const auto known = std::find_if(readers_.begin(), readers_.end(), reads);
-      const bool fits = known != readers_.end() && (offer.reliable || !known->reliable) &&
-                        (offer.for_latecomers || !known->for_latecomers);
+      const bool fits = known != readers_.end() && (offer.reliable || !known->of.reliable) &&
+                        (offer.kept_for_latecomers || !known->of.kept_for_latecomers);
       if (fits) continue;
       if (known != readers_.end()) removeReader(known);
       addReader(offer);
@@ -340,17 +236,16 @@ class CycloneNode : public Ros2Node
     if (changed) introduce();
   }
 
-  void addReader(const Publisher& offer)
+  void addReader(const Ros2Publication& offer)
   {
     ddsi_sertype* type = rawType(ddsTypeOf(offer.topic.type));
     const dds_entity_t topic = createTopic(ddsTopicOf(offer.topic.name), &type);
-    const Qos qos = qosOf(offer.reliable, offer.for_latecomers, kKeptByReaders);
-    Reader reader{offer.topic, offer.reliable, offer.for_latecomers};
-    reader.entity =
-        checked(dds_create_reader(participant_, topic, qos.get(), nullptr), "no reader of " + offer.topic.name);
+    const Qos qos = qosOf(offer.reliable, offer.kept_for_latecomers, kKeptByReaders);
+    const Reader reader{
+        offer, checked(dds_create_reader(participant_, topic, qos.get(), nullptr), "no reader of " + offer.topic.name)};
     dds_set_status_mask(reader.entity, DDS_DATA_AVAILABLE_STATUS);
     attach(reader.entity);
-    readers_.push_back(std::move(reader));
+    readers_.push_back(reader);
   }
 
   void removeReader(std::vector<Reader>::iterator reader)
@@ -377,25 +272,10 @@ class CycloneNode : public Ros2Node
       count = dds_takecdr(reader.entity, messages.data(), kAtOnce, infos.data(), DDS_ANY_STATE);
       for (int i = 0; i < count; ++i)
       {
-        if (infos[i].valid_data) keep(reader.topic, bytesOf(messages[i]));
+        if (infos[i].valid_data) queue_.push(reader.of.topic, bytesOf(messages[i]));
         ddsi_serdata_unref(messages[i]);
       }
     }
-  }
-
-  /** The newest messages, as far as the memory goes. */
-  void keep(const Ros2Topic& topic, Bytes bytes)
-  {
-    const Timestamp now = started_ + std::chrono::duration_cast<Duration>(Steady::now() - steady_start_);
-    const std::lock_guard lock(queue_mutex_);
-    queue_.push_back({topic, now, {bytes.begin(), bytes.end()}});
-    waiting_ += bytes.size();
-    for (; waiting_ > kMemory && queue_.size() > 1; queue_.pop_front())
-    {
-      waiting_ -= queue_.front().data.size();
-      ++dropped_;
-    }
-    arrived_.notify_one();
   }
 
   bool long_ids_;
@@ -404,20 +284,13 @@ class CycloneNode : public Ros2Node
   Writer nodes_;
 
   mutable std::mutex mutex_;
-  std::map<Guid, Publisher> publishers_;
-  std::vector<std::string> wanted_;  // topics
+  Publishers publishers_;
+  std::set<std::string> wanted_;  // topics
   std::vector<Reader> readers_;
   std::deque<Writer> writers_;
   std::uint64_t lost_ = 0;  // by readers that are no more
 
-  std::mutex queue_mutex_;
-  std::condition_variable arrived_;
-  std::deque<Ros2Message> queue_;
-  std::size_t waiting_ = 0;  // bytes
-  std::atomic<std::uint64_t> dropped_{0};
-  // The stamps' clock begins as the computer's and is never set.
-  Steady::time_point steady_start_ = Steady::now();
-  Timestamp started_{std::chrono::duration_cast<Duration>(std::chrono::system_clock::now().time_since_epoch())};
+  MessageQueue queue_;
   std::thread thread_;
 };
 }  // namespace
