@@ -233,8 +233,8 @@ void FixedLagSmoother::replacePrior(LinearFactor by)
 
 void FixedLagSmoother::dropFactorsOf(Timestamp state)
 {
-  const auto erase = [](auto& all_of_them, const auto& isGone)
-  { all_of_them.erase(std::remove_if(all_of_them.begin(), all_of_them.end(), isGone), all_of_them.end()); };
+  const auto erase = [](auto& factors, const auto& isOfState)
+  { factors.erase(std::remove_if(factors.begin(), factors.end(), isOfState), factors.end()); };
   erase(motions_, [&](const Preintegration& m) { return m.from == state || m.to == state; });
   erase(lidar_poses_, [&](const LidarPose& l) { return l.stamp == state || l.reference == state; });
 }

@@ -2,10 +2,12 @@
  * All numbers of the estimator that were fitted to drives, or chosen on them, in one table. Other numbers of `ndt` and
  * `slam` follow from geometry, arithmetic or a processor, and stand where they are used.
  *
- * The last column is the section of doc/study/localisation.md that says what other values do. "Drives" are simulated
- * ones of dense, sparse and hard stands, and those of a second generator, with one and two lidars.
+ * The last column is the section of doc/study/localisation.md that shows these drives and, where it was measured, what
+ * other values do. "Drives" are simulated ones of dense, sparse and hard stands, and those of a second generator, with
+ * one and two lidars.
  */
 #pragma once
+#include <cstddef>
 
 namespace scanloom::fitted
 {
@@ -62,9 +64,18 @@ constexpr double kOverlapOfPlace      = 0.5;     // 1      the same             
 constexpr double kDeviationOfPlace    = 0.3;     // m      the same                                          #made-to-get-lost
 constexpr double kStartsApart         = 3;       // m      alignment finds a pose within 2 m of its start    #on-two-generators
 constexpr double kWorkingImuDeg       = 3;       // deg    tilt of an IMU that works                         #made-to-get-lost
+constexpr double kMachineSpeed        = 1.5;     // m/s    the most that a lost harvester drives             #made-to-get-lost
+constexpr double kSpeedAtRest         = 1;       // m/s    deviation of a lost body taken to be at rest      #both-lidars-silent
 
 // A drive in the map of an earlier one (PlaceSearch)
 constexpr double kAgreementOfPlace    = 0.7;     // 1      of the score with itself; other stands, rows      #in-a-map
+constexpr double kReachOfMap          = 6;       // m      from its keyframes it is searched                 #in-a-map
+constexpr double kLeanOfStartDeg      = 12;      // deg    of a machine on the ground, without an IMU        #in-a-map
+constexpr std::size_t kKeyframesTogether = 3;    // 1      what a machine sees on about 10 m                 #in-a-map
+constexpr std::size_t kPlacesAligned = 6;        // 1      of the best scores; the same stands               #in-a-map
+constexpr std::size_t kCellsToScreen = 500;      // 1      of some thousand: a tenth of the time             #in-a-map
+constexpr double kSightInMap          = 25;      // m      keyframes farther away share few cells            #in-a-map
+constexpr double kWayInMap            = 2;       // m      until others of its keyframes may be nearer       #in-a-map
 constexpr double kSamePlace           = 0.25;    // m      between two keyframes' places; the same           #in-a-map
 constexpr double kSamePlaceDeg        = 1;       // deg    the same                                          #in-a-map
 
@@ -73,6 +84,7 @@ constexpr double kSharedTiltDeg       = 0.03;    // deg    drives of 120 to 315 
 constexpr double kSightLength         = 12;      // m      drives of 120 to 315 m                            #harder-worlds
 constexpr double kPlaceRadius         = 0.05;    // m      foliage scatters by 1 to 2 cm                     #where-the-machine-stands
 constexpr double kLeastTravel         = 0.02;    // m      at rest; drives with stops                        #where-the-machine-stands
+constexpr double kCorrelationLength   = 2;       // m      registrations within it err alike; drives         #where-the-machine-stands
 constexpr double kScaleError          = 6e-4;    // 1      of the way; NEES since the start                  #consistency
 
 // Estimate against registration (DivergenceDetector): good ones reach 0.21 m and 13 deviations
@@ -82,6 +94,7 @@ constexpr double kApartDeviations     = 8;       // 1      good drives with one 
 constexpr double kFarApart            = 0.25;    // m      good drives with one lidar                        #on-two-generators
 constexpr double kFarApartRadians     = 0.05;    // rad    good drives with one lidar                        #on-two-generators
 constexpr double kFarApartDeviations  = 15;      // 1      good drives with one lidar                        #on-two-generators
+constexpr double kGate                = 40;      // 1      deviations between a trusted one and the IMU      #imu-faults
 
 // Whether the lidar's track goes on (LidarTrack): 3 m/s too much smear a scan by 0.3 m
 constexpr double kSameStep            = 0.5;     // m      pushes of 5 to 30 m/s2 for 0.2 s                  #imu-faults
@@ -89,6 +102,10 @@ constexpr double kSameStepRadians     = 0.1;     // rad    the same             
 
 // A map that is levelled anew (StateEstimate::mapJumped)
 constexpr double kMapJump             = 0.25;    // m      sound drives 0.08, maps tilted by cars 1 and more #real-sequences
+
+// Keyframes of the local map, and the first velocity of a drive without an IMU (LocalMap, StartUp)
+constexpr double kKeyframeTurnDeg     = 20;      // deg    turn after which a scan joins the map; drives     #keyframes
+constexpr std::size_t kTrialScans = 4;           // 1      enough for a velocity, still that of the first    #starts
 
 // Another IMU takes over (SmootherReset): deviations
 constexpr double kTiltOfChange        = 0.005;   // rad    runs in which an IMU fails                        #imu-faults

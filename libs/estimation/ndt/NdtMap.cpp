@@ -288,6 +288,7 @@ void NdtMap::requireSameCells(const BinnedPoints& points) const
                                           edgeOf(points.cell_quanta), options_.cell_size));
 }
 
+/** The cells of a block (CellKey) follow each other in bins_, because the higher bits of their keys are the block's. */
 void NdtMap::indexBlocks()
 {
   blocks_.clear();

@@ -15,12 +15,8 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kTogether = 3;           // keyframes: what a machine sees on about 10 m
-constexpr double kReach = 6;                   // m: so far from the map's keyframes it is searched
-constexpr std::size_t kCandidates = 6;         // places that are aligned
-constexpr int kHeadings = 24;                  // all around
-constexpr int kHeadingsAside = 2;              // to each side of a known one, as far apart
-constexpr double kLeanOfStart = 12 * kDegree;  // rad, of a machine on the ground that it drives on
+constexpr int kHeadings = 24;      // all around
+constexpr int kHeadingsAside = 2;  // to each side of a known one, as far apart
 
 /** Starts on a grid, compared in the cells of one level. */
 struct Screening
@@ -43,7 +39,7 @@ Rigid levelled(const Rigid& pose) { return turned(pose.translation, pose.yawPitc
 std::vector<Eigen::Vector3d> placesIn(const PriorMap& map, double grid)
 {
   std::map<std::pair<long, long>, std::pair<double, double>> nearest;  // of a place: distance and height
-  const long reach = std::lround(kReach / grid);
+  const long reach = std::lround(fitted::kReachOfMap / grid);
   for (const PriorMap::Keyframe& keyframe : map.keyframes())
   {
     const Eigen::Vector3d& at = keyframe.map_T_body.translation;
@@ -52,7 +48,7 @@ std::vector<Eigen::Vector3d> placesIn(const PriorMap& map, double grid)
       for (long y = j - reach; y <= j + reach; ++y)
       {
         const double distance = std::hypot(at.x() - grid * double(x), at.y() - grid * double(y));
-        if (distance > kReach) continue;
+        if (distance > fitted::kReachOfMap) continue;
         const auto [place, is_new] = nearest.try_emplace({x, y}, distance, at.z());
         if (!is_new && distance < place->second.first) place->second = {distance, at.z()};
       }
@@ -87,10 +83,10 @@ std::vector<Rigid> startsAbout(const Rigid& map_T_level, double reach_of_guess, 
 
 double leanOf(const Rigid& pose) { return std::acos(std::min(1.0, (pose.rotation * Eigen::Vector3d::UnitZ()).z())); }
 
-/** Where the body would be by another keyframe's place, and where it is. */
-bool areSame(const Rigid& map_T_body, const Rigid& other)
+/** Whether the body is where the place of the keyframe before says that it is by now. */
+bool areSame(const Rigid& by_keyframe_before, const Rigid& map_T_body)
 {
-  const Vector6d apart = boxMinus(map_T_body, other);
+  const Vector6d apart = boxMinus(by_keyframe_before, map_T_body);
   return apart.head<3>().norm() < fitted::kSamePlace && apart.tail<3>().norm() < fitted::kSamePlaceDeg * kDegree;
 }
 
@@ -157,7 +153,7 @@ PlaceSearch::PlaceSearch(std::shared_ptr<const PriorMap> map, const SlamSettings
     levels_(map_->whole()),
     body_T_lidar_(posesOf(lidars)),
     corrections_(cellCorrections(settings.slam.forest)),
-    lean_(level == LevelBy::Imu ? fitted::kWorkingImuDeg * kDegree : kLeanOfStart),
+    lean_((level == LevelBy::Imu ? fitted::kWorkingImuDeg : fitted::kLeanOfStartDeg) * kDegree),
     about_(about)
 {
 }
@@ -165,7 +161,7 @@ PlaceSearch::PlaceSearch(std::shared_ptr<const PriorMap> map, const SlamSettings
 void PlaceSearch::see(const Keyframe& keyframe)
 {
   seen_.push_back({keyframe.map_T_body, viewsOf(keyframe.points, body_T_lidar_, corrections_)});
-  if (seen_.size() > kTogether) seen_.pop_front();
+  if (seen_.size() > fitted::kKeyframesTogether) seen_.pop_front();
   if (about_ && !map_T_drive_about_)
     map_T_drive_about_ = levelled(about_->map_T_body) * levelled(keyframe.map_T_body).inverse();
 }
@@ -183,7 +179,7 @@ SearchedPlace PlaceSearch::add(const Keyframe& keyframe)
   {
     if (found.outcome != PlaceOutcome::NotInMap) break;
     const auto candidates = placesFrom(levels_, screening.level, together, starts(screening.grid, drive_T_level),
-                                       kCandidates, cells_, alignment_);
+                                       fitted::kPlacesAligned, cells_, alignment_);
     found = judged(candidates, drive_T_level, own_score, lean_);
   }
   const double agreement = found.best_score / own_score;

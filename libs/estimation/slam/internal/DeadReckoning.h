@@ -5,8 +5,6 @@
 
 namespace scanloom
 {
-inline constexpr double kMachineSpeed = 1.5;  // m/s, the most that a lost body is taken to drive
-
 /** How the IMU has changed the velocity of a body since its last pose that was not LOST. */
 struct DeadReckoning
 {

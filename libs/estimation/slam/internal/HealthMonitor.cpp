@@ -10,8 +10,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kGate = 40.0;  // sigma: a registration farther than this from the IMU's prediction is not trusted
-
 /**
  * The scan agrees with the map where the IMU says that the body is, but leaves a direction open, along which the body
  * can hardly have moved. A search would only find another place that looks alike.
@@ -97,7 +95,7 @@ GatedRegistration HealthMonitor::gated(Timed<RegistrationResult> seen, const Pos
   if (gated.result->outcome == Outcome::LowOverlap) return gated;
   gated.mahalanobis = mahalanobisOf(*gated.result, predicted);
   gated.usable = isUsable(*gated.result, gated.mahalanobis, before);
-  gated.trusted = gated.usable && gated.mahalanobis <= kGate;
+  gated.trusted = gated.usable && gated.mahalanobis <= fitted::kGate;
   return gated;
 }
 
@@ -231,7 +229,7 @@ BodyEstimate HealthMonitor::resting(const BodyEstimate& body, const Attitude& at
   const Rigid map_T_body_before = before.window.smoother.newest().map_T_imu * imu.body_T_imu.inverse();
   const Rigid map_T_body{attitude.map_R_body, map_T_body_before.translation};
   const NavEstimate start = atRest(map_T_body, attitude.tilt_sigma, body.window.newest(), imu);
-  const double reach = kMachineSpeed * seconds(rest);
+  const double reach = fitted::kMachineSpeed * seconds(rest);
   const auto widened = [&](Matrix6d covariance)
   {
     covariance.diagonal().head<3>().array() += reach * reach;

@@ -1,5 +1,6 @@
 #include "estimation/slam/internal/LocalMap.h"
 
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/slam/PriorMap.h"
 
 #include <algorithm>
@@ -9,10 +10,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kKeyframeTurnDeg = 20.0;  // deg: turn since the last keyframe at which a new one is added
-constexpr double kWayToMove = 2;           // m: after so much way other keyframes of an earlier drive may be nearer
-constexpr double kSight = 25;              // m: keyframes farther away share few cells with a scan
-
 /** Cells that both have. */
 int commonCells(const BinnedPoints& a, const BinnedPoints& b)
 {
@@ -42,15 +39,16 @@ bool LocalMap::wants(const Rigid& map_T_body) const
            std::none_of(prior_->keyframes().begin(), prior_->keyframes().end(), isNear);
   const Vector6d travel = boxMinus(map_T_body, keyframes_.back().map_T_body);
   return travel.head<3>().norm() >= options_.keyframe_distance ||
-         travel.tail<3>().norm() >= kKeyframeTurnDeg * M_PI / 180;
+         travel.tail<3>().norm() >= fitted::kKeyframeTurnDeg * M_PI / 180;
 }
 
 /** Sums of points are integers: what is removed leaves no trace. */
 void LocalMap::moveTo(const Eigen::Vector3d& place)
 {
-  if (!prior_ || (moved_to_ && (place - *moved_to_).norm() < kWayToMove)) return;
+  if (!prior_ || (moved_to_ && (place - *moved_to_).norm() < fitted::kWayInMap)) return;
   moved_to_ = place;
-  const std::vector<std::size_t> near = prior_->around(place, static_cast<std::size_t>(options_.keyframes), kSight);
+  const std::vector<std::size_t> near =
+      prior_->around(place, static_cast<std::size_t>(options_.keyframes), fitted::kSightInMap);
   const std::vector<std::size_t> before = std::exchange(of_prior_, near);
   for (const std::size_t i : before)
     if (!std::binary_search(near.begin(), near.end(), i)) ndt_.remove(prior_->keyframes()[i].points);

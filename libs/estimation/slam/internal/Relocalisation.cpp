@@ -39,7 +39,7 @@ Search Relocalisation::search(const NdtMap& local_map, const std::vector<View>& 
   const std::size_t screened = 30;  // scores, and steps from the best of them: as long as about two alignments
   if (!last_seen_) return {{}, *this, {}};
   const SearchArea area{{lost.local_R_body, last_seen_->local_T_body.translation},
-                        std::min(10.0, kMachineSpeed * seconds(lost.since_trusted))};
+                        std::min(10.0, fitted::kMachineSpeed * seconds(lost.since_trusted))};
   const std::vector<Rigid> all = startsWithin(area);
   const std::size_t begin = next_start_ < all.size() ? next_start_ : 0, end = std::min(all.size(), begin + screened);
   const std::vector<Rigid> starts = part(all, begin, end);

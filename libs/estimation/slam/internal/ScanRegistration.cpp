@@ -254,10 +254,9 @@ std::vector<RegistrationResult> placesFrom(const MapLevels& map, std::size_t lev
                                            const std::vector<Rigid>& starts, std::size_t count, const NdtOptions& cells,
                                            const RegistrationOptions& options)
 {
-  constexpr std::size_t kCellsToScreen = 500;  // of some thousand: a tenth of the time
   const Pyramid pyramid(map, views, cells, level);
   std::vector<Rigid> apart;
-  const std::vector<Rigid> likely = posesOf(pyramid.best(starts, 100 * count, kCellsToScreen));
+  const std::vector<Rigid> likely = posesOf(pyramid.best(starts, 100 * count, fitted::kCellsToScreen));
   for (const Rigid& start : pyramid.mostPromising(likely, 10 * count))
   {
     const auto isNear = [&](const Rigid& other) { return !isFarFrom(start, other); };

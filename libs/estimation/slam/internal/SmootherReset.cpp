@@ -12,8 +12,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kAtRest = 1;  // m/s, standard deviation of the velocity of a body that is taken to be at rest
-
 /** Derivatives of the new IMU's state by that of the one before; its biases are other ones where they are not known. */
 Matrix15d byStateBefore(const Rigid& old_T_new, bool biases_known)
 {
@@ -82,7 +80,7 @@ NavEstimate withUnknownVelocity(const Rigid& map_T_body, const Matrix6d& body_co
   newest.covariance.topRows<9>().setZero();
   newest.covariance.leftCols<9>().setZero();
   newest.covariance.topLeftCorner<6, 6>() = movedTo(imu.body_T_imu, body_covariance);
-  newest.covariance.diagonal().segment<3>(6).setConstant(kAtRest * kAtRest);
+  newest.covariance.diagonal().segment<3>(6).setConstant(fitted::kSpeedAtRest * fitted::kSpeedAtRest);
   return newest;
 }
 }  // namespace
@@ -127,7 +125,7 @@ NavEstimate inFrame(const Rigid& map_T_drive, const Matrix6d& body_covariance, c
 
 bool knowsVelocity(const NavEstimate& estimate)
 {
-  return estimate.covariance.diagonal().segment<3>(6).maxCoeff() < kAtRest * kAtRest;
+  return estimate.covariance.diagonal().segment<3>(6).maxCoeff() < fitted::kSpeedAtRest * fitted::kSpeedAtRest;
 }
 
 NavEstimate atRest(const Rigid& map_T_body, double tilt_sigma, const NavEstimate& newest, const MountedImu& imu)

@@ -1,5 +1,6 @@
 #include "estimation/slam/internal/StartUp.h"
 
+#include "estimation/ndt/FittedConstants.h"
 #include "estimation/slam/internal/requireGravity.h"
 
 #include <algorithm>
@@ -9,14 +10,12 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kTrialScans = 4;  // enough for a velocity, few enough that it is still that of the first scan
-
 /** Velocity of the first state in the map frame: the smoother's window still holds that state after a few scans. */
 Eigen::Vector3d velocityByTrial(const std::deque<Scan>& scans, const ImuBuffer& imu, const Tracker& tracker,
                                 TrackerState state)
 {
   const auto window = static_cast<std::size_t>(state.window.smoother.options().window);
-  const std::size_t count = std::min({scans.size(), kTrialScans, window - 1});
+  const std::size_t count = std::min({scans.size(), fitted::kTrialScans, window - 1});
   for (std::size_t i = 0; i < count; ++i)
   {
     const std::vector<ImuSample> samples = imu.between(state.window.smoother.newest().stamp, scans[i].end());
@@ -31,10 +30,11 @@ std::optional<TrackerState> startUp(const WaitingScans& waiting, const ImuBuffer
 {
   if (waiting.scans().empty() || imu.empty()) return std::nullopt;
   const Scan& first = waiting.scans().front();
-  const bool enough_for_trial = waiting.inputEnded() || waiting.scans().size() >= kTrialScans;
+  const bool enough_for_trial = waiting.inputEnded() || waiting.scans().size() >= fitted::kTrialScans;
   if (placed.assumed && !enough_for_trial) return std::nullopt;
-  const Timestamp enough = placed.assumed ? waiting.scans()[std::min(waiting.scans().size(), kTrialScans) - 1].end()
-                                          : first.start + fromSeconds(options.duration);
+  const Timestamp enough = placed.assumed
+                               ? waiting.scans()[std::min(waiting.scans().size(), fitted::kTrialScans) - 1].end()
+                               : first.start + fromSeconds(options.duration);
   if (!waiting.inputEnded() && !imu.covers(first.start, enough)) return std::nullopt;
 
   const Timestamp to = std::min(enough, std::max(imu.samples().back().stamp, first.end()));

@@ -15,8 +15,6 @@ namespace scanloom
 {
 namespace
 {
-constexpr double kCorrelation = 2.0;  // m: registrations within it err alike and count as one measurement
-
 /** Covariance of the pose relative to the first one: as the smoother knows it, and from before its window began. */
 Matrix6d errorSinceStart(const Rigid& map_T_body, const SmootherWindow& window)
 {
@@ -226,7 +224,7 @@ Measurement Tracker::weigh(const GatedRegistration& registered, const TrackerSta
   measured.shared_noise.add(seen, up, before.local_map.oldest(), window.correlation.travel());
   // Errors of the attitude stay the same on the length of the map.
   const Matrix6d information = informationWithError(
-      seen.information / window.correlation.registrationsPerTravelOrRest(kCorrelation),
+      seen.information / window.correlation.registrationsPerTravelOrRest(fitted::kCorrelationLength),
       window.correlation.registrationsPerTravel(measured.shared_noise.length()) * measured.shared_noise.covariance(up));
   if (window.smoother.hasAnchor())
     window.smoother.addRelativePose(window.smoother.anchor().stamp, window.local_T_anchor.inverse() * local_T_body,
