@@ -1,9 +1,9 @@
 #include "diagnosis/RigCheck.h"
 
 #include "base/core/So3.h"
-#include "diagnosis/ImuComparison.h"
-#include "diagnosis/SelfReturns.h"
+#include "diagnosis/internal/ImuComparison.h"
 #include "diagnosis/internal/ImuSoundness.h"
+#include "diagnosis/internal/SelfReturns.h"
 
 #include <fmt/format.h>
 

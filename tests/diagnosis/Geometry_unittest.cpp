@@ -1,8 +1,8 @@
 /** GroundPlane and SelfReturns in worlds of planes and stems. */
 #include "calibration/CloudAgreement.h"
 #include "calibration/seenInWorld.h"
-#include "diagnosis/SelfReturns.h"
 #include "diagnosis/internal/GroundFinding.h"
+#include "diagnosis/internal/SelfReturns.h"
 #include "estimation/imu/MeanForce.h"
 
 #include <gmock/gmock.h>

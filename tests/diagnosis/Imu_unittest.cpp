@@ -6,7 +6,7 @@
 
 #include "base/core/Angle.h"
 #include "base/core/So3.h"
-#include "diagnosis/ImuComparison.h"
+#include "diagnosis/internal/ImuComparison.h"
 #include "diagnosis/internal/ImuSoundness.h"
 #include "diagnosis/internal/ImuTiming.h"
 #include "estimation/imu/GyroAgreement.h"

@@ -9,7 +9,7 @@ modules="base input estimation calibration mrpt site diagnosis run lab"  # each 
 edges()
 {
   sed -n 's/^scanloom_library(\([^ )]*\).*/\1/p' CMakeLists.txt | while read -r folder; do
-    find "$folder" -name '*.h' -o -name '*.cpp' | xargs sed -nE 's#^ *\# *include "([a-z_/]*/)[^/"]*".*#\1#p' | sort -u |
+    find "$folder" -name '*.h' -o -name '*.cpp' | xargs sed -nE 's#^ *\# *include "([a-z0-9_/]*/)[^/"]*".*#\1#p' | sort -u |
       sed 's#internal/$##; s#/$##; s#.*/##; s#^#include '"${folder##*/}"' #'
   done
   sed -nE 's/^scanloom_library\(([^)]*)\)/\1/p' CMakeLists.txt |
@@ -73,10 +73,21 @@ for folder in $(find . -name '*.cpp' ! -name precompiled.cpp -printf '%h\n' | se
 done
 
 # internal/ is the library's own.
-theirs=$(grep -rnE '^ *# *include "[a-z_/]*/internal/' . ../apps | sed 's#^\./##' |
+theirs=$(grep -rnE '^ *# *include "[a-z0-9_/]*/internal/' . ../apps | sed 's#^\./##' |
          awk -F'"' '{ library = $2; sub(/internal\/.*/, "", library); if (index($1, library) != 1) print }')
 [ -z "$theirs" ] || fail "internal to another library:
 $theirs"
+
+# What no other library and no program includes, by itself or by another header of the library, is internal, too.
+unused=$({ find . -name '*.h' ! -path '*/internal/*' | sed 's#^\./#header #'
+           grep -roE '^ *# *include "[a-z0-9_/]*/[A-Za-z0-9]+\.h"' . ../apps ; } | sed 's#^\./##' | awk '
+  function room(path) { sub(/\/[^\/]*$/, "", path); sub(/\/internal$/, "", path); return path }
+  $1 == "header" { open[$2] = 1; next }
+  { user = $0; sub(/:.*/, "", user); split($0, part, "\""); header = part[2]
+    if (room(user) != room(header) || (user ~ /\.h$/ && user !~ /\/internal\//)) used[header] = 1 }
+  END { for (header in open) if (!(header in used)) print header }')
+[ -z "$unused" ] || fail "used by its own library alone, and not in internal/:
+$unused"
 
 for library in base/core input/lidar input/batching input/packets input/bags input/ros2 input/rig estimation lab/simulation; do
   ! grep -rn '# *include <mrpt' "$library" || fail "$library must not know MRPT"

@@ -2,8 +2,8 @@
 
 #include "base/core/Angle.h"
 #include "base/core/VoxelKey.h"
-#include "diagnosis/SelfReturns.h"
 #include "diagnosis/internal/GroundFinding.h"
+#include "diagnosis/internal/SelfReturns.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include "base/core/Keyframe.h"
 #include "base/core/MountedLidar.h"
 #include "calibration/GroundPlane.h"
-#include "diagnosis/SelfReturns.h"
 #include "diagnosis/internal/EvenSelection.h"
 #include "diagnosis/internal/PoseFinding.h"
+#include "diagnosis/internal/SelfReturns.h"
 #include "input/batching/Scan.h"
 
 #include <memory>

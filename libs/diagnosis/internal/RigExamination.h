@@ -1,16 +1,16 @@
 /** All measures of `scanloom doctor`, taken on one rig. */
 #pragma once
 #include "calibration/GroundPlane.h"
-#include "diagnosis/ImuComparison.h"
-#include "diagnosis/SelfReturns.h"
 #include "diagnosis/internal/ClockDrift.h"
 #include "diagnosis/internal/ClockKind.h"
 #include "diagnosis/internal/Delivery.h"
+#include "diagnosis/internal/ImuComparison.h"
 #include "diagnosis/internal/ImuSoundness.h"
 #include "diagnosis/internal/ImuTiming.h"
 #include "diagnosis/internal/PoseFinding.h"
 #include "diagnosis/internal/RigEvidence.h"
 #include "diagnosis/internal/RotorPhase.h"
+#include "diagnosis/internal/SelfReturns.h"
 #include "diagnosis/internal/SensorFlags.h"
 #include "estimation/imu/MeanForce.h"
 

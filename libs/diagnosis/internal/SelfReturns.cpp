@@ -1,4 +1,4 @@
-#include "diagnosis/SelfReturns.h"
+#include "diagnosis/internal/SelfReturns.h"
 
 #include "base/core/VoxelKey.h"
 #include "calibration/OwnParts.h"

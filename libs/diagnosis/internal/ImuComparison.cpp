@@ -1,4 +1,4 @@
-#include "diagnosis/ImuComparison.h"
+#include "diagnosis/internal/ImuComparison.h"
 
 #include "base/core/Angle.h"
 #include "diagnosis/internal/ImuSoundness.h"
