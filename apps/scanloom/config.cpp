@@ -72,13 +72,12 @@ std::string tableOfFirstKeys(const Schema& known)
       {"crop", "max_range"},    {"map_cells", "cell_size"},
       {"output", "maps"},       {"output", "dense_map"},
   };
-  std::string table = "| key | default | unit | meaning |\n|---|---|---|---|\n";
+  std::string table = "| key | default | meaning |\n|---|---|---|\n";
   for (const auto& [section, key] : kFirst)
     for (const SectionDescription& described : known)
       for (const FieldDescription& field : described.fields)
         if (described.section.name == section && field.field.name == key)
-          table += fmt::format("| `{}.{}` | {} | {} | {} |\n", section, key, field.value, field.field.unit,
-                               field.field.meaning);
+          table += fmt::format("| `{}.{}` | {} | {} |\n", section, key, field.value, inWords(field));
   return table;
 }
 

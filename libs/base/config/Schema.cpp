@@ -26,21 +26,20 @@ std::string allowed(const FieldDescription& described)
   return bounds;
 }
 
-/** `edge of a cell [m], > 0` */
-std::string commentOn(const FieldDescription& described)
-{
-  const std::string& unit = described.field.unit;
-  const std::string bounds = allowed(described);
-  return fmt::format("{}{}{}{}", described.field.meaning, unit.empty() ? "" : fmt::format(" [{}]", unit),
-                     bounds.empty() ? "" : ", ", bounds);
-}
-
 std::string inTableCell(std::string text)
 {
   for (auto bar = text.find('|'); bar != std::string::npos; bar = text.find('|', bar + 2)) text.insert(bar, "\\");
   return text;
 }
 }  // namespace
+
+std::string inWords(const FieldDescription& described)
+{
+  const Field& field = described.field;
+  const std::string bounds = allowed(described);
+  return fmt::format("{}{}{}{}", field.meaning, field.unit.empty() ? "" : fmt::format(" [{}]", field.unit),
+                     bounds.empty() ? "" : ", ", bounds);
+}
 
 void refuseDefault(const Section& section, const Field& field, const std::string& constraint)
 {
@@ -119,7 +118,7 @@ std::string toIni(const Schema& schema)
     for (const FieldDescription& field : described.fields)
     {
       const std::string line = fmt::format("{} = {}", field.field.name, field.value);
-      text += fmt::format("# {}\n{}\n", commentOn(field), line.substr(0, line.find_last_not_of(' ') + 1));
+      text += fmt::format("# {}\n{}\n", inWords(field), line.substr(0, line.find_last_not_of(' ') + 1));
     }
   }
   return text;
@@ -130,12 +129,12 @@ std::string toMarkdown(const Schema& schema)
   std::string text;
   for (const SectionDescription& described : schema)
   {
-    text += fmt::format("{}## [{}]\n{}\n\n| key | default | unit | allowed | meaning |\n|---|---|---|---|---|\n",
-                        text.empty() ? "" : "\n", described.section.name, described.section.meaning);
+    text += fmt::format("{}## [{}]\n{}\n\n| key | default | meaning |\n|---|---|---|\n", text.empty() ? "" : "\n",
+                        described.section.name, described.section.meaning);
     for (const FieldDescription& field : described.fields)
       if (elementOf(described.list, field.field.name).value_or(1) == 1)
-        text += fmt::format("| `{}` | {} | {} | {} | {} |\n", field.field.name, inTableCell(field.value),
-                            field.field.unit, allowed(field), inTableCell(field.field.meaning));
+        text += fmt::format("| `{}` | {} | {} |\n", field.field.name, inTableCell(field.value),
+                            inTableCell(inWords(field)));
   }
   return text;
 }

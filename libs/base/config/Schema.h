@@ -128,6 +128,9 @@ Schema schemaOf(const Settings& settings = {})
   return schema;
 }
 
+/** "edge of a cell [m], > 0": meaning, unit and what is allowed. */
+std::string inWords(const FieldDescription&);
+
 /** An INI file with every value, each with its meaning, unit and bounds as a comment. */
 std::string toIni(const Schema&);
 

@@ -77,12 +77,12 @@ TEST(Schema, writesATableForEachSection)
   EXPECT_EQ(toMarkdown({describe<CellOptions>(Section{"cells", "of the map"})}),
             "## [cells]\n"
             "of the map\n\n"
-            "| key | default | unit | allowed | meaning |\n"
-            "|---|---|---|---|---|\n"
-            "| `cell_size` | 0.1 | m | > 0 | edge of a cell |\n"
-            "| `neighbours` | 7 |  | whole number, > 0 and <= 27 | 1 \\| 7 \\| 27 |\n"
-            "| `fine` | false |  | true or false | align twice |\n"
-            "| `label` |  |  |  | name in the report |\n");
+            "| key | default | meaning |\n"
+            "|---|---|---|\n"
+            "| `cell_size` | 0.1 | edge of a cell [m], > 0 |\n"
+            "| `neighbours` | 7 | 1 \\| 7 \\| 27, whole number, > 0 and <= 27 |\n"
+            "| `fine` | false | align twice, true or false |\n"
+            "| `label` |  | name in the report |\n");
 }
 
 TEST(Schema, refusesADefaultOutOfItsOwnBounds)
