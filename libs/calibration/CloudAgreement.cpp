@@ -40,6 +40,8 @@ Turns cellsOf(const std::vector<SeenByBoth>& pairs, Which which, double edge)
   return turns;
 }
 
+constexpr double kBroad = 0.2, kNarrow = 1;  // d2
+
 constexpr std::size_t kNone = ~std::size_t{0};
 
 /** Registers all turns at once, except the one with the index `left_out`. */
@@ -51,6 +53,18 @@ Minimum alignTurns(const Turns& turns, const Rigid& guess, double d2, std::size_
   for (std::size_t i = 0; i < turns.a.size(); ++i)
     if (i != left_out) pairs.emplace_back(turns.b[i], turns.a[i], options.neighbours);
   return minimise(std::move(pairs), guess, options);
+}
+
+/** How well the turns fit: the larger, the better. */
+double scoreAt(const Turns& turns, const Rigid& pose)
+{
+  double score = 0;
+  for (std::size_t i = 0; i < turns.a.size(); ++i)
+  {
+    CellCorrespondences pairs(turns.b[i], turns.a[i], RegistrationOptions{}.neighbours);
+    score -= normalEquations(pairs, pose, kNarrow).value;
+  }
+  return score;
 }
 
 struct Movement
@@ -73,8 +87,6 @@ double jackknife(const std::vector<Eigen::Vector3d>& estimates)
   for (const Eigen::Vector3d& estimate : estimates) squares += (estimate - mean).squaredNorm();
   return std::sqrt((n - 1) / n * squares);
 }
-
-constexpr double kBroad = 0.2, kNarrow = 1;  // d2
 
 std::size_t pointsOf(const std::vector<NdtMap>& maps)
 {
@@ -107,7 +119,8 @@ CloudAgreement::Correction correctionOf(const std::vector<SeenByBoth>& pairs, co
     offsets.push_back(without.offset);
     rotations.push_back(without.rotation);
   }
-  return {movement.offset, movement.rotation, jackknife(offsets), jackknife(rotations), 0};
+  const double gain = scoreAt(turns, correction) / scoreAt(turns, Rigid::identity());
+  return {movement.offset, movement.rotation, jackknife(offsets), jackknife(rotations), 0, gain};
 }
 }  // namespace
 

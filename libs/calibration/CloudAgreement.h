@@ -22,6 +22,7 @@ struct CloudAgreement
     Eigen::Vector3d offset, rotation;     // m, rad
     double offset_sigma, rotation_sigma;  // standard deviations, by leaving out one turn at a time
     double near_share;                    // after the correction
+    double score_gain;                    // of the registration: after the correction over before it
   };
   std::optional<Correction> correction;
 };

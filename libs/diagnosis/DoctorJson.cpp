@@ -141,6 +141,7 @@ json jsonOf(const PairExamination& pair, const RigExamination& rig)
   result["rotation_rad"] = jsonOf(a.correction->rotation);
   result["near_share_corrected"] = a.correction->near_share;
   result["rotation_sigma_rad"] = a.correction->rotation_sigma;
+  result["score_gain"] = a.correction->score_gain;
   return result;
 }
 

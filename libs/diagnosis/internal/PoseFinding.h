@@ -11,7 +11,8 @@ namespace scanloom
 {
 /**
  * About `lidar`, if the pose of `other` is right. Four standard deviations are subtracted from an error before it is
- * compared with the limits, and it counts only if clearly more agrees without it.
+ * compared with the limits, and it counts only if the registration fits clearly better without it: along a street a
+ * movement changes little. How many points agree to 0.3 m does not tell: in a corridor they do so with 3 deg of error.
  */
 Finding poseFinding(const std::string& lidar, const std::string& other, const std::optional<CloudAgreement>&);
 
