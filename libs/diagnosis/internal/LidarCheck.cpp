@@ -13,9 +13,10 @@ namespace scanloom
 {
 namespace
 {
-constexpr std::size_t kFewest = 3, kMost = 8;    // keyframes: deviations come from leaving out one of them
-constexpr std::size_t kNeighbours = 2;           // keyframes to each side of one
-constexpr std::size_t kPointsOfLidar = 1 << 14;  // of a keyframe: memory is bounded
+constexpr std::size_t kFewest = 3, kMost = 8;  // keyframes: deviations come from leaving out one of them
+constexpr std::size_t kNeighbours = 2;         // keyframes to each side of one
+// Of a keyframe or scan: memory is bounded. Half as many fit a lidar on a bare field to no more than 0.25 deg.
+constexpr std::size_t kPointsOfLidar = 1 << 15;
 constexpr double kOfOneGround = 25 * kDegree;  // between the normals that two lidars see, slopes on both sides included
 
 /** By lidar, whole columns, so that the distance between beams stays what it is. */
@@ -212,14 +213,17 @@ Findings LidarCheck::compare() const
 {
   if (keyframes_.size() < kFewest) return compareBeforeKeyframes();
   Findings findings;
-  const std::vector<SeenPoints> by_first = seenAround(0, true), first_in_scans = seenInScans(0);
+  const std::vector<SeenPoints> by_first = seenAround(0, true);
+  const std::vector<SeenPoints> first_in_scans = keyframes_.size() < kMost ? seenInScans(0) : std::vector<SeenPoints>{};
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
     const auto& [name, body_T_sensor] = lidars_[i];
     const std::vector<SeenPoints> own = seenBy(i), on_the_way = seenAround(i, false);
     findings.push_back(steadinessFinding(name, sharedView(pairsOf(own, on_the_way), Rigid::identity(), body_T_sensor)));
     if (i == 0 || findings.front().verdict > Verdict::Ok) continue;  // the first lidar is no measure of the others
-    Finding by_keyframes = poseBy(i, own, by_first), by_scans = poseBy(i, seenInScans(i), first_in_scans);
+    Finding by_keyframes = poseBy(i, own, by_first);
+    // Single scans see less than keyframes with their neighbours: along a street they fit 0.2 m off.
+    Finding by_scans = keyframes_.size() < kMost ? poseBy(i, seenInScans(i), first_in_scans) : by_keyframes;
     findings.push_back(std::move(by_scans.verdict > by_keyframes.verdict ? by_scans : by_keyframes));
   }
   return findings;

@@ -15,11 +15,11 @@ namespace scanloom
 {
 /**
  * Whether the lidars' poses in the body fit what they see, by the last eight keyframes: what each lidar sees must stay
- * in place while the machine drives, and be where the first lidar sees it at the same keyframe or its neighbours, and
- * in the same scans, up to twelve from the whole drive as `doctor` takes them: where there are few keyframes these are
- * surer. Before there are three keyframes, a lidar is also named if its ground is tilted and is not the ground that
- * another lidar sees: lidars that contradict each other so much keep a run from making keyframes. A ground that all see
- * alike may be a slope. With two lidars exchanged both are named.
+ * in place while the machine drives, and be where the first lidar sees it at the same keyframe or its neighbours.
+ * Before there are eight, it must also be where the first lidar sees it in the same scans, up to twelve from the whole
+ * drive as `doctor` takes them. Before there are three, a lidar is also named if its ground is tilted and is not the
+ * ground that another lidar sees: lidars that contradict each other so much keep a run from making keyframes. A ground
+ * that all see alike may be a slope. With two lidars exchanged both are named.
  */
 class LidarCheck
 {
