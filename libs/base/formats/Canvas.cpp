@@ -38,7 +38,7 @@ mrpt::img::CImage imageOf(const std::vector<Color>& pixels, int width, int heigh
   return image;
 }
 
-void textOut(mrpt::img::CImage& image, int x, int y, const std::string& text, mrpt::img::TColor color)
+void textOut(mrpt::img::CImage& image, int x, int y, const std::string& text, const mrpt::img::TColor& color)
 {
   image.textOut({x, y}, text, color);
 }
@@ -53,7 +53,7 @@ mrpt::img::CImage imageOf(const std::vector<Color>& pixels, int width, int heigh
   return image;
 }
 
-void textOut(mrpt::img::CImage& image, int x, int y, const std::string& text, mrpt::img::TColor color)
+void textOut(mrpt::img::CImage& image, int x, int y, const std::string& text, const mrpt::img::TColor& color)
 {
   image.textOut(x, y, text, color);
 }
