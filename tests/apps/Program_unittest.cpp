@@ -229,7 +229,7 @@ TEST_F(Program, writesThePageOfAllParameters)
 
   EXPECT_THAT(page, testing::HasSubstr("| `weave` | [weaving] |\n| `knit` | [knitting] |\n"));
   EXPECT_THAT(page, testing::HasSubstr("## [weaving]\n"));
-  EXPECT_THAT(page, testing::HasSubstr("| `cell_size` | 1 | m | > 0 | edge of a cell |\n"));
+  EXPECT_THAT(page, testing::HasSubstr("| `cell_size` | 1 | edge of a cell [m], > 0 |\n"));
 }
 }  // namespace
 }  // namespace scanloom::program_unittest
