@@ -15,7 +15,7 @@ namespace
 {
 constexpr std::size_t kFewest = 3, kMost = 8;  // keyframes: deviations come from leaving out one of them
 constexpr std::size_t kNeighbours = 2;         // keyframes to each side of one
-// Of a keyframe or scan: memory is bounded. Half as many fit a lidar on a bare field to no more than 0.25 deg.
+// Of a keyframe or scan: memory is bounded. With half as many, a pose on a bare field is known to 0.25 deg only.
 constexpr std::size_t kPointsOfLidar = 1 << 15;
 constexpr double kOfOneGround = 25 * kDegree;  // between the normals that two lidars see, slopes on both sides included
 
