@@ -118,10 +118,10 @@ Extrinsics levelled(Extrinsics extrinsics, const std::optional<GroundPlane>& gro
 /** The extrinsics turned about `up` by `count` multiples of `step`, the same to both sides. */
 std::vector<Extrinsics> headingsAround(const Extrinsics& extrinsics, const Eigen::Vector3d& up, int count, double step)
 {
+  const int middle = count / 2;
   std::vector<Extrinsics> headings(static_cast<std::size_t>(count), extrinsics);
   for (int i = 0; i < count; ++i)
-    headings[i].body_T_sensor.rotation =
-        Eigen::AngleAxisd((i - count / 2) * step, up) * extrinsics.body_T_sensor.rotation;
+    headings[i].body_T_sensor.rotation = Eigen::AngleAxisd((i - middle) * step, up) * extrinsics.body_T_sensor.rotation;
   return headings;
 }
 
@@ -148,27 +148,26 @@ Extrinsics guessWithoutPose(const Rigid& body_T_reference, const RotationByImus&
   return guess;
 }
 
-std::vector<Extrinsics> startsAround(const Extrinsics& guess, const Eigen::Vector3d& up, PoseGiven known,
+std::vector<Extrinsics> startsAround(const Extrinsics& guess, const Eigen::Vector3d& up, bool is_given,
                                      const RotationByImus& imus)
 {
-  if (known == PoseGiven::Within20Degrees) return headingsAround(guess, up, 5, 10 * kDegree);
+  if (is_given) return headingsAround(guess, up, 5, 10 * kDegree);
   return imus.turns ? placesAround(guess, up) : headingsAround(guess, up, 12, 30 * kDegree);
 }
 }  // namespace
 
-ExtrinsicsStart findStart(const std::vector<Station>& stations, const Extrinsics& given, PoseGiven known,
+ExtrinsicsStart findStart(const std::vector<Station>& stations, const std::optional<Extrinsics>& given,
                           const std::vector<LidarScan>& of_lidar, const std::vector<LidarScan>& of_reference,
                           const Rigid& body_T_reference, const Trajectory& trajectory, const RotationByImus& imus)
 {
-  const bool unknown = known == PoseGiven::No;
-  const Extrinsics guess = unknown ? guessWithoutPose(body_T_reference, imus) : given;
-  const Eigen::Vector3d up = unknown && imus.gravity ? imus.gravity->up_in_body : Eigen::Vector3d::UnitZ();
+  const Extrinsics guess = given ? *given : guessWithoutPose(body_T_reference, imus);
+  const Eigen::Vector3d up = !given && imus.gravity ? imus.gravity->up_in_body : Eigen::Vector3d::UnitZ();
   const std::optional<GroundPlane> ground = groundOf(of_reference, body_T_reference, up);
   const Extrinsics level = ground ? levelled(guess, groundOf(of_lidar, guess.body_T_sensor, up), *ground) : guess;
-  std::vector<Extrinsics> starts = startsAround(level, ground ? ground->up : up, known, imus);
+  std::vector<Extrinsics> starts = startsAround(level, ground ? ground->up : up, given.has_value(), imus);
   starts.push_back(guess);
 
-  const double farthest = unknown ? 5 : 0.7;  // m
+  const double farthest = given ? 0.7 : 5;  // m
   const auto isImpossible = [&](const Extrinsics& extrinsics)
   {
     const Eigen::Vector3d moved = extrinsics.body_T_sensor.translation - guess.body_T_sensor.translation;

@@ -89,8 +89,9 @@ ExtrinsicsEstimate estimateFrom(const StaticLidar& lidar, const StaticLidar& ref
   estimate.stations = 1;
   estimate.outcome = ExtrinsicsOutcome::NothingShared;
   if (instant.cells() < kFewestCells) return estimate;
-  const ExtrinsicsStart start = findStart(instant.stations(), given, pose_given, {scan}, {scanOf(reference)},
-                                          reference.body_T_sensor, atRest(), {});
+  const ExtrinsicsStart start =
+      findStart(instant.stations(), pose_given == PoseGiven::No ? std::nullopt : std::optional(given), {scan},
+                {scanOf(reference)}, reference.body_T_sensor, atRest(), {});
   Extrinsics extrinsics = instant.improved(start.extrinsics);
   const RegistrationResult result = instant.registered(extrinsics);
   extrinsics.body_T_sensor = result.target_T_source * extrinsics.body_T_sensor;

@@ -33,7 +33,8 @@ ExtrinsicsEstimate calibrated(const DriveOfTwo& drive, const Rigid& given, Clock
 {
   const std::vector<Station> stations = stationsOf(drive.right, drive.left, {kLeft, 0}, drive.trajectory, around);
   const ExtrinsicsStart start =
-      findStart(stations, {given, 0}, known, drive.right, drive.left, kLeft, drive.trajectory, imus);
+      findStart(stations, known == PoseGiven::No ? std::nullopt : std::optional(Extrinsics{given, 0}), drive.right,
+                drive.left, kLeft, drive.trajectory, imus);
   return estimateExtrinsics(stations, {given, 0}, start, drive.trajectory, clock, imus);
 }
 
@@ -118,8 +119,7 @@ TEST(ExtrinsicsSearch, keepsTheGivenPoseRatherThanOneAMetreOff)
   look(-1, kRight, drive.right);
   const std::vector<Station> stations = stationsOf(drive.right, drive.left, {kLeft, 0}, drive.trajectory, {7});
   const Extrinsics start =
-      findStart(stations, {kRight, 0}, PoseGiven::Within20Degrees, drive.right, drive.left, kLeft, drive.trajectory, {})
-          .extrinsics;
+      findStart(stations, Extrinsics{kRight, 0}, drive.right, drive.left, kLeft, drive.trajectory, {}).extrinsics;
   EXPECT_LT((start.body_T_sensor.translation - kRight.translation).norm(), 1);
 }
 

@@ -128,6 +128,11 @@ bool LidarCheck::staysBehind(const std::vector<SelfReturns>& parts, double size)
       for (const std::uint64_t cube : cubesOf(moved(points, keyframe->map_T_body))) seen.back().insert(cube);
   }
   std::size_t asked = 0, found = 0;
+  const auto lookFor = [&](std::uint64_t cube, const std::vector<std::size_t>& elsewhere)
+  {
+    ++asked;
+    found += std::any_of(elsewhere.begin(), elsewhere.end(), [&](std::size_t i) { return seen[i].count(cube) > 0; });
+  };
   for (std::size_t k = 0; k < keyframes_.size(); ++k)
   {
     const Seen& here = *keyframes_[k];
@@ -141,10 +146,7 @@ bool LidarCheck::staysBehind(const std::vector<SelfReturns>& parts, double size)
       const std::vector<std::uint64_t> cubes = cubesOf(moved(here.points[lidar], here.map_T_body));
       for (std::size_t n = 0; n < cubes.size(); ++n)
       {
-        if (parts[lidar].marks[k][n] == 0) continue;
-        ++asked;
-        const auto isSeen = [&](std::size_t i) { return seen[i].count(cubes[n]) > 0; };
-        found += std::any_of(elsewhere.begin(), elsewhere.end(), isSeen) ? 1 : 0;
+        if (parts[lidar].marks[k][n] != 0) lookFor(cubes[n], elsewhere);
       }
     }
   }

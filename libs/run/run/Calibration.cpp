@@ -60,8 +60,8 @@ LidarCalibration calibrateLidar(std::size_t lidar, const std::vector<MountedLida
   {
     const std::vector<Station> stations = stationsOf(own, others, of_reference, drive.trajectory, around);
     if (stations.empty()) return calibration;
-    const ExtrinsicsStart start =
-        findStart(stations, given, known, own, others, of_reference.body_T_sensor, drive.trajectory, imus);
+    const ExtrinsicsStart start = findStart(stations, known == PoseGiven::No ? std::nullopt : std::optional(given), own,
+                                            others, of_reference.body_T_sensor, drive.trajectory, imus);
     ExtrinsicsEstimate estimate = estimateExtrinsics(stations, given, start, drive.trajectory, clock, imus);
     if (estimate.outcome == ExtrinsicsOutcome::StoodStill) return {estimate, {}};
     if (near && tellsPose(estimate)) estimate = doubted(std::move(estimate), *near, given);
