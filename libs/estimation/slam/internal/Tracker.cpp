@@ -77,8 +77,9 @@ TrackerState stateAfter(const DeskewedScan& seen, const Continued& scan, Updated
   return state;
 }
 
-StateEstimate estimateOf(DeskewedScan seen, const Prediction& predicted, const Continued& scan, const UpdatedMap& map,
-                         const Matrix6d& since_start, const Trajectory& motion)
+/** Without the cloud. */
+StateEstimate estimateOf(const DeskewedScan& seen, const Prediction& predicted, const Continued& scan,
+                         const UpdatedMap& map, const Matrix6d& since_start, const Trajectory& motion)
 {
   StateEstimate estimate;
   estimate.stamp = seen.stamp;
@@ -94,7 +95,6 @@ StateEstimate estimateOf(DeskewedScan seen, const Prediction& predicted, const C
   estimate.imu_bias = scan.body.window.smoother.newest().bias;
   estimate.health = scan.assessment.health;
   estimate.scan_complete = seen.complete;
-  estimate.cloud = std::move(seen.cloud);
   estimate.registration = scan.registration.result;
   estimate.mahalanobis = scan.registration.mahalanobis;
   estimate.trusted = scan.registration.trusted;
@@ -138,12 +138,14 @@ TrackedScan Tracker::step(TrackerState before, Scan scan, const std::vector<ImuS
   const LastGood last_good = continued.trust.lost ? before.last_good : goodAt(seen.stamp, continued.body, since_start);
   const StageRuns times =
       predicted.times + seen.times + registered.times + smoothed.times + continued.times + map.times;
-  StateEstimate estimate = estimateOf(std::move(seen), predicted, continued, map, since_start, motion);
+  StateEstimate estimate = estimateOf(seen, predicted, continued, map, since_start, motion);
   estimate.map_shift = shiftByMap(before.window, continued);
   if (estimate.mapJumped() && estimate.health == Health::Ok) estimate.health = Health::Degenerate;
   estimate.imu = samples.back();
   estimate.body_T_imu = before.window.smoother.body_T_imu();
-  return {stateAfter(seen, continued, std::move(map), measured.shared_noise, last_good), std::move(estimate), times};
+  TrackerState after = stateAfter(seen, continued, std::move(map), measured.shared_noise, last_good);
+  estimate.cloud = std::move(seen.cloud);
+  return {std::move(after), std::move(estimate), times};
 }
 
 /** The newest state becomes the one at the end of the samples, as the IMU predicts it. */
