@@ -20,6 +20,6 @@ class Publishers
   std::vector<Ros2Publication> publications() const;
 
  private:
-  std::map<Guid, Ros2Publication> publishers_;  // each with a topic of its own
+  std::map<Guid, Ros2Publication> publishers_;  // one publisher each
 };
 }  // namespace scanloom

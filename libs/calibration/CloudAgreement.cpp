@@ -96,24 +96,21 @@ std::size_t pointsOf(const std::vector<NdtMap>& maps)
 }
 
 /** The correction of A's pose; none if too few points of A meet cells of B. */
-std::optional<Rigid> alignAll(const std::vector<SeenByBoth>& pairs)
+std::optional<Rigid> alignAll(const std::vector<SeenByBoth>& pairs, const Turns& turns)
 {
   Rigid pose;
   for (const double edge : {2.0, 1.0})
     pose = alignTurns(cellsOf(pairs, Which::Surroundings, edge), pose, kBroad).target_T_source;
-  const Turns turns = cellsOf(pairs, Which::All, 1.0);
   const Minimum minimum = alignTurns(turns, pose, kNarrow);
   if (minimum.equations.met_points < kLeastOverlap * static_cast<double>(pointsOf(turns.a))) return std::nullopt;
   return minimum.target_T_source;
 }
 
-CloudAgreement::Correction correctionOf(const std::vector<SeenByBoth>& pairs, const Rigid& body_T_a,
-                                        const Rigid& correction)
+CloudAgreement::Correction correctionOf(const Turns& turns, const Rigid& body_T_a, const Rigid& correction)
 {
   const Movement movement = movementOf(correction, body_T_a);
-  const Turns turns = cellsOf(pairs, Which::All, 1.0);
   std::vector<Eigen::Vector3d> offsets, rotations;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
+  for (std::size_t i = 0; i < turns.a.size(); ++i)
   {
     const Movement without = movementOf(alignTurns(turns, correction, kNarrow, i).target_T_source, body_T_a);
     offsets.push_back(without.offset);
@@ -136,11 +133,12 @@ std::optional<CloudAgreement> cloudAgreement(const std::vector<SeenByBoth>& all,
   agreement.near_sigma = here->near_sigma;
   if (agreement.turns < kFewestTurns) return agreement;
 
-  const std::optional<Rigid> correction = alignAll(here->turns);
+  const Turns turns = cellsOf(here->turns, Which::All, 1.0);
+  const std::optional<Rigid> correction = alignAll(here->turns, turns);
   if (!correction) return agreement;
   const std::optional<OverlapOverTurns> there = sharedView(here->turns, *correction, body_T_b);
   if (!there || there->near_share < here->near_share - kMostLoss) return agreement;
-  agreement.correction = correctionOf(here->turns, body_T_a, *correction);
+  agreement.correction = correctionOf(turns, body_T_a, *correction);
   agreement.correction->near_share = there->near_share;
   return agreement;
 }

@@ -145,9 +145,7 @@ bool LidarCheck::staysBehind(const std::vector<SelfReturns>& parts, double size)
       if (!parts[lidar].known) continue;
       const std::vector<std::uint64_t> cubes = cubesOf(moved(here.points[lidar], here.map_T_body));
       for (std::size_t n = 0; n < cubes.size(); ++n)
-      {
         if (parts[lidar].marks[k][n] != 0) lookFor(cubes[n], elsewhere);
-      }
     }
   }
   return static_cast<double>(found) > kShare * static_cast<double>(asked);
@@ -202,13 +200,18 @@ Finding LidarCheck::poseBy(std::size_t lidar, const std::vector<SeenPoints>& own
                      cloudAgreement(pairsOf(own, by_first), lidars_[lidar].body_T_sensor, lidars_[0].body_T_sensor));
 }
 
+Findings LidarCheck::posesByScans() const
+{
+  Findings poses;
+  const std::vector<SeenPoints> by_first = seenInScans(0);
+  for (std::size_t i = 1; i < lidars_.size(); ++i) poses.push_back(poseBy(i, seenInScans(i), by_first));
+  return poses;
+}
+
 Findings LidarCheck::compareBeforeKeyframes() const
 {
-  Findings findings = compareGrounds();
-  if (!findings.empty() || scans_seen_ == 0) return findings;
-  const std::vector<SeenPoints> first_in_scans = seenInScans(0);
-  for (std::size_t i = 1; i < lidars_.size(); ++i) findings.push_back(poseBy(i, seenInScans(i), first_in_scans));
-  return findings;
+  Findings tilted = compareGrounds();
+  return tilted.empty() && scans_seen_ > 0 ? posesByScans() : tilted;
 }
 
 Findings LidarCheck::compare() const
@@ -216,17 +219,17 @@ Findings LidarCheck::compare() const
   if (keyframes_.size() < kFewest) return compareBeforeKeyframes();
   Findings findings;
   const std::vector<SeenPoints> by_first = seenAround(0, true);
-  const std::vector<SeenPoints> first_in_scans = keyframes_.size() < kMost ? seenInScans(0) : std::vector<SeenPoints>{};
+  // Single scans see less than keyframes with their neighbours: along a street they fit 0.2 m off.
+  const Findings by_scans = keyframes_.size() < kMost ? posesByScans() : Findings{};
   for (std::size_t i = 0; i < lidars_.size(); ++i)
   {
     const auto& [name, body_T_sensor] = lidars_[i];
     const std::vector<SeenPoints> own = seenBy(i), on_the_way = seenAround(i, false);
     findings.push_back(steadinessFinding(name, sharedView(pairsOf(own, on_the_way), Rigid::identity(), body_T_sensor)));
     if (i == 0 || findings.front().verdict > Verdict::Ok) continue;  // the first lidar is no measure of the others
-    Finding by_keyframes = poseBy(i, own, by_first);
-    // Single scans see less than keyframes with their neighbours: along a street they fit 0.2 m off.
-    Finding by_scans = keyframes_.size() < kMost ? poseBy(i, seenInScans(i), first_in_scans) : by_keyframes;
-    findings.push_back(std::move(by_scans.verdict > by_keyframes.verdict ? by_scans : by_keyframes));
+    Finding pose = poseBy(i, own, by_first);
+    if (!by_scans.empty() && by_scans[i - 1].verdict > pose.verdict) pose = by_scans[i - 1];
+    findings.push_back(std::move(pose));
   }
   return findings;
 }

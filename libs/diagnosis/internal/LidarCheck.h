@@ -47,6 +47,8 @@ class LidarCheck
     PointsByLidar points;  // in the body frame
   };
 
+  /** Of each lidar but the first. */
+  Findings posesByScans() const;
   Findings compareBeforeKeyframes() const;
   Finding poseBy(std::size_t lidar, const std::vector<SeenPoints>& own, const std::vector<SeenPoints>& by_first) const;
   std::vector<SeenPoints> seenInScans(std::size_t lidar) const;

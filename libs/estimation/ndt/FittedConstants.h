@@ -69,7 +69,7 @@ constexpr double kSpeedAtRest         = 1;       // m/s    deviation of a lost b
 
 // A drive in the map of an earlier one (PlaceSearch)
 constexpr double kAgreementOfPlace    = 0.7;     // 1      of the score with itself; other stands, rows      #in-a-map
-constexpr double kReachOfMap          = 6;       // m      from its keyframes it is searched                 #in-a-map
+constexpr double kReachOfMap          = 6;       // m      how far from its keyframes a map is searched      #in-a-map
 constexpr double kLeanOfStartDeg      = 12;      // deg    of a machine on the ground, without an IMU        #in-a-map
 constexpr std::size_t kKeyframesTogether = 3;    // 1      what a machine sees on about 10 m                 #in-a-map
 constexpr std::size_t kPlacesAligned = 6;        // 1      of the best scores; the same stands               #in-a-map
@@ -94,7 +94,7 @@ constexpr double kApartDeviations     = 8;       // 1      good drives with one 
 constexpr double kFarApart            = 0.25;    // m      good drives with one lidar                        #on-two-generators
 constexpr double kFarApartRadians     = 0.05;    // rad    good drives with one lidar                        #on-two-generators
 constexpr double kFarApartDeviations  = 15;      // 1      good drives with one lidar                        #on-two-generators
-constexpr double kGate                = 40;      // 1      deviations between a trusted one and the IMU      #imu-faults
+constexpr double kGate                = 40;      // 1      deviations off the IMU that are still trusted     #imu-faults
 
 // Whether the lidar's track goes on (LidarTrack): 3 m/s too much smear a scan by 0.3 m
 constexpr double kSameStep            = 0.5;     // m      pushes of 5 to 30 m/s2 for 0.2 s                  #imu-faults
